@@ -43,10 +43,12 @@ slow-page: setup-dev browser
 
 check-all: lint docs test slow ## everything CI checks
 
-lint: setup-dev       ## formatting, lint and types
+lint: setup-dev       ## formatting, lint and types; the page's JavaScript, CSS and HTML
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pyright
+	$(BIN)/oxlint explorer/web
+	$(BIN)/python -m tests.tools.lint_web
 
 format: setup-dev     ## repair formatting and lint
 	$(BIN)/ruff format .

@@ -8,16 +8,17 @@ from functools import partial
 
 import viser
 
+from explorer import web
 from explorer.connection import ClientConnection
 from explorer.hosting import limits as memory
 from explorer.hosting import viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.browser import PageFacts
 from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter
 from explorer.hosting.seats import SeatQueue
 from explorer.hosting.served_page import with_loading_screen
 from explorer.interface import SharedServices
-from explorer.overlay.bridge import frame_html
 from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
@@ -50,7 +51,7 @@ class App:
         self.presentations = Presentations()
         hosts, page = (
             AllowedHosts(host, self._limits.allow_hosts),
-            with_loading_screen(viser_compat.client_html(), frame_html()),
+            with_loading_screen(viser_compat.client_html(), web.frame()),
         )
         request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
@@ -108,9 +109,7 @@ class App:
         self._seat(self._seats.leave(connection))
         memory.give_back_soon()
 
-    def _session(
-        self, connection: ClientConnection, client: viser.ClientHandle, facts: viser_compat.PageFacts
-    ) -> Session:
+    def _session(self, connection: ClientConnection, client: viser.ClientHandle, facts: PageFacts) -> Session:
         idle = IdleTimeout(
             self._limits.sleep_after,
             lambda: self._sleep(connection),

@@ -6,15 +6,16 @@ from collections.abc import Callable
 
 import viser
 
+from explorer import web
 from explorer.hosting import viser_compat
+from explorer.hosting.browser import PageFacts, page_facts
 from explorer.session import Session
-from explorer.theme import style_sheet as style
 
 FIRST = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
 _TELL_EVERY = 10.0
 """[s] between two sentences about values that no page of ours sends."""
-MakeSession = Callable[[viser.ClientHandle, viser_compat.PageFacts], Session]
+MakeSession = Callable[[viser.ClientHandle, PageFacts], Session]
 
 
 class ClientConnection:
@@ -23,7 +24,7 @@ class ClientConnection:
     def __init__(self, client: viser.ClientHandle) -> None:
         self.client = client
         self._lock = threading.Lock()
-        self._facts = viser_compat.PageFacts()
+        self._facts = PageFacts()
         self._waiting: WaitingPage | None = None
         self._session: Session | None = None
         self._gone = False
@@ -31,7 +32,7 @@ class ClientConnection:
 
     def ask(self) -> None:
         """Ask the browser for its address and theme; blocks up to some seconds."""
-        self._facts = viser_compat.page_facts(self.client)
+        self._facts = page_facts(self.client)
 
     def wait(self, places: int, ahead: int) -> None:
         """All places are taken and `ahead` others wait before this one."""
@@ -88,7 +89,6 @@ class WaitingPage:
     def __init__(self, client: viser.ClientHandle, places: int, ahead: int, dark: bool) -> None:
         self._places = places
         gui = self._gui = client.gui
-        viser_compat.set_style(client, style.SHEET)
         gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
         gui.main_panel.minimize()
         self._modal = gui.add_modal("Rotor explorer")
@@ -110,10 +110,4 @@ def _waiting_text(places: int, ahead: int) -> str:
     taken = f"All {places} places are taken." if places > 1 else "The place is taken."
     place = "second" if ahead == 1 else f"number {ahead + 1}"
     line = f"You are {place} in the queue." if ahead else "You are next."
-    return (
-        '<div class="rx rx-lobby" data-explorer="lobby">'
-        f"<p><b>{taken}</b> {line}</p>"
-        "<p>Leave this page open: the explorer appears here as soon as another visitor leaves or stays idle.</p>"
-        '<p class="rx-dim">To run one of your own: <code>make run</code>. '
-        "Whoever runs this one can allow more: <code>--max-sessions</code>.</p></div>"
-    )
+    return web.fill("lobby.html", {"taken": taken, "line": line})

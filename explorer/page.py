@@ -13,8 +13,7 @@ from typing import Any
 import viser
 
 from explorer.charts.plots import PowerCurve
-from explorer.hosting import viser_compat
-from explorer.hosting.viser_compat import PageFacts, set_style
+from explorer.hosting.browser import PageFacts, set_query
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionState, SharedServices, Tab, TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.picture.camera_views import View
@@ -52,7 +51,6 @@ from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
 from explorer.tabs.waterfall import WaterfallPanel
 from explorer.text.units import UNITS
-from explorer.theme import style_sheet as style
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 from rotor.user_input import brief
@@ -76,7 +74,7 @@ class Page:
     ) -> None:
         """`start`: where the page's address holds no design."""
         self._client, self._callbacks, self._dark = client, callbacks, facts.dark
-        address = Address(facts.query, partial(viser_compat.set_query, client))
+        address = Address(facts.query, partial(set_query, client))
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_UNTOLD]
         inputs_from = partial(
             share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=partial(share.tell_retired, problems)
@@ -86,7 +84,6 @@ class Page:
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
-        set_style(client, style.SHEET)  # Before the first widget.
         self.bridge = bridge = Bridge(client)
         self._presence = Presence(client, shared.presentations, address, facts.kept.get(PRESENT, ""))
         self.layout = layout = Layout(client, bridge)
@@ -434,7 +431,7 @@ class Page:
 
     def _enlarge(self, big: bool) -> None:
         """Big type in wider panels, or both as usual."""
-        set_style(self._client, style.SHEET + (style.BIG if big else ""))
+        self.bridge.set(big=big)
         self.layout.enlarge(big)
 
     def _theme(self) -> None:

@@ -5,7 +5,7 @@ law gives ∂θ_tw(r)/∂p, so that one step costs (∂P/∂θ · ∂θ_tw/∂p)
 central differences of two trims each, begun from the present one. They take some 50 ms, so they belong after the frame.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -156,12 +156,6 @@ def flight_sensitivities(
         if len(points) > 1:
             found[name] = SliderSensitivity(name, float((powers[-1] - powers[0]) / (steps[-1] - steps[0])))
     return found
-
-
-def strongest(sensitivities: Mapping[str, SliderSensitivity]) -> str | None:
-    """The slider whose natural step changes power most; None where none has an effect."""
-    steep = {name: abs(one.watts()) for name, one in sensitivities.items() if one.saving_direction}
-    return max(steep, key=lambda name: steep[name]) if steep else None
 
 
 def _moved(solution: Solution, name: str, step: float) -> float | None:

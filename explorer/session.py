@@ -27,7 +27,7 @@ import viser
 
 from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
-from explorer.hosting.viser_compat import PageFacts
+from explorer.hosting.browser import PageFacts
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
 from explorer.page import Page
 from explorer.state import Inputs, baseline_of, with_optimum

@@ -22,8 +22,8 @@ ORDER = {
         "study", "reproduce", "command",
     ),
     "explorer": (
-        "theme", "workers", "hosting", "rotor_choice", "stand", "state", "text", "undo", "power_tracker", "sliders",
-        "grab", "pinned", "interpolation", "sensitivity", "tour", "picture", "charts", "sharing", "interface",
+        "web", "theme", "workers", "hosting", "stand", "state", "text", "undo", "power_tracker",
+        "sliders", "grab", "pinned", "sensitivity", "tour", "picture", "charts", "sharing", "interface",
         "snapshot", "overlay", "scene", "export", "tabs", "page", "session", "connection", "app", "notebook",
     ),
 }  # fmt: skip
@@ -188,7 +188,7 @@ may bring: input, terminal, compiler, log, local processes, bounded reading; one
 retired models; four for the test stand of the page: its inputs, its widgets, the chart of measured points, the words;
 four for the rebuilt document: readings, drawings, quoted literature, the results of today;
 one for the history that the page keeps over a reload; three for the engine in place of five copies of its formulas;
-MOST_MODULES = 320
+one for airloads measured in flight; the trust page by sets."""
 
 
 def test_the_packages_stay_small():

@@ -33,6 +33,9 @@ def test_the_data_files_are_all_there(installed: Path, tmp_path: Path):
         return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
 
     assert files(shipped) == files(ROOT / "assets")
+    page = {path for path in files(ROOT / "explorer") if path.endswith((".js", ".css", ".html", ".md"))}
+    assert len(page) > 30
+    assert page <= files(shipped.parent.parent / "explorer")
     assert (shipped.parent / "py.typed").exists()
 
 

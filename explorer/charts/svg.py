@@ -1,4 +1,4 @@
-"""Drawings as SVG: marks, words and lines of any size, and clicks on them."""
+"""Drawings as SVG: marks, words and lines of any size."""
 
 import base64
 import math
@@ -117,11 +117,11 @@ def image(x: float, y: float, wide: float, high: float, png: bytes) -> str:
     )
 
 
-def polylines(lines: Sequence[Array], digits: int = 1) -> str:
+def polylines(lines: Sequence[Array]) -> str:
     """The `d` of a path through lines of points (n, 2); a line that ends where it begins is closed."""
     parts = []
     for line in lines:
-        points = [f"{x:.{digits}f},{y:.{digits}f}" for x, y in line]
+        points = [f"{x:.1f},{y:.1f}" for x, y in line]
         closed = len(points) > 2 and points[0] == points[-1]
         parts.append("M" + "L".join(points[:-1] if closed else points) + ("Z" if closed else ""))
     return "".join(parts)
@@ -149,35 +149,3 @@ def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
                 line.insert(len(line) if forward else 0, segments[k][ahead])
         lines.append(np.array(line))
     return lines
-
-
-def write_to(field: str, expression: str) -> str:
-    """For an `onclick` attribute: write the value of a JavaScript expression into the nearest field with that label."""
-    return escape(
-        "let n=this,l;"
-        f"while(n&&!(l=[...n.querySelectorAll('label')].find(e=>e.textContent==='{field}')))n=n.parentElement;"
-        "if(l){const i=l.closest('[class*=Flex-root]').querySelector('input');"
-        f"Object.getOwnPropertyDescriptor(HTMLInputElement.prototype,'value').set.call(i,{expression});"
-        "i.dispatchEvent(new Event('input',{bubbles:true}));}",
-        quote=True,
-    )
-
-
-def charts_write_to(field: str) -> str:
-    """A script for the page: from then on a click on a point of any Plotly chart writes its `customdata` into a field.
-
-    viser's chart reports no click to the server. Plotly itself does, in the page, but drops its listeners when a
-    chart is drawn anew; so they are added again after every drawing. The field is the one with that label, wherever
-    it is.
-    """
-    return (
-        "if(window.Plotly&&!Plotly.heard){const react=Plotly.react;"
-        "const hear=e=>{const p=e.points&&e.points[0];if(!p||p.customdata===undefined)return;"
-        f"const l=[...document.querySelectorAll('label')].find(e=>e.textContent==='{field}');if(!l)return;"
-        "const i=l.closest('[class*=Flex-root]').querySelector('input');"
-        "Object.getOwnPropertyDescriptor(HTMLInputElement.prototype,'value').set.call(i,String(p.customdata));"
-        "i.dispatchEvent(new Event('input',{bubbles:true}));};"
-        "window.Plotly={...Plotly,heard:true,react:(node,...rest)=>{const done=react(node,...rest);"
-        "Promise.resolve(done).then(()=>{if(node.on){node.removeAllListeners('plotly_click');"
-        "node.on('plotly_click',hear);}});return done;}};}"
-    )

@@ -43,30 +43,29 @@ _Z_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0
 """From z up, as here, to y up, as in glTF."""
 
 
-def blade_mesh(design: Design, psi: float | None = None) -> trimesh.Trimesh:
+def blade_mesh(design: Design) -> trimesh.Trimesh:
     """One blade, watertight [m]: x from the rotor's axis to the tip, y to the leading edge, z up.
 
-    Pitch is zero at 0.75 R, the twist on both sides of it. `psi` [rad]: the azimuth that an active twist is taken at;
-    None, or a blade without: the twist law alone.
+    Pitch is zero at 0.75 R, the twist on both sides of it, without active twist.
     """
-    shape, vertices = _loft(design, psi)
+    shape, vertices = _loft(design)
     return trimesh.Trimesh(vertices + np.array([_hinge(design), 0.0, 0.0]), shape.faces)
 
 
-def blade_stl(design: Design, psi: float | None = None) -> bytes:
+def blade_stl(design: Design) -> bytes:
     """The blade as binary STL. The format has no unit, so the header names it: metres."""
-    body = cast(bytes, blade_mesh(design, psi).export(file_type="stl"))
+    body = cast(bytes, blade_mesh(design).export(file_type="stl"))
     header = f"{PROGRAM}: {design.rotor.name} blade, twist {design.twist.spec()}; unit metre"
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]
 
 
-def section_curves(design: Design, psi: float | None = None) -> bytes:
+def section_curves(design: Design) -> bytes:
     """The blade's sections as closed curves, CSV: one curve after another from the hinge to the tip, points in metres.
 
     Axes as in `blade_mesh`. The first point of a curve is repeated at its end; all curves begin at the trailing edge
     and have as many points, so that a loft through them does not twist.
     """
-    shape, vertices = _loft(design, psi)
+    shape, vertices = _loft(design)
     count = len(shape.r)
     curves = vertices[: count * POINTS].reshape(count, POINTS, 3) + np.array([_hinge(design), 0.0, 0.0])
     text = io.StringIO()
@@ -107,7 +106,7 @@ def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
         shared = "blade" if k else "marked_blade"
         name = f"blade_{k + 1}" if differ else shared
         if name not in scene.geometry:
-            shape, vertices = _loft(design, psi, flown_twist(solution, psi))
+            shape, vertices = _loft(design, flown_twist(solution, psi))
             colour = colours.BLADE if k else colours.MARKED_BLADE
             scene.geometry[name] = _painted(vertices, shape.faces, colour)
         place = body @ _matrix(blade_pose(controls, psi, _hinge(design), design))
@@ -133,13 +132,12 @@ def kinks(law: TwistLaw) -> tuple[float, ...]:
             return ()
 
 
-def _loft(design: Design, psi: float | None, flown: TwistLaw | None = None) -> tuple[BladeShape, Array]:
+def _loft(design: Design, flown: TwistLaw | None = None) -> tuple[BladeShape, Array]:
     """In the blade's own axes, from its hinge; `flown`: a twist in place of the design's."""
-    active = design.active_twist.stations if design.active_twist is not None and psi is not None else ()
+    active = design.active_twist.stations if design.active_twist is not None and flown is not None else ()
     places = tuple(sorted({*kinks(design.twist), *active}))
     shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
-    turning = blade_twists(design, (psi,)) if psi is not None else ()
-    return shape, blade_vertices(shape, flown or (turning[0] if turning else design.twist))
+    return shape, blade_vertices(shape, flown or design.twist)
 
 
 def _hinge(design: Design) -> float:

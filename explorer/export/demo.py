@@ -1,13 +1,12 @@
 """`python -m explorer demo FILE`: the rotor as one HTML file without a server, in a computed sweep of twist and speed.
 
-The file is viser's viewer with the trimmed rotor in it, and `demo.html` on top: sliders, play, power, two charts. It
-requests nothing from any host, so it opens from a disk or any static host.
+The file is viser's viewer with the trimmed rotor in it, and `explorer/web/demo.html` on top: sliders, play, power, two
+charts. It requests nothing from any host, so it opens from a disk or any static host.
 """
 
 import argparse
 import base64
 import io
-import json
 import sys
 from collections.abc import Sequence
 from html import escape
@@ -18,12 +17,13 @@ import numpy as np
 from PIL import Image
 from tqdm import tqdm
 
+from explorer import web
 from explorer.export.provenance import PROGRAM, versions
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices, edge_pairs
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import flown_twist, follows_azimuth
-from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of, scene_script
+from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.state import ViewState
 from explorer.text.readout import part_titles
@@ -117,11 +117,14 @@ def demo_html(
     page = still_page(
         opening, view, colour_range, covered=0.29, edges=jig[edges] if opening.elastic is not None else None
     )
-    front = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
-    data = json.dumps(record, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    front = front.replace("{{title}}", escape(f"{design.rotor.name}: twist and speed"))
-    front = front.replace("{{label}}", f"Linear {record['label']}")
-    front = front.replace("{{scene}}", scene_script()).replace("{{data}}", data)
+    words = {
+        "styles": web.styles("demo.css"),
+        "title": escape(f"{design.rotor.name}: twist and speed"),
+        "label": f"Linear {record['label']}",
+        "data": web.json_block("demo-data", record),
+        "scripts": web.scripts("scene.js", "demo.js"),
+    }
+    front = web.fill("demo.html", words)
     body = page.rindex("</body>")
     return page[:body] + front + page[body:]
 

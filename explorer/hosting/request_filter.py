@@ -9,7 +9,6 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
-from websockets import http11
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers, MultipleValuesError
 from websockets.exceptions import ConnectionClosed
@@ -89,8 +88,7 @@ class RequestFilter:
 
 
 LONGEST_HEAD = 2**16
-"""[bytes] of a request's head. websockets would drop a connection whose address has 8192, without an answer."""
-http11.MAX_LINE_LENGTH = LONGEST_HEAD
+"""[bytes] of a request's head."""
 _TOO_LONG = "This address is too long: ask for a shorter link, or for the design as a file."
 
 

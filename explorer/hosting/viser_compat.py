@@ -1,36 +1,47 @@
-"""Every use of viser's private parts. Each has a test, and viser is pinned because of them."""
+"""Every change to viser and websockets, and every use of viser's private parts, for the versions named below.
+
+| what is changed | why | what it becomes |
+| --- | --- | --- |
+| `viser.infra._infra.AsyncMessageBuffer` | an update sent by a thread could be lost | `ThreadedBuffer` |
+| `AssignablePropsBase._cast_value_recursive` | most of an assignment's time, for nothing | `_cast_unless_plain` |
+| `print_threadpool_errors` | errors of callbacks are printed | `log_failed_callbacks` |
+| `websockets.asyncio.server.serve`, while a server starts | viser has no option for a filter | `quiet_server` |
+| `websockets.http11.MAX_LINE_LENGTH` | a long address is dropped without an answer | `LONGEST_HEAD` |
+| the handlers of `ShareUrl…` messages | any client could open a public tunnel | `remove_share_tunnel` |
+| the handlers of `FileTransfer…` messages | uploads have no limit | `guard_uploads` |
+| the handler of `GuiUpdateMessage` messages | any value is taken | `guard_values` |
+| the threads of callbacks | a thread costs more than a quick callback takes | `quick` |
+
+`tests/explorer/hosting/test_viser_compat.py` has a test for each, or says where it is. What is changed in viser's
+client is in `explorer/web/viser.js`.
+"""
 
 import asyncio
 import contextlib
 import io
-import json
 import logging
-import secrets
 import threading
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import viser
 import websockets.asyncio.server
+import websockets.http11
 from viser import _gui_api, _messages, _viser
 from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from explorer.hosting.limits import accepted_value, refuse_upload
-from explorer.hosting.request_filter import RequestFilter
+from explorer.hosting.request_filter import LONGEST_HEAD, RequestFilter
 from rotor.arrays import Array
 
+VISER, WEBSOCKETS = "1.1.1", "16.1"
+"""The versions that this file is for."""
 _starting, _silent = threading.Lock(), threading.Lock()
 _log = logging.getLogger(__name__)
-_SHEET = "rx-sheet"
-"""Identity of our style sheet in the page."""
-_KEPT = "rx-kept"
-"""Where the page keeps what it is given."""
 _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
 
@@ -74,6 +85,9 @@ def _cast_unless_plain(handle: Any, hint: Any, value: Any, name: str) -> Any:
 
 
 setattr(AssignablePropsBase, "_cast_value_recursive", _cast_unless_plain)  # noqa: B010 - as above
+
+
+websockets.http11.MAX_LINE_LENGTH = LONGEST_HEAD
 
 
 def quiet_server(host: str, port: int, label: str, request_filter: RequestFilter | None = None) -> viser.ViserServer:
@@ -278,119 +292,3 @@ def at_once(client: viser.ClientHandle) -> Iterator[None]:
     client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE
     with client.atomic():
         yield
-
-
-def set_style(client: viser.ClientHandle, sheet: str) -> None:
-    """Put a style sheet into the page's head: one inside a panel goes when that panel is folded away."""
-    run_in_page(
-        client,
-        f"(()=>{{const id='{_SHEET}';const sheet=document.getElementById(id)||document.createElement('style');"
-        f"sheet.id=id;sheet.textContent={json.dumps(sheet)};document.head.appendChild(sheet)}})()",
-    )
-
-
-@dataclass(frozen=True)
-class PageFacts:
-    """What only the browser knows when a page opens."""
-
-    dark: bool = False
-    """Whether it asks for dark pages."""
-    query: str | None = ""
-    """Of its address, from the question mark on; None where the browser did not tell."""
-    kept: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Texts that it was given to keep by name: see `keep_in_page`."""
-
-
-def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
-    """Ask the browser. Blocks, on a busy machine for seconds; not to be called on the event loop."""
-    key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
-    dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
-    # A page that was open before, and whose server has come back, stays as it was.
-    dark = f"document.getElementById('{_SHEET}')?document.documentElement.dataset.mantineColorScheme==='dark':({dark})"
-    kept = f"JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}')"
-    facts = f"JSON.stringify({{dark:{dark},query:location.search,kept:{kept}}})"
-    run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
-    try:
-        text = client.local_storage.get_item(key, timeout=timeout)
-        client.local_storage.remove_item(key)
-        found = json.loads(text or "{}")
-        kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
-        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
-    except (TimeoutError, RuntimeError, ValueError, AttributeError):
-        return PageFacts(query=None)
-
-
-def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:
-    """Give the page a text to keep until its window is closed, also while it is loaded again.
-
-    One too long for the browser's store (some megabytes) is not kept, nor what stood there before.
-    """
-    run_in_page(
-        client,
-        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');all[{json.dumps(name)}]="
-        f"{json.dumps(text)};try{{sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}}"
-        f"catch{{sessionStorage.removeItem('{_KEPT}')}}}})()",
-    )
-
-
-def set_query(client: viser.ClientHandle, query: str) -> None:
-    """Write the query of the page's address, without loading anything and without a step in its history."""
-    run_in_page(client, f"history.replaceState(null,'',location.pathname+{json.dumps(query)})")
-
-
-def copy_text(client: viser.ClientHandle, expression: str) -> None:
-    """Put the value of a JavaScript expression into the clipboard, where the browser allows it."""
-    run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")
-
-
-def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
-    """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
-
-    RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
-    """
-    key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
-    run_in_page(client, _picture_script(drawing, *size, name, key))
-    deadline = time.monotonic() + patience
-    while (said := client.local_storage.get_item(key, timeout=patience)) is None:
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"the page has not drawn the picture within {patience:g} s")
-        time.sleep(0.1)
-    client.local_storage.remove_item(key)
-    if not said.isdigit():
-        raise RuntimeError(said.removeprefix("failed: "))
-    return int(said)
-
-
-_SAVE_PICTURE = """(async () => {
-  const said = text => localStorage.setItem('viser-user:' + KEY, text);
-  try {
-    const address = URL.createObjectURL(new Blob([DRAWING], {type: 'image/svg+xml;charset=utf-8'}));
-    const image = new Image();
-    image.src = address;
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    canvas.width = WIDTH;
-    canvas.height = HEIGHT;
-    canvas.getContext('2d').drawImage(image, 0, 0, WIDTH, HEIGHT);
-    URL.revokeObjectURL(address);
-    const pixels = await new Promise(done => canvas.toBlob(done, 'image/png'));
-    if (!pixels) throw new Error('no memory for so many pixels');
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(pixels);
-    link.download = NAME;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-    said(String(pixels.size));
-  } catch (error) {
-    said('failed: ' + error.message);
-  }
-})()"""
-
-
-def _picture_script(drawing: str, width: int, height: int, name: str, key: str) -> str:
-    """JavaScript that saves an SVG as a PNG of so many pixels, and says under `key` how many bytes, or why not."""
-    words = {"DRAWING": drawing, "NAME": name, "KEY": key}
-    script = _SAVE_PICTURE.replace("WIDTH", str(width)).replace("HEIGHT", str(height))
-    for word in ("NAME", "KEY", "DRAWING"):  # The drawing last: what it holds is not looked into.
-        script = script.replace(word, json.dumps(words[word]))
-    return script

@@ -1,1 +1,1 @@
-"""The frame of the page around viser's canvas and panels: bars, cards and charts as HTML, with a bridge to Python."""
+"""The bridge between Python and the page's own scripts."""

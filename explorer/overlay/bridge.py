@@ -1,35 +1,16 @@
-"""The overlay of the page: its HTML, CSS and JavaScript, and the messages between it and the server."""
+"""The messages between the page's own scripts (`explorer/web`) and the server."""
 
 import json
 import logging
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import viser
 
-from explorer.hosting import viser_compat
-
-_FOLDER = Path(__file__).parent
-STYLES = ("frame.css", "panels.css")
-SCRIPTS = ("frame.js", "cards.js", "charts.js", "inset.js", "spoken.js")
-"""In the order in which they run: the first defines what the others use."""
-
-
-@cache
-def frame_html() -> str:
-    """Style sheets, skeleton and scripts of the frame, to stand at the beginning of the body."""
-    styles = "".join(f"<style>{_text(name)}</style>" for name in STYLES)
-    scripts = "".join(f"<script>{_text(name)}</script>" for name in SCRIPTS)
-    return f"{styles}{_text('frame.html')}{scripts}"
-
-
-def _text(name: str) -> str:
-    return (_FOLDER / name).read_text(encoding="utf-8")
-
+from explorer.hosting.browser import call
+from explorer.hosting.viser_compat import run_in_page, widget_id
 
 _log = logging.getLogger(__name__)
 
@@ -49,7 +30,7 @@ class Bridge:
         self._worker = ThreadPoolExecutor(1, f"frame-{client.client_id}")
         self._heard = client.gui.add_text("frame", "", visible=False)
         self._heard.on_update(self._hear)
-        viser_compat.run_in_page(client, f"RX.begin({json.dumps(viser_compat.widget_id(self._heard))})")
+        call(client, "RX.begin", widget_id(self._heard))
 
     def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
         """Call `action` with the value that comes with each press of `name`; ValueError for a name that is taken."""
@@ -70,7 +51,7 @@ class Bridge:
                 return
             self._sent.update(changed)
             body = ",".join(f"{json.dumps(name)}:{text}" for name, text in changed.items())
-            viser_compat.run_in_page(self._client, f"RX.set({{{body}}})")
+            run_in_page(self._client, f"RX.set({{{body}}})")
 
     def stop(self) -> None:
         """The browser has left."""

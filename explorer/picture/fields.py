@@ -149,14 +149,11 @@ FIELDS: dict[str, Field] = {
 """By title, in the order of the menu."""
 
 
-def fitted_range(
-    field: Field, values: Array, shown: NDArray[np.bool_] | None = None, trim: float = 0.005
-) -> tuple[float, float]:
+def fitted_range(field: Field, values: Array, trim: float = 0.005) -> tuple[float, float]:
     """A round range that holds all but the share `trim` of `values` at each end; symmetric for a two-sided field."""
-    data = values if shown is None else values[shown]
-    if not data.size:
+    if not values.size:
         return field.low, field.high
-    low, high = (float(end) for end in np.quantile(data, (trim, 1.0 - trim)))
+    low, high = (float(end) for end in np.quantile(values, (trim, 1.0 - trim)))
     if field.two_sided:
         high = max(abs(low), abs(high), 1e-3 * field.high)
         step = round_up(high / 5.0)

@@ -2,20 +2,17 @@
 
 Tip vortices turn with the rotor: the page moves their points, by the formula of `explorer.picture.wake`.
 
-It leans on private names of viser's client (`__viserMutable`: nodeRefFromName, nodePoseData, requestRender); each has a
-browser test.
+`explorer/web/scene.js` does it. It leans on private names of viser's client (`__viserMutable`: nodeRefFromName,
+nodePoseData, requestRender); each has a browser test.
 """
 
-import json
 import math
 from dataclasses import asdict
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import viser
 
-from explorer.hosting.viser_compat import run_in_page
+from explorer.hosting.browser import call
 from explorer.picture.poses import pitch_series
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.overlays import VORTICES
@@ -35,12 +32,6 @@ SURFACES = {
 """Materials by node: how rough and metallic, or a flat picture, which must not hide what lies behind its corners."""
 
 
-@cache
-def scene_script() -> str:
-    """The script that defines `rotorScene` in the page."""
-    return Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
-
-
 def motion_of(solution: Solution) -> dict[str, Any]:
     """What `rotorScene.move` needs: how blades flap and pitch, and where the tip vortices go."""
     rotor, controls = solution.design.rotor, solution.controls
@@ -58,7 +49,7 @@ def motion_of(solution: Solution) -> dict[str, Any]:
 
 def tie(client: viser.ClientHandle, *nodes: str) -> None:
     """Let the page turn these nodes about the shaft with the reference blade while the rotor plays, and no others."""
-    run_in_page(client, f"rotorScene.tie({json.dumps(nodes)})")
+    call(client, "rotorScene.tie", nodes)
 
 
 class PageScene:
@@ -69,7 +60,7 @@ class PageScene:
         self.playing = False
         """Whether the page moves the blades."""
         self._motion: Solution | None = None
-        run_in_page(client, f"{scene_script()};rotorScene.dress({json.dumps(SURFACES)})")
+        call(client, "rotorScene.dress", SURFACES)
 
     def move(self, solution: Solution) -> None:
         """How the blades flap and pitch from now on; sent at once only while the rotor turns."""
@@ -80,7 +71,7 @@ class PageScene:
     def turn(self, azimuth: float) -> None:
         """The reference blade is at ψ [rad] now; the page goes on from here until the next message."""
         if self.playing:
-            run_in_page(self._client, f"rotorScene.turn({azimuth:.4f})")
+            call(self._client, "rotorScene.turn", round(azimuth, 4))
 
     def play(self, playing: bool) -> None:
         """Let the page move the blades, or leave them to the scene again."""
@@ -90,7 +81,7 @@ class PageScene:
         if playing:
             self._send(self._motion)
         else:
-            run_in_page(self._client, "rotorScene.stop()")
+            call(self._client, "rotorScene.stop")
 
     def _send(self, solution: Solution) -> None:
-        run_in_page(self._client, f"rotorScene.move({json.dumps(motion_of(solution))})")
+        call(self._client, "rotorScene.move", motion_of(solution))

@@ -1,6 +1,5 @@
 """Rotors recorded as scenes, and viser's viewer embedded to show them without a server."""
 
-import json
 import math
 import re
 from collections.abc import Sequence
@@ -9,6 +8,7 @@ from html import escape
 
 import numpy as np
 
+from explorer import web
 from explorer.hosting import viser_compat
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
 from explorer.picture.picture import make_picture, turned_blades
@@ -35,12 +35,6 @@ class EmbeddedViewer:
     after: str
     scenes: tuple[str, ...]
     """Base64."""
-
-    @property
-    def json(self) -> str:
-        """For a script element: no `<` in it, so that nothing ends the element."""
-        parts = {"before": self.before, "between": self.between, "after": self.after, "scenes": self.scenes}
-        return json.dumps(parts).replace("<", "\\u003c")
 
 
 def embedded_viewer(pages: Sequence[str]) -> EmbeddedViewer:
@@ -71,13 +65,8 @@ def scene_page(solution: Solution, view: ViewState, colour_range: tuple[float, f
     """
     viewer = make_stage([solution], view, colour_range)
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
-    ink, ground = ("#e8ecf3", "#151b24d0") if view.dark else ("#18212f", "#ffffffd0")
-    look = "position:fixed;left:16px;top:14px;z-index:40;padding:10px 16px;border-radius:12px;pointer-events:none;"
-    look += f"background:{ground};color:{ink};font:13px/1.4 system-ui,sans-serif"
-    caption = (
-        f'<div data-explorer="caption" style="{look}"><b style="font-size:17px">{escape(title)}</b><br>'
-        f"{escape(line)}</div>"
-    )
+    words = {"scheme": "dark" if view.dark else "light", "title": escape(title), "line": escape(line)}
+    caption = web.styles("still.css") + web.fill("still.html", words)
     if not re.search(_TITLE, page) or page.count("</body>") != 1:
         raise ValueError("viser's viewer is not laid out as it was: there is no 3D file until it is adapted.")
     page = re.sub(_TITLE, lambda _: f"<title>{escape(title)}</title>", page, count=1)

@@ -107,9 +107,9 @@ class DesignControls:
                 return self._own
             values = {name: self._read(name, handle.value) for name, handle in self._inputs.items()}
             special = replace(self._special, stand=self.stand.stand)
-        values["law"] = _key(self._laws, values["law"])
-        values["preset"] = _key(PRESET_TITLES, values["preset"])
-        values |= {name: _key(titles, values[name]) for name, titles in INFLOW_MENUS.items()}
+        values["law"] = key_of(self._laws, values["law"])
+        values["preset"] = key_of(PRESET_TITLES, values["preset"])
+        values |= {name: key_of(titles, values[name]) for name, titles in INFLOW_MENUS.items()}
         held = {name: getattr(special, name) for name in _HELD}
         return Inputs(**values, **held)
 
@@ -390,5 +390,6 @@ def _laws_of(inputs: Inputs) -> dict[str, str]:
     return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
 
 
-def _key(titles: dict[str, str], title: str) -> str:
+def key_of(titles: dict[str, str], title: str) -> str:
+    """The key of what a menu shows."""
     return next(key for key, value in titles.items() if value == title)

@@ -1,6 +1,5 @@
 """The Export folder: shapes, tables, pictures, the report, and the design as text to run elsewhere."""
 
-import json
 import logging
 import threading
 import time
@@ -17,7 +16,7 @@ from explorer.export import files
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.files import File
 from explorer.export.sheet import LARGEST, SIZES, SMALLEST, DiskContent, Paper, disk_sheet, shown, view_sheet, window
-from explorer.hosting import viser_compat
+from explorer.hosting import browser
 from explorer.interface import SessionState, TabContext
 from explorer.picture.fields import FIELDS, Field, shown_field
 from explorer.picture.png import encode_rgba
@@ -159,7 +158,7 @@ class ExportPanel:
         return self._draw(drawing, paper, files.picture_name(state.solution, on_disk, "view", paper, "png"))
 
     def _draw(self, drawing: str, paper: Paper, name: str) -> str:
-        made = viser_compat.save_picture(self._client, drawing, (paper.width, paper.height), name, _PATIENCE)
+        made = browser.save_picture(self._client, drawing, (paper.width, paper.height), name, _PATIENCE)
         return f"{name}, {made / 1e3:.0f} kB"
 
     def _scene(self, state: SessionState) -> File:
@@ -179,7 +178,7 @@ class ExportPanel:
 
         def work(state: SessionState) -> str:
             text = as_python(state.solution.design) if python else as_command_line(state.solution.design).text
-            viser_compat.copy_text(self._client, json.dumps(text))
+            browser.copy_text(self._client, text)
             self._show_text("As Python" if python else "As a command line", text)
             return "Copied to the clipboard where the browser allows it."
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import viser
 
-from explorer.hosting import viser_compat
+from explorer.hosting import browser
 from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.sharing.address import Address
@@ -70,7 +70,7 @@ class FilePanel:
             text = json.dumps(record, ensure_ascii=False)
             if self._kept.get(name) != text:
                 self._kept[name] = text
-                viser_compat.keep_in_page(self._client, name, text)
+                browser.keep(self._client, name, text)
 
     def _code_of(self, name: str, design: Design) -> str:
         """What the address says of a design; one that it cannot hold, the page is to keep."""
@@ -100,8 +100,7 @@ class FilePanel:
         self._address.write_over()
         if (state := self._context.state()) is not None:
             self.follow(state)
-        link = f"location.origin+location.pathname+{json.dumps(self._address.query)}"
-        viser_compat.copy_text(self._client, link)
+        browser.copy_link(self._client, self._address.query)
         self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
 
     def save(self) -> None:

@@ -1,6 +1,5 @@
 """Keyboard: every command of the page with its title and key, the palette, and what the page does for them."""
 
-import json
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -10,7 +9,7 @@ from typing import Any
 
 import viser
 
-from explorer.hosting import viser_compat
+from explorer.hosting.browser import call
 from explorer.interface import TabContext
 from explorer.picture.camera_views import View
 from explorer.picture.fields import FIELDS
@@ -128,79 +127,6 @@ def _row(title: str, parts: tuple[str, ...]) -> str:
     return f'<div class="rx-line"><span>{escape(title)}</span><span>{caps}</span></div>'
 
 
-_SCRIPT = """(() => {
-  if (window.__rotorKeys) return;
-  window.__rotorKeys = true;
-  const arrows = new Set(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']);
-  const pages = {PageUp: 'ArrowUp', PageDown: 'ArrowDown'};
-  const on = (target, selector) => target instanceof Element && target.closest(selector);
-  const number = target => on(target, 'input[inputmode=decimal], input[inputmode=numeric]');
-
-  // Shift and an arrow, Page up, Page down: so many single steps, each after the page has taken the one before.
-  window.addEventListener('keydown', async event => {
-    if (!event.isTrusted || event.ctrlKey || event.metaKey || event.altKey) return;
-    const key = pages[event.key] ?? (event.shiftKey && arrows.has(event.key) ? event.key : null);
-    const field = number(event.target);
-    if (!key || !(on(event.target, '[role=slider]') || field)) return;
-    if (field && (key === 'ArrowLeft' || key === 'ArrowRight')) return;  // There they select text.
-    event.preventDefault();
-    event.stopPropagation();
-    for (let step = 0; step < COARSE; step++) {
-      event.target.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
-      event.target.dispatchEvent(new KeyboardEvent('keyup', {key, bubbles: true}));
-      await new Promise(done => setTimeout(done));
-    }
-  }, true);
-
-  // A key that a widget uses is the widget's alone; this is reached after the widget and before the page's own keys.
-  document.body.addEventListener('keydown', event => {
-    const widget = '[role=slider], [role=tab], [role=option], [role=listbox], [role=menu], [role=separator], input';
-    const moves = arrows.has(event.key) || event.key in pages;
-    const presses = event.key === ' ' || event.key === 'Enter';
-    const pressed = 'button:not([role=tab]), a, summary, input';
-    if ((moves && on(event.target, widget)) || (presses && on(event.target, pressed))) event.stopPropagation();
-  });
-
-  // Arrows step the probe; viser would turn the camera with them too. Commands listen here, its camera further out.
-  document.documentElement.addEventListener('keydown', event => {
-    if (arrows.has(event.key) || event.ctrlKey || event.metaKey) event.stopPropagation();
-  });
-
-  // A box that was clicked, or a field that was left with Escape, does not keep the keyboard to itself.
-  window.addEventListener('click', event => {
-    if (event.detail > 0 && on(event.target, 'input[type=checkbox], label')) setTimeout(() => {
-      if (document.activeElement?.type === 'checkbox') document.activeElement.blur();
-    });
-  });
-  window.addEventListener('keydown', event => {
-    if (event.key === 'Escape' && on(event.target, 'input')) event.target.blur();
-  });
-})();"""
-
-
-def page_script(coarse: int) -> str:
-    """JavaScript to run once in a page; `coarse` is how many steps make a coarse one."""
-    return _SCRIPT.replace("COARSE", str(coarse))
-
-
-_DIALOG = """(() => {
-  const before = document.querySelector('dialog.rx-dialog');
-  if (before) return before.close();
-  const dialog = document.createElement('dialog');
-  dialog.className = 'rx-dialog';
-  dialog.innerHTML = CONTENT;
-  dialog.addEventListener('close', () => dialog.remove());
-  dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
-  document.body.append(dialog);
-  dialog.showModal();
-})();"""
-
-
-def dialog_script(content: str) -> str:
-    """JavaScript that lays HTML of ours over the page until Escape or a click beside it; a second time closes it."""
-    return _DIALOG.replace("CONTENT", json.dumps(content))
-
-
 class Keyboard:
     """Commands as they are bound. Actions run on viser's threads, one at a time, and must only say what is wanted."""
 
@@ -210,7 +136,7 @@ class Keyboard:
         self._held = False
         self._acting = threading.Lock()
         """Two keys pressed at once must not both read the inputs before either has written them."""
-        viser_compat.run_in_page(client, page_script(COARSE))
+        call(client, "RX.set", {"coarse": COARSE})
         self.bind("keys", self.show)
 
     def bind(self, name: str, action: Callable[[], None]) -> None:
@@ -239,7 +165,7 @@ class Keyboard:
 
     def show(self) -> None:
         """The list of keys, over the page; shown a second time it goes."""
-        viser_compat.run_in_page(self._client, dialog_script(keys_help(self._commands)))
+        call(self._client, "RX.dialog", keys_help(self._commands))
 
 
 SPEEDS = dict(zip(("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True))

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from html import escape
 
 from explorer.text.glossary import tip
 from explorer.text.readout import (
@@ -81,18 +80,6 @@ def trim_panel(solution: Solution, pinned: Solution) -> str:
             f"<span>{a}</span><span>{number(read(solution), digits)}</span></div>"
         )
     return f'<div class="rx rx-grid" data-explorer="trim">{"".join(cells)}</div>'
-
-
-def pinned_line(title: str, answer: Solution | None, where: str, units: Units = SI) -> str:
-    """A in one line that never wraps. `where`: its own flight condition; empty when it flies at the current one."""
-    power = "no trim at this condition" if answer is None or not answer.converged else units.watts(answer.power.total)
-    title = escape(title, quote=True)
-    whole = f"A: {title}, {power}" + (f" at {where}" if where else "")
-    flight = f'<div class="rx-line rx-dim rx-small"><span class="rx-push">at {where}</span></div>' if where else ""
-    return (
-        f'<div class="rx rx-pinned" data-explorer="pinned" title="{whole}"><div class="rx-line"><span class="rx-fit">'
-        f"{dash(PINNED, dashed=True)}<b>A:</b> {title}</span><span>{power}</span></div>{flight}</div>"
-    )
 
 
 def _name(letter: str) -> str:

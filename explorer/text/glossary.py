@@ -172,7 +172,7 @@ CONTROLS: dict[str, Term] = {
     "pinned": Term("Swap A and B, or return the sliders to A."),
     "along": Term("On: A flies at the speed, mass, altitude and climb of the sliders. Off: A stays as it was pinned."),
     "tour": Term("Six stops of ten seconds: the sliders move by themselves, and a caption says what to see."),
-    "lecture": Term("Eight steps that set the page and say what to watch. Keys: Page Down, Page Up."),
+    "lecture": Term("Seven steps that set the page and say what to watch. Keys: Page Down, Page Up."),
     "big_type": Term("Larger text, for a lecture room."),
     "lecture_flights": Term("Sets the advance ratio.", section=1),
     "document_case": Term("Designs that the source document states, and examples in its preset.", section=15),

@@ -7,7 +7,7 @@ import numpy as np
 
 from explorer.state import baseline_title
 from explorer.text.glossary import tip
-from explorer.text.units import BLANK, SI, Units, number
+from explorer.text.units import BLANK, SI, Units, degrees, number
 from explorer.theme.colours import PARTS
 from rotor.analysis.ideal_bound import ideal_factor, not_bounded
 from rotor.design.design import Design
@@ -134,12 +134,12 @@ def trim_panel(solution: Solution) -> str:
     if solution.design.hovering:
         efficiency = ("figure_of_merit", "Figure of merit", number(solution.figure_of_merit, 3))
     entries = (
-        ("collective", "Collective θ0", _deg(c.collective)),
-        ("shaft_tilt", "Shaft tilt α", _deg(c.shaft_tilt)),
-        ("cyclic_1c", "Cyclic θ1c", _deg(c.cyclic_1c)),
-        ("coning", "Coning β0", _deg(c.coning)),
-        ("cyclic_1s", "Cyclic θ1s", _deg(c.cyclic_1s)),
-        ("flapping_1", "Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {_deg(c.flap_1s, 1)}"),
+        ("collective", "Collective θ0", degrees(c.collective)),
+        ("shaft_tilt", "Shaft tilt α", degrees(c.shaft_tilt)),
+        ("cyclic_1c", "Cyclic θ1c", degrees(c.cyclic_1c)),
+        ("coning", "Coning β0", degrees(c.coning)),
+        ("cyclic_1s", "Cyclic θ1s", degrees(c.cyclic_1s)),
+        ("flapping_1", "Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {degrees(c.flap_1s, 1)}"),
         ("ct_over_sigma", "CT/σ", number(solution.ct_over_sigma, 4)),
         efficiency,
         ("reverse_flow_area", "Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
@@ -160,20 +160,11 @@ def _elastic(solution: Solution) -> tuple[tuple[str, str, str], ...]:
         return ("elastic_tip", "Elastic tip", "rigid"), ("pitch_link", "Pitch link", BLANK)
     load = elastic.pitch_link_load / 1e3
     return (
-        ("elastic_tip", "Elastic tip", _deg(float(elastic.tip.mean()))),
-        ("elastic_wave", "Elastic 1/rev", _deg(elastic.first_harmonic)),
+        ("elastic_tip", "Elastic tip", degrees(float(elastic.tip.mean()))),
+        ("elastic_wave", "Elastic 1/rev", degrees(elastic.first_harmonic)),
         ("pitch_link", "Pitch link", f"{number(float(load.mean()), 2)} kN"),
         ("pitch_link_wave", "Pitch link ±", f"{number(0.5 * float(np.ptp(load)), 2)} kN"),
     )
-
-
-def _deg(angle: float, digits: int = 2) -> str:
-    return f"{number(math.degrees(angle), digits)}°"
-
-
-def reserved(height: int) -> str:
-    """Reserved space of a read-out before the first solution, so that nothing moves later. `height` in pixels."""
-    return f'<div class="rx"><div class="rx-reserved" style="height:{height}px"></div></div>'
 
 
 def explanation(text: str) -> str:

@@ -18,6 +18,11 @@ def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
     return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
 
 
+def degrees(angle: float, digits: int = 2) -> str:
+    """An angle [rad] in degrees."""
+    return f"{number(math.degrees(angle), digits)}°"
+
+
 @dataclass(frozen=True)
 class Unit:
     """One unit."""

@@ -121,11 +121,6 @@ class Pool:
         for worker in workers:
             worker.close()
 
-    @property
-    def pids(self) -> tuple[int, ...]:
-        """Ids of the processes that run."""
-        return tuple(pid for worker in self._workers if (pid := worker.pid) is not None)
-
     def next(self, patience: float) -> Job | None:
         """The next job; None when none came within `patience` [s] or the pool closes."""
         with self._change:

@@ -208,8 +208,9 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
     optimise(watched, session)
     until(watched, "running")
     until_better(session)
-    for pid in app.pool.pids:
-        os.kill(pid, signal.SIGKILL)
+    for worker in app.pool._workers:
+        if (pid := worker.pid) is not None:
+            os.kill(pid, signal.SIGKILL)
     until(watched, "broken")
     assert "ended unexpectedly" in watched.text("found")
     assert run_of(session).best is not None

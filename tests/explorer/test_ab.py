@@ -195,7 +195,6 @@ class TestReadOut:
         assert 'data-explorer="change"' not in html
         assert "–" in ab_readout.trim_panel(b, lost)
         assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
-        assert "no trim at this condition" in ab_readout.pinned_line("linear", lost, "")
 
     def test_trim_of_both(self, along: Solution, b: Solution):
         html = ab_readout.trim_panel(b, along)
@@ -213,12 +212,6 @@ class TestReadOut:
         other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
         assert "different models" in cautions(b, other)[0]
         assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]
-
-    def test_the_line_says_what_a_is_and_escapes(self, a: Solution):
-        line = ab_readout.pinned_line("<mine>", a, "µ 0.2, 8.32 t")
-        assert "&lt;mine&gt;" in line
-        assert f"{number(a.power.total / 1e3)} kW" in line
-        assert "at µ 0.2, 8.32 t" in line
 
 
 class TestDisk:

@@ -9,10 +9,12 @@ from scipy.spatial import cKDTree
 
 from explorer.picture.airframe import airframe
 from explorer.picture.rotor_head import mast, rotor_head
-from explorer.picture.solids import Hull, Mesh, joined, loft, revolved, surface, tube
-from rotor.assets import SHIPPED_ROTORS
+from explorer.picture.solids import Mesh, joined, loft, revolved, tube
+from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
+from tests.tools import airframe as script
+from tests.tools.airframe import Hull, surface
 
 
 def rotor_named(name: str) -> Rotor:
@@ -118,8 +120,30 @@ class TestEveryRotor:
         assert len(arms) == rotor.blades
 
 
+def test_the_file_is_what_its_script_makes():
+    """Triangle by triangle, and to the last bit of the numbers of 32 bits that it holds."""
+    path = asset_path("airframe.glb")
+    assert path.stat().st_size < 300_000
+    shipped = trimesh.load_scene(path, process=False)
+    assert shipped.metadata["source"] == script.SOURCE
+    assert shipped.metadata["ground_m"] == script.GROUND
+    made = script.parts()
+    assert set(shipped.geometry) == set(made)
+    for name, mesh in made.items():
+        held = shipped.geometry[name]
+        assert isinstance(held, trimesh.Trimesh)
+        assert np.array_equal(held.faces, mesh.faces)
+        assert np.array_equal(np.asarray(held.vertices, dtype=np.float32), mesh.vertices.astype(np.float32))
+
+
+def test_a_viewer_shows_the_file_upright():
+    """glTF has y up: the fin, which is the highest, is above the hub there."""
+    upright = trimesh.load_scene(asset_path("airframe.glb")).bounds
+    assert upright[1][1] == pytest.approx(script.parts()["uh60a-dark"].vertices[:, 2].max(), abs=1e-3)
+
+
 class TestBlackHawk:
-    """Against the dimensions in Jane's, which the module's docstring lists."""
+    """Against the dimensions in Jane's, which the docstring of `tests/tools/airframe.py` lists."""
 
     CRAFT = airframe(rotor_named("uh60a"))
 

@@ -26,6 +26,7 @@ from explorer.export.files import flown_file, jig_file
 from explorer.export.provenance import file_stem
 from explorer.interface import SessionState
 from explorer.picture.blade_mesh import swept_back
+from explorer.picture.poses import blade_twists
 from explorer.state import Inputs, ViewState
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -112,13 +113,14 @@ def test_the_file_is_what_the_mesh_is_and_says_its_unit():
 
 def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
     design = replace(DESIGN, active_twist=ActiveTwist((Harmonic(1, math.radians(3.0)),)))
-    tail, nose = (blade_mesh(design, psi) for psi in (0.0, math.pi))
+    laws = blade_twists(design, (0.0, math.pi))
+    tail, nose = (blade_mesh(replace(DESIGN, twist=law)) for law in laws)
     assert tail.is_watertight
     assert nose.is_watertight
     for r in (0.5, 0.999):
         swing = math.radians(6.0) * (r - 0.13) / 0.87
         assert_allclose(reach(cut(tail, r)), reach(cut(nose, r), swing), atol=2e-4)
-    assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # Asked for none: the law alone.
+    assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # On its own: the law alone.
 
 
 def scene_of(design: Design) -> trimesh.Scene:

@@ -10,7 +10,7 @@ import pytest
 import viser
 from viser import _messages
 
-from explorer.tabs.keys import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, dialog_script, keys_help, leads, page_script
+from explorer.tabs.keys import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, keys_help, leads
 
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (
@@ -44,11 +44,6 @@ def test_the_list_shows_what_is_bound_and_nothing_else():
     assert "<kbd>?</kbd>" in text
     assert "Redo" not in text
     assert "Find a command" in text
-
-
-def test_scripts_hold_what_they_are_given():
-    assert "step < 10;" in page_script(10)
-    assert '"<b>\\"x\\"</b>"' in dialog_script('<b>"x"</b>')
 
 
 class TestKeyboard:

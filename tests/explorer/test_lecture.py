@@ -3,6 +3,7 @@
 import re
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.tabs.keys import KEYS
-from explorer.tabs.lecture.steps import CASES, STEPS, LectureStep, beside, view_of
+from explorer.tabs.lecture import steps
+from explorer.tabs.lecture.steps import CASES, STEPS, LectureStep, beside, step_text, view_of
+from explorer.text.glossary import hint
 from explorer.text.units import AVIATION
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -104,6 +107,19 @@ def test_a_step_says_what_is_seen(step: LectureStep):
     assert step.field in FIELDS
 
 
+def test_each_step_has_its_text_in_a_file_and_each_file_its_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    texts = {step_text(path.stem) for path in steps._TEXT.glob("*.md")}
+    assert texts == {(step.title, step.watch, step.do) for step in STEPS}
+    assert all(re.search(r"[.:?]", part) and "  " not in part for _, *parts in texts for part in parts)
+    monkeypatch.setattr(steps, "_TEXT", tmp_path)
+    (tmp_path / "good.md").write_text("# One title\n\nSee\nthis.\n\n## Try\n\nDo that.\n", encoding="utf-8")
+    assert step_text("good") == ("One title", "See this.", "Do that.")
+    for text in ("", "One title\n\nSee.\n\n## Try\n\nDo.\n", "# One title\n\nSee.\n", "# T\n\nSee.\n\n## Try\n\n"):
+        (tmp_path / "bad.md").write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=r"bad\.md is no step of the lecture: write"):
+            step_text("bad")
+
+
 def test_what_is_said_of_power_adds_up():
     step = BY_TITLE["A rotor in trim"]
     solution = solved(step.inputs)
@@ -147,7 +163,8 @@ class TestBeside:
 
 
 def test_steps_and_their_keys():
-    assert 6 <= len(STEPS) <= 8
+    assert len(STEPS) == 7
+    assert hint("lecture").startswith("Seven steps")
     assert {"lecture", "lecture_next", "lecture_previous"} <= set(KEYS)
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from explorer.app import App
-from explorer.hosting import viser_compat
+from explorer.hosting import browser
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, follow_name
 from explorer.tabs.lecture.presence import Presence
 from tests.tools.soak.visitor import Visitor
@@ -18,7 +18,7 @@ from tests.tools.soak.visitor import Visitor
 def scripts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What the server has the page run."""
     found: list[str] = []
-    monkeypatch.setattr(viser_compat, "run_in_page", lambda client, script: found.append(script))
+    monkeypatch.setattr(browser, "run_in_page", lambda client, script: found.append(script))
     return found
 
 
@@ -44,8 +44,8 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
 
     with ThreadPoolExecutor(1) as thread:
         thread.submit(lambda: asyncio.run(visit())).result()
-    (kept,) = (script for script in scripts if "sessionStorage.setItem" in script and f'"{PRESENT}"' in script)
-    secret = re.search(rf'all\["{PRESENT}"\]="([\w-]+)"', kept)
+    (kept,) = (script for script in scripts if script.startswith(f'RX.keep("{PRESENT}",'))
+    secret = re.fullmatch(rf'RX\.keep\("{PRESENT}","([\w-]+)"\)', kept)
     assert secret is not None
     shared = [script for script in scripts if script is not kept]
     assert any(f"?{FOLLOW}={follow_name(secret[1])}" in script for script in shared)

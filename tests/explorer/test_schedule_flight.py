@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.schedule_view import (
+    FlightInstant,
     PlanProgress,
     ScheduleFlight,
     flown_legs,
@@ -60,6 +61,12 @@ def progress() -> PlanProgress:
     return PlanProgress(plan, list(schedule.cells), powers)
 
 
+def played(progress: PlanProgress, count: int) -> list[FlightInstant]:
+    """Instants of a whole playback, the first and the last included."""
+    flight = ScheduleFlight(progress, seconds=12.0)
+    return [flight.at(flight.seconds * k / count) for k in range(count + 1)]
+
+
 class TestFlight:
     def test_legs_come_in_the_order_of_speed_with_the_numbers_of_the_schedule(self, progress: PlanProgress):
         flight = ScheduleFlight(progress)
@@ -86,13 +93,9 @@ class TestFlight:
         legs = flown_legs(progress)
         assert last.hours == pytest.approx(3.5)
         assert last.saved == pytest.approx(3600.0 * sum(leg.hours * (leg.starting - leg.moving) for leg in legs))
-        worth = progress.schedule.worth("linear")
-        assert worth is not None
-        assert last.saved_over_fixed is not None
-        assert last.saved_over_fixed / 3600.0 / 3.5 == pytest.approx(worth.gain, rel=1e-4)
 
     def test_speed_and_saving_never_step_back(self, progress: PlanProgress):
-        instants = ScheduleFlight(progress, seconds=12.0).sequence(20.0)
+        instants = played(progress, 240)
         speeds = [one.advance_ratio for one in instants]
         assert speeds == sorted(speeds)
         assert max(np.diff(speeds)) < 0.02
@@ -102,14 +105,14 @@ class TestFlight:
         assert saved == sorted(saved)
 
     def test_power_and_twist_are_continuous(self, progress: PlanProgress):
-        instants = ScheduleFlight(progress, seconds=12.0).sequence(50.0)
+        instants = played(progress, 600)
         powers = np.array([one.moving for one in instants])
         twists = np.array([one.root_to_tip_deg for one in instants])
         assert np.abs(np.diff(powers)).max() < 0.03 * np.ptp(powers)
         assert np.abs(np.diff(twists)).max() < 0.03 * np.ptp(twists)
 
     def test_no_mission_time_passes_between_legs(self, progress: PlanProgress):
-        instants = ScheduleFlight(progress, seconds=12.0).sequence(50.0)
+        instants = played(progress, 600)
         changing = [one for one in instants if one.between and one.leg == 0]
         assert len(changing) > 10
         assert len({one.hours for one in changing}) == 1
@@ -131,8 +134,6 @@ class TestFlight:
         partial = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition in (0, 1)])
         flight = ScheduleFlight(partial)
         assert len(flight.legs) == 2
-        assert flight.at(1.0).fixed is None
-        assert flight.at(1.0).saved_over_fixed is None
         empty: list[Cell] = []
         with pytest.raises(ValueError, match="no optimum to play yet"):
             ScheduleFlight(PlanProgress(progress.plan, empty))

@@ -13,7 +13,6 @@ from explorer.sensitivity import (
     SliderSensitivity,
     flight_sensitivities,
     natural_step,
-    strongest,
     twist_sensitivities,
 )
 from explorer.sliders import SLIDERS
@@ -137,12 +136,6 @@ def test_a_larger_change_has_a_longer_arrow():
     sizes = [sensitivity_row(Inputs(), SliderSensitivity("mass_t", slope), SI)["size"] for slope in (3e4, 9e4, 9e5)]
     assert sizes == sorted(set(sizes))
     assert sizes[-1] < 1.0
-
-
-def test_the_strongest_slider():
-    found = {name: SliderSensitivity(name, slope) for name, slope in (("two_inner", 80.0), ("two_outer", -900.0))}
-    assert strongest(found) == "two_outer"
-    assert strongest({"two_inner": SliderSensitivity("two_inner", 1.0)}) is None
 
 
 def test_twist_sliders_take_little_beside_a_solve():

@@ -1,6 +1,5 @@
 """The server without a browser: start, addresses, errors in one sentence, private names of viser."""
 
-import io
 import signal
 import socket
 import subprocess
@@ -14,15 +13,12 @@ from typing import Any, cast
 import numpy as np
 import pytest
 import viser
-from PIL import Image
 from viser import _messages
 
 from explorer import __main__ as command
 from explorer.app import App, PortBusy
-from explorer.hosting import viser_compat
 from explorer.picture import disk_image
 from explorer.picture.picture import make_picture
-from explorer.picture.png import encode_png
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.pinned import FLIGHT
 from explorer.scene.scene import Scene
@@ -283,44 +279,3 @@ class TestScene:
         assert tuple(handles["/rotor/blade_1"].color) == DARK.blade
         assert tuple(handles["/rotor/blade_0"].color) == DARK.reference_blade
         assert handles["/rotor/disk/words"]._data != words
-
-
-class TestViserCompat:
-    """Each private name leaned on; when viser changes one, the pin may not move."""
-
-    def test_an_encoded_png_is_assigned_as_it_is(self, server: viser.ViserServer):
-        handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
-        png = encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
-        viser_compat.set_png(handle, png)
-        assert handle._data == png
-        assert Image.open(io.BytesIO(png)).size == (4, 4)
-
-    def test_a_node_is_placed_as_its_setters_place_it(self, server: viser.ViserServer):
-        """The same messages, and none for what stays."""
-        one, other = (server.scene.add_frame(name) for name in ("/one", "/other"))
-        queued: list[Any] = []
-        cast(Any, server._websock_server).queue_message = queued.append
-        turn, way = np.array([0.6, 0.0, 0.8, 0.0]), np.array([1.0, -2.0, 3.0])
-        one.wxyz, one.position = turn, way
-        viser_compat.place(other, turn, way)
-        theirs, ours = ([vars(message) for message in half] for half in (queued[:2], queued[2:]))
-        assert [{**fields, "name": ""} for fields in theirs] == [{**fields, "name": ""} for fields in ours]
-        assert list(map(type, queued[:2])) == list(map(type, queued[2:]))
-        assert np.array_equal(other.wxyz, turn)
-        assert np.array_equal(other.position, way)
-        viser_compat.place(other, turn.copy(), way.copy())
-        viser_compat.place(other, turn)
-        assert len(queued) == 4
-        way[0] = 9.0  # What was sent is nobody else's.
-        assert other.position[0] == 1.0
-
-    def test_share_handlers_are_there_to_be_removed(self, server: viser.ViserServer):
-        assert server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
-        viser_compat.remove_share_tunnel(server)
-        assert not server._websock_server._incoming_handlers.get(_messages.ShareUrlRequest)
-
-    def test_javascript_message_exists(self):
-        assert _messages.RunJavascriptMessage("1").source == "1"
-
-    def test_version_is_the_pinned_one(self):
-        assert viser.__version__ == "1.1.1"

@@ -8,7 +8,7 @@ import pytest
 
 from explorer import session as session_module
 from explorer.charts import power_curve
-from explorer.hosting.viser_compat import PageFacts
+from explorer.hosting.browser import PageFacts
 from explorer.interface import Failure, Frame, SessionState
 from explorer.page import Page
 from explorer.session import Session

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from explorer.charts.svg import charts_write_to
 from explorer.tabs.studies import charts as study_charts
 from explorer.tabs.studies.panel import StudiesPanel, find_studies, numbers, open_study, point_line, summary
 from rotor.assets import package_version
@@ -223,7 +222,6 @@ def test_numbers_have_the_digits_that_count():
 def test_what_is_said_of_a_point_is_escaped(trims: tuple[Path, Results]):
     _, results = trims
     assert "&lt;b&gt;" in point_line(results, 0, "<b>")
-    assert "'Point no.'" in charts_write_to("Point no.")
 
 
 def test_folders_that_cannot_be_read_are_passed_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -1,13 +1,14 @@
 """The session's designs as one HTML file that needs no server and no network: power, trim, 3D, disks, charts."""
 
+from dataclasses import asdict
 from html import escape
 
+from explorer import web
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
 from explorer.export.report.contents import DesignReport, colours_of
-from explorer.export.report.style import SCRIPT, SHEET
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
@@ -28,20 +29,19 @@ def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
         figures.overview(report, curves or PowerCurves()),
     ]
     sections = [_section(report, k) for k in range(len(report.shown))]
-    return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<title>{escape(title)} – {PROGRAM}</title><style>{SHEET}</style></head><body><main>"
-        f"{_head(report, title)}{''.join(overview)}{''.join(sections)}{_foot()}</main>"
-        f"<script>{SCRIPT}</script></body></html>\n"
-    )
-
-
-def _head(report: DesignReport, title: str) -> str:
-    when = f"{report.when.day} {report.when:%B %Y, %H:%M}"
-    return (
-        f'<header><div class="brand">{escape(PROGRAM)}</div><button id="theme" type="button">Dark / light</button>'
-        f'<h1>{escape(title)}</h1><p class="dim">{escape(when)} · {escape(versions()[PROGRAM])}</p></header>'
+    rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in versions().items())
+    return web.fill(
+        "report.html",
+        {
+            "title": escape(title),
+            "program": escape(PROGRAM),
+            "styles": web.styles("report.css"),
+            "when": escape(f"{report.when.day} {report.when:%B %Y, %H:%M}"),
+            "version": escape(versions()[PROGRAM]),
+            "content": "".join((*overview, *sections)),
+            "versions": rows,
+            "scripts": web.scripts("report.js"),
+        },
     )
 
 
@@ -89,7 +89,7 @@ def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> str:
         f'<div class="tabs">{tabs if len(report.shown) > 1 else ""}<span class="dim">'
         "Drag to turn, right button to move, wheel to zoom.</span></div>"
         '<iframe id="viewer" title="The rotor in three dimensions"></iframe>'
-        f'<div class="scale">{bar}</div><script id="stage" type="application/json">{stage.json}</script></section>'
+        f'<div class="scale">{bar}</div>{web.json_block("stage", asdict(stage))}</section>'
     )
 
 
@@ -133,15 +133,3 @@ def _caveats(solution: Solution) -> str:
             f"less than {tiny(solution.residual)} of the weight.</p>"
         )
     return f'<ul class="care">{sentences}</ul>'
-
-
-def _foot() -> str:
-    rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in versions().items())
-    return (
-        "<footer><h2>Validity</h2><p>Every design here is trimmed: thrust balances weight and drag, and "
-        "power by parts adds up to it. Forward-flight power is <b>indicative</b>: a model against other models, not "
-        "against a measurement. Hover power was compared with digitised measurements of incomplete provenance and is "
-        "between 3 % above and 9 % below them. Not modelled: bending of the blade, dynamic stall, wake "
-        "distortion, fuselage interference. Twist optima are flat: compare powers, not angles.</p>"
-        f"<table class='versions'>{rows}</table></footer>"
-    )

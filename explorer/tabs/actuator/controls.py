@@ -23,6 +23,7 @@ from explorer.tabs.actuator.state import (
 from explorer.tabs.actuator.study import Findings, Outcome
 from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot
 from explorer.tabs.charts import Chart, line, points
+from explorer.tabs.controls import key_of
 from explorer.text.glossary import hint
 from explorer.text.units import number
 from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
@@ -150,7 +151,6 @@ class ActuatorControls:
         self._concepts = {name: find_concept(name).title for name in CONCEPTS}
         start = ActuatorInputs()
         watched = self._watched
-        gui.add_html(readout.SHEET)
         self.verdict = gui.add_html("")
         self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
         self._magnified = watched(
@@ -255,14 +255,14 @@ class ActuatorControls:
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
         return ActuatorInputs(
-            actuator=_key(self._titles, self._actuator.value),
+            actuator=key_of(self._titles, self._actuator.value),
             plies=int(self._plies.value),
             span=_ends(self._span.value),
             chord=_ends(self._chord.value),
             blade=BLADES[self._blade.value],
             stiffness=float(self._stiffness.value),
             counted=float(self._counted.value),
-            concept=_key(self._concepts, self._concept.value),
+            concept=key_of(self._concepts, self._concept.value),
             advance_ratios=_ends(self._pair.value),
             drives=tuple(float(handle.value) for handle in self._drives),
             crossed=bool(self._crossed.value),
@@ -337,7 +337,3 @@ class ActuatorControls:
 def _ends(values: tuple[float, ...]) -> tuple[float, float]:
     low, high = sorted(round(float(value), 4) for value in values)
     return low, high
-
-
-def _key(titles: dict[str, str], title: str) -> str:
-    return next(key for key, value in titles.items() if value == title)

@@ -18,34 +18,6 @@ from rotor.actuator.verdict import Verdict, headline, verdict_sentence
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
 
-SHEET = """<style>
-.rxa-now { display: flex; align-items: baseline; gap: 8px; white-space: nowrap; }
-.rxa-now > b { font-size: 20px; font-weight: 650; font-variant-numeric: tabular-nums; }
-.rxa-box { margin: 4px 10px; padding: 5px 8px; border-radius: 4px; font-size: 12px; line-height: 1.34;
-  background: rgba(128,128,128,.10); min-height: 66px; border-left: 3px solid rgba(128,128,128,.5); }
-.rxa-yes { border-left-color: #0ca678; }
-.rxa-no { border-left-color: #e67700; }
-.rxa-wrong { border-left-color: #c92a2a; }
-.rxa-limits { font-size: 12px; line-height: 1.3; }
-.rxa-limits > div { display: flex; gap: 6px; padding: 1px 0; }
-.rxa-limits > div > span:first-child { flex: none; width: 11px; font-weight: 700; }
-.rxa-bad { color: #d9480f; }
-[data-mantine-color-scheme=dark] .rxa-bad { color: #ff922b; }
-.rxa-table { font-size: 10.5px; table-layout: auto; }
-.rx .rxa-table :is(td, th) { padding-left: 3px; padding-right: 0; letter-spacing: -.01em; }
-.rxa-table th { font-weight: 500; text-align: right; vertical-align: bottom; opacity: .7; padding: 0 0 2px;
-  white-space: normal; line-height: 1.2; }
-.rxa-table th:first-child, .rxa-table td:first-child { text-align: left; }
-.rxa-table th + th, .rxa-table td + td { padding-left: 6px !important; }
-.rxa-table td { border-top: 1px solid rgba(128,128,128,.18); padding: 1.5px 0; }
-.rxa-chosen td { font-weight: 650; }
-.rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 12px; }
-.rxa-track { position: relative; height: 10px; background: rgba(128,128,128,.14); border-radius: 2px; }
-.rxa-track > i { position: absolute; left: 0; top: 0; bottom: 0; border-radius: 2px; }
-.rxa-track > u { position: absolute; top: -1px; bottom: -1px; width: 1px; background: currentColor; opacity: .5; }
-.rxa-track > b { position: absolute; top: -2px; bottom: -2px; width: 2px; background: #e03131; }
-</style>"""
-
 _NONE = "–"
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 """The outer numbers stay within the bar."""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import viser
 
-from explorer.hosting import viser_compat
+from explorer.hosting import browser
 from explorer.interface import SessionState, TabContext
 from explorer.sharing import stored_history
 from explorer.sharing.stored_history import StoredHistory
@@ -93,7 +93,7 @@ class HistoryPanel:
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
-            viser_compat.keep_in_page(self._client, stored_history.NAME, text)
+            browser.keep(self._client, stored_history.NAME, text)
 
     def rest(self, stop: Callable[[], bool]) -> None:
         """Solve the designs that were kept before a reload, until `stop`."""

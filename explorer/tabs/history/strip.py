@@ -6,7 +6,6 @@ from html import escape
 
 import numpy as np
 
-from explorer.charts.svg import write_to
 from explorer.state import Inputs
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.units import SI, Units
@@ -43,7 +42,7 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
         told = f"{twist_name(step)}; {flight_name(step, units)}; "
         told += "no trim" if power is None else units.watts(power)
         bars.append(
-            f'<g onclick="{write_to(FIELD, f"{chr(39)}step {number_of}{chr(39)}")}" style="cursor:pointer">'
+            f'<g data-write="{FIELD}" data-value="step {number_of}" class="rx-take">'
             f"<title>{escape(told)}</title>"
             f'<rect x="{pitch * k:.2f}" y="0" width="{pitch:.2f}" height="{_HEIGHT}" fill="transparent"/>'
             f'<rect x="{pitch * k + 0.6:.2f}" y="{_HEIGHT - height:.2f}" width="{max(pitch - 1.2, 1.0):.2f}" '
@@ -71,14 +70,14 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
     rows = []
     for k, item in enumerate(kept):
         change = _blank_change(present, item, units)
-        take, drop = (write_to(FIELD, f"'{verb} {k}'") for verb in ("take", "drop"))
+        take, drop = (f'data-write="{FIELD}" data-value="{verb} {k}"' for verb in ("take", "drop"))
         rows.append(
-            f'<tr><td onclick="{take}" class="rx-take">{_spark(item.solution)}</td>'
-            f'<td onclick="{take}" class="rx-take rx-kept"><div>{escape(twist_name(item.inputs))}</div>'
+            f'<tr><td {take} class="rx-take">{_spark(item.solution)}</td>'
+            f'<td {take} class="rx-take rx-kept"><div>{escape(twist_name(item.inputs))}</div>'
             f'<div class="rx-dim rx-small">{escape(flight_name(item.inputs, units))}</div></td>'
-            f'<td onclick="{take}" class="rx-take rx-num">{units.watts(item.power)}'
+            f'<td {take} class="rx-take rx-num">{units.watts(item.power)}'
             f'<div class="rx-dim rx-small">{change}</div></td>'
-            f'<td class="rx-num"><a onclick="{drop}" class="rx-take rx-dim" title="Forget it">✕</a></td></tr>'
+            f'<td class="rx-num"><a {drop} class="rx-take rx-dim" title="Forget it">✕</a></td></tr>'
         )
     return f'<table class="rx-kept-table" data-explorer="kept">{"".join(rows)}</table>'
 

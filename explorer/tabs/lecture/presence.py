@@ -9,7 +9,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from explorer.hosting import viser_compat
+from explorer.hosting import browser
 from explorer.interface import SessionState, TabContext
 from explorer.sharing.address import Address
 from explorer.sharing.presentation import (
@@ -84,10 +84,10 @@ class Presence:
             self.leave()
         if not self._secret:
             self._secret = new_secret()
-            viser_compat.keep_in_page(self._client, PRESENT, self._secret)
+            browser.keep(self._client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
-        viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
+        browser.copy_link(self._client, self._link)
         if self._context is not None:
             self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
 
@@ -96,7 +96,7 @@ class Presence:
         if self._secret:
             self._presentations.end(self._secret)
             self._secret = ""
-            viser_compat.keep_in_page(self._client, PRESENT, "")
+            browser.keep(self._client, PRESENT, "")
             self._say("")
 
     def leave(self) -> None:

@@ -1,7 +1,12 @@
-"""The lecture: steps that set the page, say what to watch, and state what is seen in numbers; flights to begin from."""
+"""The lecture: steps that set the page and state what is seen in numbers; flights to begin from.
 
+What to watch and what to try at a step is in its file in the folder `text`.
+"""
+
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from explorer.interface import SessionState
 from explorer.state import INPUT_NAMES, LAWS, Inputs, ViewState, preset_inflow
@@ -38,6 +43,22 @@ class LargeNumber:
     value: str
     """With its unit, on one line."""
     caption: str
+
+
+_TEXT = Path(__file__).parent / "text"
+
+
+def step_text(name: str) -> tuple[str, str, str]:
+    """Title, what to watch, and what to try at a step: from its Markdown file.
+
+    ValueError for a file that is not laid out as `# title`, a text, `## Try` and a text.
+    """
+    text = (_TEXT / f"{name}.md").read_text(encoding="utf-8")
+    found = re.fullmatch(r"# ([^\n]+)\n\n([^#]+)\n\n## Try\n\n([^#]+)\n", text)
+    if found is None:
+        raise ValueError(f"{name}.md is no step of the lecture: write '# title', a text, '## Try' and a text")
+    title, watch, do = (" ".join(part.split()) for part in found.groups())
+    return title, watch, do
 
 
 @dataclass(frozen=True)
@@ -194,23 +215,13 @@ _UH60A = Inputs(law="builtin")
 
 STEPS: tuple[LectureStep, ...] = (
     LectureStep(
-        "A rotor in trim",
-        "Every picture shows a rotor in trim: it carries the weight and overcomes the drag, and cyclic pitch removes "
-        "the first harmonic of flapping, so that the disk stays square to the shaft. Main-rotor power has three parts: "
-        "induced (making lift), profile (blade drag) and parasite (fuselage drag). The tail rotor needs some more. The "
-        "sliders set jig twist, as built; airloads twist the blade further, and it is drawn as flown.",
-        "Drag the advance ratio from 0 to 0.3: induced power falls to about a third, parasite power grows with "
-        "the cube of speed, and the total has a minimum.",
+        *step_text("trim"),
         _UH60A,
         _shares,
         _total_and_parts,
     ),
     LectureStep(
-        "Why twist helps in hover",
-        "Without twist (A) the inflow in hover grows towards the tip. Twist moves lift inboard and makes the inflow "
-        "more uniform: the same thrust for less induced power. In flight airloads turn the tip 2 to 3° nose-down, so "
-        "the best jig twist is −16° where that of a rigid blade is −18°.",
-        "Drag Rate from −16° towards −24°: the gain ends where the inflow becomes non-uniform the other way.",
+        *step_text("hover_twist"),
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
         _induced,
         _induced_numbers,
@@ -218,10 +229,7 @@ STEPS: tuple[LectureStep, ...] = (
         difference=True,
     ),
     LectureStep(
-        "Why linear inflow cannot show it",
-        "A linear inflow model depends on thrust and speed, not on where on the disk the lift is. Twist then changes "
-        "profile power only. Induced power, a third of the power at this speed, stays the same.",
-        "Drag Rate to any value and watch the induced power. Then go to the next step.",
+        *step_text("linear_inflow"),
         replace(_LINEAR, linear=-12.0, inflow="pitt-peters"),
         _both,
         _change_numbers,
@@ -229,10 +237,7 @@ STEPS: tuple[LectureStep, ...] = (
         difference=True,
     ),
     LectureStep(
-        "A wake that responds to loading",
-        "The same two blades with a wake that follows the load distribution over the disk and in time. Now induced "
-        "power changes too, and it is most of what twist saves in forward flight.",
-        "Drag Rate again, or compare Drees and Coleman in the Inflow menu.",
+        *step_text("responding_wake"),
         replace(_LINEAR, linear=-12.0),
         _both,
         _change_numbers,
@@ -240,11 +245,7 @@ STEPS: tuple[LectureStep, ...] = (
         difference=True,
     ),
     LectureStep(
-        "What reverse flow costs",
-        "Inside the outline the air meets the retreating blade from behind. There it even drives the blade, but its "
-        "drag pushes the rotor back and its lift points down: the rest of the disk pays for both. A is computed "
-        "without reverse flow.",
-        "Open the probe and move r through the outline at ψ = 270°. Drag the advance ratio: the circle is µR wide.",
+        *step_text("reverse_flow"),
         replace(_UH60A, advance_ratio=0.37),
         _reverse,
         _reverse_numbers,
@@ -252,10 +253,7 @@ STEPS: tuple[LectureStep, ...] = (
         field="Power dP/dr",
     ),
     LectureStep(
-        "What two segments add",
-        "A is the best linear jig twist at this speed, B the best of two linear segments. The optimum is so flat "
-        "that degrees of twist change power by tenths of a per cent: compare powers, never angles.",
-        "Move the break point and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
+        *step_text("two_segments"),
         replace(Inputs(), law="two", two_inner=-4.0, two_outer=-15.6, two_division=0.7, advance_ratio=0.3),
         _per_cent,
         _saving_numbers,
@@ -263,10 +261,7 @@ STEPS: tuple[LectureStep, ...] = (
         field="Thrust dT/dr",
     ),
     LectureStep(
-        "What a piezoelectric ply can twist",
-        "Plies of piezoelectric fibres at ±45° twist the blade when voltage strains them. The verdict compares the "
-        "twist they can supply with the twist needed, and gives the saving left after their mass is carried.",
-        "Drag Voltage and watch the blade. Add plies: twist grows, and so does mass. Then read the verdict.",
+        *step_text("piezoelectric_ply"),
         replace(_UH60A, advance_ratio=0.3),
         _actuator,
         _actuator_numbers,

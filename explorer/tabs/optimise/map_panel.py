@@ -11,7 +11,6 @@ import viser
 from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
-from explorer.charts.svg import write_to
 from explorer.interface import TabContext
 from explorer.picture.fields import tick_text, ticks
 from explorer.picture.png import encode_png
@@ -121,7 +120,7 @@ def drawing(drawn: Map, here: tuple[float, float] | None, exact: bool) -> str:
     return (
         f'<svg viewBox="0 0 300 222" width="100%" class="rx-map" data-explorer="map">'
         f'<image x="{_LEFT}" y="{_TOP}" width="{_W}" height="{_H}" preserveAspectRatio="none" '
-        f'href="data:image/png;base64,{data}" style="cursor:crosshair" onclick="{_script(x, y)}"/>'
+        f'href="data:image/png;base64,{data}" {_clicks(x, y)}/>'
         f'<rect x="{_LEFT}" y="{_TOP}" width="{_W}" height="{_H}" fill="none" stroke="currentColor" opacity=".4"/>'
         f"{_axis(x, True)}{_axis(y, False)}{''.join(marks)}</svg>"
     )
@@ -152,12 +151,10 @@ def _axis(parameter: Parameter, along: bool) -> str:
     return f'<g font-size="10.5" fill="currentColor">{"".join(out)}</g>'
 
 
-def _script(x: Parameter, y: Parameter) -> str:
-    """JavaScript of a click: write the point to the text field, as if it had been typed."""
-    (x0, x1), (y0, y1) = ((p.shown(p.low), p.shown(p.high)) for p in (x, y))
-    across = f"({x0:.6g}+({x1 - x0:.6g})*(event.clientX-b.left)/b.width).toFixed({_digits(x)})"
-    up = f"({y1:.6g}-({y1 - y0:.6g})*(event.clientY-b.top)/b.height).toFixed({_digits(y)})"
-    return "const b=this.getBoundingClientRect();" + write_to(FIELD, f"{across}+' '+{up}")
+def _clicks(x: Parameter, y: Parameter) -> str:
+    """Attributes for `explorer/web/page.js`: a click writes its place into the text field, as if it had been typed."""
+    across, up = (f"{p.shown(p.low):.6g} {p.shown(p.high):.6g} {_digits(p)}" for p in (x, y))
+    return f'data-write="{FIELD}" data-x="{across}" data-y="{up}"'
 
 
 def least_text(drawn: Map) -> str:

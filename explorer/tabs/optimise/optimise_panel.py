@@ -178,11 +178,6 @@ class OptimisePanel:
         """The starts of the search; None where there is none."""
         return None if self._run is None or not any(self._run.traces) else starts_of(self._run)
 
-    @property
-    def offered(self) -> bool:
-        """Whether designs of a search are on offer."""
-        return self._offered and self._run is not None
-
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""
         run = self._run

@@ -184,8 +184,6 @@ class FlownLeg:
     """Power with the best twist of this leg [W]."""
     starting: float
     """Power of the blade that the schedule began from [W]."""
-    fixed: float | None
-    """Power of the best fixed blade [W]; None while that is not known."""
 
 
 @dataclass(frozen=True)
@@ -200,8 +198,6 @@ class FlightInstant:
     """Power with the twist of the instant [W]."""
     starting: float
     """Power of the starting design [W]."""
-    fixed: float | None
-    """Power of the best fixed blade [W]."""
     leg: int
     """The leg flown, or the one just left."""
     between: bool
@@ -210,8 +206,6 @@ class FlightInstant:
     """Flown so far."""
     saved: float
     """Energy saved so far against the starting design [J]."""
-    saved_over_fixed: float | None
-    """The same against the best fixed blade [J]."""
 
     @property
     def saving(self) -> float:
@@ -266,10 +260,6 @@ class ScheduleFlight:
             weight = eased((time - self._departures[k]) / (self._arrivals[k + 1] - self._departures[k]))
         twist = twist_between(leg.twist, following.twist, weight)
 
-        def powers(read: Callable[[FlownLeg], float | None]) -> float | None:
-            before, after = read(leg), read(following)
-            return None if before is None or after is None else blend(before, after, weight)
-
         root = self._plan.design.rotor.blade.root_cutout
         ends = twist(np.array([root, 1.0]))
         return FlightInstant(
@@ -278,12 +268,10 @@ class ScheduleFlight:
             root_to_tip_deg=math.degrees(float(ends[1] - ends[0])),
             moving=blend(leg.moving, following.moving, weight),
             starting=blend(leg.starting, following.starting, weight),
-            fixed=powers(lambda one: one.fixed),
             leg=k,
             between=between,
-            hours=self._so_far(k, flown, lambda one: 1.0) or 0.0,
-            saved=3600.0 * (self._so_far(k, flown, lambda one: one.starting - one.moving) or 0.0),
-            saved_over_fixed=_times(3600.0, self._so_far(k, flown, _over_fixed)),
+            hours=self._so_far(k, flown, lambda _: 1.0),
+            saved=3600.0 * self._so_far(k, flown, lambda one: one.starting - one.moving),
         )
 
     def design(self, instant: FlightInstant) -> Design:
@@ -293,23 +281,13 @@ class ScheduleFlight:
         condition = replace(plan.conditions[leg].flight, advance_ratio=instant.advance_ratio)
         return replace(plan.design, twist=instant.twist, condition=condition)
 
-    def sequence(self, frames_per_second: float = 10.0) -> list[FlightInstant]:
-        """All instants of the playback, the first and the last included."""
-        count = max(round(self.seconds * frames_per_second), 1)
-        return [self.at(self.seconds * k / count) for k in range(count + 1)]
-
     def _distance(self, leg: int, instant: FlightInstant) -> float:
         return abs(self._plan.conditions[leg].flight.advance_ratio - instant.advance_ratio)
 
-    def _so_far(self, leg: int, part: float, read: Callable[[FlownLeg], float | None]) -> float | None:
-        """Sum of hours × something over the legs before, and over `part` of this one; None where it is not known."""
-        total = 0.0
-        for k in range(leg + 1):
-            value = read(self.legs[k])
-            if value is None:
-                return None
-            total += (part if k == leg else 1.0) * self.legs[k].hours * value
-        return total
+    def _so_far(self, leg: int, part: float, read: Callable[[FlownLeg], float]) -> float:
+        """Sum of hours × something over the legs before, and over `part` of this one."""
+        before = sum(one.hours * read(one) for one in self.legs[:leg])
+        return before + part * self.legs[leg].hours * read(self.legs[leg])
 
 
 def flown_legs(progress: PlanProgress) -> tuple[FlownLeg, ...]:
@@ -326,7 +304,6 @@ def flown_legs(progress: PlanProgress) -> tuple[FlownLeg, ...]:
                 twist=optimum.design.twist,
                 moving=optimum.best.power,
                 starting=optimum.baseline_power,
-                fixed=progress.fixed_power(k),
             )
         )
     return tuple(sorted(legs, key=lambda one: one.advance_ratio))
@@ -359,14 +336,6 @@ def twist_between(before: TwistLaw, after: TwistLaw, weight: float) -> TwistLaw:
         case _:
             angles = (1.0 - weight) * before(_STATIONS) + weight * after(_STATIONS)
             return TableTwist(tuple(_STATIONS.tolist()), tuple(angles.tolist()), "between two legs")
-
-
-def _over_fixed(leg: FlownLeg) -> float | None:
-    return None if leg.fixed is None else leg.fixed - leg.moving
-
-
-def _times(factor: float, value: float | None) -> float | None:
-    return None if value is None else factor * value
 
 
 def _energy(joules: float, units: Units) -> str:

@@ -13,7 +13,7 @@ from explorer.tabs.probe.element import Blend, FlowRegion, Probe
 from explorer.tabs.probe.section_data import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.text.units import number
+from explorer.text.units import degrees, number
 from explorer.theme.colours import NOW, THIS
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
@@ -168,9 +168,9 @@ def _angles(sketch: _Sketch) -> str:
     places = _in_column(sketch) if small else _around(sketch)
     anchors = ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
     words = (
-        (f"θ {_degrees(probe.theta)}", "currentColor", ""),
-        (f"φ {_degrees(probe.phi)}", "currentColor", ""),
-        (f"α {_degrees(probe.alpha)}", ALPHA, _BOLD),
+        (f"θ {degrees(probe.theta, 1)}", "currentColor", ""),
+        (f"φ {degrees(probe.phi, 1)}", "currentColor", ""),
+        (f"α {degrees(probe.alpha, 1)}", ALPHA, _BOLD),
         ("disk plane", "currentColor", _FAINT),
     )
     return wind + arcs + "".join(
@@ -213,10 +213,6 @@ def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> str:
     )
 
 
-def _degrees(angle: float) -> str:
-    return f"{number(math.degrees(angle), 1)}°"
-
-
 _CHIPS = {
     FlowRegion.IDLE: "back",
     FlowRegion.ATTACHED: "good",
@@ -256,7 +252,7 @@ def _head(probe: Probe) -> str:
     chip = f"rx-push rx-chip rx-chip-{_CHIPS[probe.region]}"
     return (
         f'<div class="rx-line rx-base"><span class="rx-best" data-explorer="probe-alpha"{alpha}>'
-        f"α {_deg(probe.alpha, 1)}</span>"
+        f"α {degrees(probe.alpha, 1)}</span>"
         f'<span class="rx-dim" data-explorer="probe-place">{where(probe.psi)}</span>'
         f'<span class="{chip}" data-explorer="probe-region"{region}>{probe.region.value}</span></div>'
     )
@@ -287,18 +283,18 @@ def _table(probe: Probe) -> str:
         ("probe_cl", "C<sub>l</sub>", number(probe.cl, 3)),
         ("probe_induced", "Induced v<sub>i</sub>", f"{number(probe.induced, 1)} m/s"),
         ("probe_cd", "C<sub>d</sub>", number(probe.cd, 4)),
-        ("probe_theta", "Pitch θ", _deg(probe.theta)),
+        ("probe_theta", "Pitch θ", degrees(probe.theta)),
         ("probe_ratio", "C<sub>l</sub>/C<sub>d</sub>", number(efficiency, 1)),
-        ("probe_phi", "Inflow φ", _deg(probe.phi)),
+        ("probe_phi", "Inflow φ", degrees(probe.phi)),
         ("probe_m2cn", "M²c<sub>n</sub>", number(probe.m2cn, 3)),
         ("probe_moment", "Pitching moment", "–" if probe.moment is None else f"{number(probe.moment)} N m/m"),
         ("probe_cm", "C<sub>m</sub>", "–" if probe.cm is None else number(probe.cm, 3)),
-        ("probe_margin", "Stall margin", "–" if margin is None else _deg(margin, 1)),
+        ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
         ("probe_drag", "Drag", f"{number(probe.drag)} N/m"),
         ("probe_thrust", "Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
         ("probe_torque", "Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
-        ("probe_jig", "Jig twist", _deg(probe.jig)),
-        ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else _deg(probe.elastic)),
+        ("probe_jig", "Jig twist", degrees(probe.jig)),
+        ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
         ("probe_section", "Section", escape(sections_of(probe.section))),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
@@ -307,7 +303,3 @@ def _table(probe: Probe) -> str:
         for key, name, value in entries
     )
     return f'<div class="rx-grid">{cells}</div>'
-
-
-def _deg(angle: float, digits: int = 2) -> str:
-    return f"{number(math.degrees(angle), digits)}°"

@@ -2,7 +2,6 @@
 
 import json
 import logging
-import math
 import os
 import threading
 from collections.abc import Callable
@@ -16,8 +15,7 @@ from typing import Any
 
 import viser
 
-from explorer.charts.svg import charts_write_to
-from explorer.hosting import viser_compat
+from explorer.hosting.browser import call
 from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.state import inputs_of
@@ -114,10 +112,6 @@ def point_line(results: Results, row: int | None, heading: str) -> str:
     cells = "".join(_line(results, name, row) for name in names)
     head = f"<b>{escape(heading)}: point {results.columns['point'][row]:.0f}</b>"
     return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
-
-
-def _blank(results: Results, name: str, row: int) -> bool:
-    return results.numeric(name) and not math.isfinite(results.columns[name][row])
 
 
 def problem_line(sentence: str) -> str:
@@ -319,7 +313,7 @@ class StudiesPanel:
                     aspect=0.92,
                     config=_CONFIG,
                 )
-            viser_compat.run_in_page(self._client, charts_write_to(FIELD))
+            call(self._client, "RX.takePoints", FIELD)
         return self._chart
 
     def _take(self) -> None:

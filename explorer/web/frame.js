@@ -1,9 +1,5 @@
 // The frame: takes parts of the page's state from Python, draws what has changed, and reports what is pressed.
 (() => {
-  // In a narrow window viser's client would leave its docks for a sheet of its own; ours are drawers by style sheet.
-  const media = window.matchMedia.bind(window);
-  window.matchMedia = query => media(/max-width:\s*36em/.test(query) ? 'not all' : query);
-
   const ICONS = {
     undo: 'M4 9h10a6 6 0 0 1 0 12h-3M4 9l5-5M4 9l5 5', redo: 'M20 9H10a6 6 0 0 0 0 12h3M20 9l-5-5M20 9l-5 5',
     pin: 'M12 16v6M8 3h8l-1 7 3 5H6l3-5z', share: 'M12 15V3M7 8l5-5 5 5M5 13v7h14v-7', play: 'M7 4l13 8-13 8z', pause: 'M8 5v14M16 5v14',
@@ -33,7 +29,7 @@
       });
     },
     // From Python: the text widget that takes our messages; later, parts of the state.
-    begin(uuid) { bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); },
+    begin(uuid) { bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); page.removeAttribute('data-big'); },
     set(parts) { for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); } },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
     send(name, value = null) {
@@ -232,13 +228,13 @@
     const count = Math.floor(reach / now.times), ticks = Array.from({length: 2 * count + 1}, (_, k) => ray(now.from + (k - count) * now.times, 1, (k - count) % 5 ? 1.05 : 1.1)).join('');
     const line = (d, colour, width, more = '') => `<path d="${d}" fill="none" stroke="var(--rx-paper)" stroke-width="${width + 3}" opacity=".7"/><path d="${d}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linecap="round" ${more}/>`;
     const best = now.best === null ? '' : line(ray(now.best, .9, 1.12), 'var(--rx-good)', now.held ? 5 : 3);
-    const [x, y] = pixel(now.to, 1.24), [bx, by] = now.best === null ? [0, 0] : pixel(now.best, 1.24);
+    const [hx, hy] = pixel(now.to, 1.24), [bx, by] = now.best === null ? [0, 0] : pixel(now.best, 1.24);
     const words = (left, top, content, colour) => `<text x="${left}" y="${top}" text-anchor="middle" style="fill:${colour};font-size:13px;font-weight:650;paint-order:stroke;stroke:var(--rx-paper);stroke-width:4px">${RX.text(content)}</text>`;
-    const apart = now.best !== null && Math.hypot(x - bx, y - by) > 34;
+    const apart = now.best !== null && Math.hypot(hx - bx, hy - by) > 34;
     const html = line(path(now.from - reach, now.from + reach), 'var(--rx-faint)', 1.5, 'stroke-dasharray="1 5"')
       + line(ticks, 'var(--rx-faint)', 1.2) + line(ray(now.from, .2, 1.04), 'var(--rx-ghost)', 1.6)
       + line(path(now.from, now.to), 'var(--rx-blade)', 4) + line(ray(now.to, .2, 1.04), 'var(--rx-blade)', 2) + best
-      + words(x, y, now.words, 'var(--rx-blade)') + (now.held ? words(x, +y + 15, 'least power', 'var(--rx-good)') : apart ? words(bx, by, 'best', 'var(--rx-good)') : '');
+      + words(hx, hy, now.words, 'var(--rx-blade)') + (now.held ? words(hx, +hy + 15, 'least power', 'var(--rx-good)') : apart ? words(bx, by, 'best', 'var(--rx-good)') : '');
     if (html !== drawn) place.innerHTML = drawn = html;
   }
 

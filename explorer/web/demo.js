@@ -1,39 +1,4 @@
-<style>
-#demo { position: fixed; right: 16px; top: 16px; width: 330px; max-height: calc(100vh - 32px); overflow: auto; box-sizing: border-box;
-  padding: 14px 18px; border-radius: 10px; background: #fffffff0; color: #1f2429; box-shadow: 0 2px 16px #0003; z-index: 10;
-  font: 14px/1.45 system-ui, -apple-system, "Segoe UI", sans-serif; }
-#demo h1 { font-size: 16px; margin: 0 0 8px; }
-#demo label { display: flex; justify-content: space-between; margin-top: 8px; }
-#demo input { width: 100%; margin: 2px 0; accent-color: #1c7ed6; }
-#demo button { font: inherit; padding: 3px 14px; border: 1px solid #ced4da; border-radius: 6px; background: #f6f7f9; color: inherit; cursor: pointer; }
-#demo .big { display: flex; align-items: baseline; gap: 10px; margin-top: 10px; }
-#demo .big b { white-space: nowrap; font-size: 27px; font-variant-numeric: tabular-nums; }
-#demo .bar { display: flex; height: 10px; border-radius: 2px; overflow: hidden; background: #edeff2; }
-#demo .parts { display: grid; grid-template-columns: 1fr 1fr; gap: 0 14px; font-size: 12.5px; margin: 6px 0; }
-#demo .parts span { display: flex; justify-content: space-between; }
-#demo .parts i { width: 9px; height: 9px; border-radius: 2px; margin: 5px 6px 0 0; }
-#demo .parts em { flex: 1; font-style: normal; color: #5c656e; }
-#demo svg { display: block; width: 100%; overflow: visible; margin-top: 8px; }
-#demo svg text { font-size: 10.5px; fill: #5c656e; }
-#demo .dim { color: #5c656e; font-size: 12px; margin: 8px 0 0; }
-#demo [role=status] { min-height: 1.45em; font-size: 13px; margin: 6px 0 0; }
-@media (max-width: 700px) { #demo { left: 8px; right: 8px; top: auto; bottom: 8px; width: auto; max-height: 55vh; } }
-</style>
-<section id="demo" aria-label="Twist and speed">
-  <h1>{{title}}</h1>
-  <label for="demo-twist">{{label}} <b></b></label><input id="demo-twist" type="range" min="0" step="1">
-  <label for="demo-speed">Speed <b></b></label><input id="demo-speed" type="range" min="0" step="1">
-  <div class="big"><b id="demo-total"></b><span id="demo-change"></span></div>
-  <div class="bar"></div><div class="parts"></div>
-  <p role="status"></p>
-  <button id="demo-play" type="button" aria-pressed="false">Play</button>
-  <svg id="demo-over-twist" viewBox="0 0 300 104" role="img" aria-label="Power over twist at this speed"></svg>
-  <svg id="demo-over-speed" viewBox="0 0 300 104" role="img" aria-label="Power over speed with this twist"></svg>
-  <p class="dim"></p>
-</section>
-<script id="demo-data" type="application/json">{{data}}</script>
-<script>{{scene}}</script>
-<script>
+// The stand-alone demo: sliders through a computed sweep of twist and speed.
 (() => {
   const data = JSON.parse(document.getElementById('demo-data').textContent), $ = id => document.getElementById(`demo-${id}`);
   const box = document.getElementById('demo'), twist = $('twist'), speed = $('speed'), status = box.querySelector('[role=status]');
@@ -195,4 +160,3 @@
   box.querySelector('.dim').textContent = data.note;
   begin();
 })();
-</script>

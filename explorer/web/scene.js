@@ -1,6 +1,5 @@
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
-  if (window.rotorScene) return;
   const viewer = () => window.__viserMutable;
   let surfaces = {}, tied = [], motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
@@ -64,19 +63,19 @@
       if (data?.array?.length !== 6 * motion.blades * (points - 1)) return;
       let k = 0;
       for (let blade = 0; blade < motion.blades; blade++) {
-        let before = null;
+        let previous = null;
         for (let j = 0; j < points; j++) {
           const age = end * j / (points - 1), left = at + 2 * Math.PI * blade / motion.blades - age;
           const i = Math.min(Math.floor(last * age / end), last - 1), u = last * age / end - i;
-          const place = left / (2 * Math.PI) * sink.length, column = Math.floor(place), v = place - column;
+          const turn = left / (2 * Math.PI) * sink.length, column = Math.floor(turn), v = turn - column;
           const of = n => { const row = sink[((n % sink.length) + sink.length) % sink.length]; return (1 - u) * row[i] + u * row[i + 1]; };
           const r = (1 - u) * radius[i] + u * radius[i + 1], depth = (1 - v) * of(column) + v * of(column + 1);
           const here = [
             motion.radius * (r * Math.cos(left) + along * age), motion.radius * r * Math.sin(left),
             (motion.radius - motion.hinge) * harmonic(motion.flap, left) - motion.radius * depth,
           ];
-          if (before) { data.array.set(before, k); data.array.set(here, k + 3); k += 6; }
-          before = here;
+          if (previous) { data.array.set(previous, k); data.array.set(here, k + 3); k += 6; }
+          previous = here;
         }
       }
       data.needsUpdate = true;

@@ -1,0 +1,55 @@
+// The veil goes when the page has an answer and its layout is at rest, and comes back when the server returns.
+(() => {
+  const SLOW = 6000, ENOUGH = 25000, BRIEF = 1200;  // [ms]
+  const page = document.documentElement, veil = document.getElementById('rx-veil'), words = veil.querySelector('p');
+  const asked = new URLSearchParams(location.search).has('darkMode');
+  const sign = '[data-explorer=status], [data-explorer=lobby]';
+  let begun = 0, calm = 0, last = '', down = false;
+
+  function lay() {
+    begun = performance.now(); calm = 0; last = '';
+    veil.classList.toggle('rx-dark', page.dataset.mantineColorScheme === 'dark' || asked
+      || (!page.dataset.mantineColorScheme && matchMedia('(prefers-color-scheme: dark)').matches));
+    veil.classList.remove('rx-lifting');
+    veil.style.display = '';
+    page.classList.add('rx-veiled');
+    requestAnimationFrame(look);
+  }
+
+  // At rest: there is an answer, and the picture has kept its place for some frames.
+  function look() {
+    const canvas = document.querySelector(sign) && document.querySelector('canvas');
+    const place = canvas ? JSON.stringify(canvas.getBoundingClientRect()) : '';
+    calm = place && place === last ? calm + 1 : 0;
+    last = place;
+    const took = performance.now() - begun;
+    if (calm >= 3 || took > ENOUGH) return lift();
+    if (took > SLOW) words.textContent = 'This takes longer than it should: the server is busy, or cannot be reached. '
+      + 'The page goes on trying.';
+    requestAnimationFrame(look);
+  }
+
+  function lift() {
+    page.classList.remove('rx-veiled');
+    veil.classList.add('rx-lifting');
+    setTimeout(() => { if (veil.classList.contains('rx-lifting')) veil.style.display = 'none'; }, 200);
+  }
+
+  function say(gone) {
+    const before = document.getElementById('rx-gone');
+    if (!gone || before) { if (!gone && before) before.remove(); return; }
+    const note = document.createElement('div');
+    note.id = 'rx-gone';
+    note.setAttribute('role', 'alert');
+    note.textContent = 'Connection lost; retrying. The address of this page holds your design.';
+    document.body.append(note);
+  }
+
+  window.addEventListener('rx-connection', ({detail: open}) => {
+    const was = down;
+    down = !open;
+    if (down && !was) setTimeout(() => say(down), BRIEF);
+    if (open) { say(false); if (was) lay(); }
+  });
+  lay();
+})();

@@ -1,0 +1,89 @@
+// What the server asks of the page by name, and the fields that clicks write to.
+(() => {
+  const KEPT = 'rx-kept', page = document.documentElement;
+  const kept = () => JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
+  const answer = (key, text) => localStorage.setItem(`viser-user:${key}`, text);  // Where the server reads it.
+  let asked = false;
+
+  // As if typed, into a text widget of viser's that hears of it.
+  function type(label, text) {
+    const input = label?.closest('[class*=Flex-root]').querySelector('input');
+    if (!input) return;
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(input, text);
+    input.dispatchEvent(new Event('input', {bubbles: true}));
+  }
+  const labels = (within, field) => [...within.querySelectorAll('label')].find(one => one.textContent === field);
+
+  // A click on `data-write="FIELD"` writes `data-value`, or its place on `data-x` and `data-y`, each "from to digits",
+  // into the nearest field of that name.
+  document.addEventListener('click', event => {
+    const near = event.target instanceof Element && event.target.closest('[data-write]');
+    if (!near) return;
+    const {write, value, x, y} = near.dataset, box = near.getBoundingClientRect();
+    const place = (range, share) => {
+      const [from, to, digits] = range.split(' ').map(Number);
+      return (from + (to - from) * share).toFixed(digits);
+    };
+    const text = value ?? `${place(x, (event.clientX - box.left) / box.width)} ${place(y, 1 - (event.clientY - box.top) / box.height)}`;
+    let within = near, label = null;
+    while (within && !(label = labels(within, write))) within = within.parentElement;
+    type(label, text);
+  });
+
+  Object.assign(RX, {
+    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep. A page that
+    // was open before, and whose server has come back, stays as it was.
+    facts(key) {
+      const wished = matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode');
+      const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;
+      asked = true;
+      answer(key, JSON.stringify({dark, query: location.search, kept: kept()}));
+    },
+    // A text too long for the browser's store (some megabytes) is not kept, nor what stood there before.
+    keep(name, text) {
+      try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); } catch { sessionStorage.removeItem(KEPT); }
+    },
+    address(query) { history.replaceState(null, '', location.pathname + query); },
+    copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
+    copyLink(query) { RX.copy(location.origin + location.pathname + query); },
+    // Clicks on points of Plotly's charts write their `customdata` into the field of that name, wherever it is.
+    takePoints(field) {
+      window.hearCharts(point => { if (point.customdata !== undefined) type(labels(document, field), String(point.customdata)); });
+    },
+    // HTML over the page until Escape or a click beside it; a second time closes it.
+    dialog(content) {
+      const before = document.querySelector('dialog.rx-dialog');
+      if (before) { before.close(); return; }
+      const dialog = document.createElement('dialog');
+      dialog.className = 'rx-dialog';
+      dialog.innerHTML = content;
+      dialog.addEventListener('close', () => dialog.remove());
+      dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
+      document.body.append(dialog);
+      dialog.showModal();
+    },
+    // Saves an SVG as a PNG of so many pixels, and says under `key` how many bytes it has, or why there is none.
+    async save(drawing, width, height, name, key) {
+      try {
+        const address = URL.createObjectURL(new Blob([drawing], {type: 'image/svg+xml;charset=utf-8'}));
+        const image = new Image();
+        image.src = address;
+        await image.decode();
+        const canvas = Object.assign(document.createElement('canvas'), {width, height});
+        canvas.getContext('2d').drawImage(image, 0, 0, width, height);
+        URL.revokeObjectURL(address);
+        const pixels = await new Promise(done => canvas.toBlob(done, 'image/png'));
+        if (!pixels) throw new Error('no memory for so many pixels');
+        const link = document.createElement('a');
+        link.href = URL.createObjectURL(pixels);
+        link.download = name;
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+        answer(key, String(pixels.size));
+      } catch (error) {
+        answer(key, `failed: ${error.message}`);
+      }
+    },
+  });
+  RX.paint('big', big => page.toggleAttribute('data-big', big));
+})();

@@ -1,0 +1,95 @@
+"""What `explorer/web/viser.js` changes in viser's client; when one of these fails, the pin may not move."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import WAIT, Watched, opened
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def watched(browser: "Browser", app: App) -> Iterator[Watched]:
+    watched = opened(browser, app.address, size=(1500, 940))
+    yield watched
+    assert watched.complaints == []
+    watched.close()
+
+
+def test_the_docks_stay_in_a_narrow_window(watched: Watched):
+    """The client asks for 36em, and gets no for an answer at any width; other questions are answered."""
+    watched.page.set_viewport_size({"width": 420, "height": 800})
+    assert watched.page.evaluate("matchMedia('(max-width: 36em)').matches") is False
+    assert watched.page.evaluate("matchMedia('(max-width: 700px)').matches") is True
+    assert watched.page.locator("[data-dock-region=right]").count() == 1
+    watched.page.set_viewport_size({"width": 1500, "height": 940})
+
+
+def test_the_client_says_when_it_can_send(watched: Watched):
+    """It replaces `sendMessage` by a function that says "not connected" while it is not."""
+    heard = """() => {
+        const client = window.__viserMutable, send = client.sendMessage, heard = [];
+        const hear = event => heard.push(event.detail);
+        addEventListener('rx-connection', hear);
+        client.sendMessage = () => console.debug('not connected');
+        client.sendMessage = send;
+        removeEventListener('rx-connection', hear);
+        return heard;
+    }"""
+    assert watched.page.evaluate(heard) == [False, True]
+    watched.page.wait_for_function("() => !document.querySelector('#rx-gone')", timeout=WAIT)
+    watched.ready()
+
+
+def test_a_chart_that_is_drawn_anew_draws_its_axes(watched: Watched):
+    """The client lists a chart when it has made it; from then on each drawing is one with the axes."""
+    drawn = """() => {
+        const asked = [], chart = {redraw: (paths, axes) => asked.push([paths, axes])};
+        window.__viserTestpoints.uplots.of_a_test = {chart};
+        chart.redraw(false);
+        chart.redraw();
+        delete window.__viserTestpoints.uplots.of_a_test;
+        return asked;
+    }"""
+    assert watched.page.evaluate(drawn) == [[False, True], [None, True]]
+    watched.mode("actuate")
+    watched.page.locator(".uplot").first.wait_for(state="attached", timeout=WAIT)
+    assert watched.page.evaluate("() => Object.keys(window.__viserTestpoints.uplots).length") > 0
+    watched.mode("explore")
+
+
+def test_a_page_that_is_seen_has_the_focus(watched: Watched):
+    """Only such a page tries to connect again."""
+    assert watched.page.evaluate("document.hasFocus() && document.visibilityState === 'visible'")
+    heard = """() => new Promise(done => {
+        addEventListener('focus', () => done(true), {once: true});
+        document.dispatchEvent(new Event('visibilitychange'));
+    })"""
+    assert watched.page.evaluate(heard)
+
+
+def test_clicks_on_plotlys_points_are_heard_after_each_drawing(watched: Watched):
+    """Plotly drops its listeners when it draws: `test_studies.py` has a real click, this one the second drawing."""
+    heard = """async () => {
+        const listeners = {}, points = [];
+        const drop = name => { delete listeners[name]; };
+        const node = {on: (name, act) => { listeners[name] = act; }, removeAllListeners: drop};
+        window.Plotly = {react: () => { Object.keys(listeners).forEach(drop); return Promise.resolve(); }};
+        window.hearCharts(point => points.push(point.customdata));
+        window.hearCharts(() => points.push('twice'));
+        for (const k of [1, 2]) {
+            await window.Plotly.react(node);
+            await new Promise(done => setTimeout(done));
+            listeners.plotly_click({points: [{customdata: k}]});
+            listeners.plotly_click({points: []});
+        }
+        delete window.Plotly;
+        return points;
+    }"""
+    assert watched.page.evaluate(heard) == [1, 2]

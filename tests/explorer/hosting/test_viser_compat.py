@@ -1,0 +1,178 @@
+"""Each change to viser and websockets, for the versions it is for; when one fails, the pin may not move.
+
+Elsewhere, with a server behind them: the filter of requests, the tunnel and uploads in `test_request_filter.py`, values
+and quick callbacks in `test_values.py`; what is changed in the client, in `tests/browser/test_viser_client.py`.
+"""
+
+import asyncio
+import io
+import threading
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from importlib.metadata import version
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+import viser
+from PIL import Image
+from viser import _gui_api, _messages, _viser
+from viser._assignable_props_api import AssignablePropsBase
+from viser.infra import _infra
+from websockets import http11
+from websockets.streams import StreamReader
+
+from explorer.hosting import request_filter, viser_compat
+from explorer.hosting.viser_compat import ThreadedBuffer
+from explorer.picture import disk_image
+from explorer.picture.png import encode_png
+
+MESSAGES, THREADS = 300, 4
+
+
+async def send_and_count() -> int:
+    """How many messages arrive that threads have queued while the loop takes them out."""
+    buffer = ThreadedBuffer(asyncio.get_running_loop(), persistent_messages=False)
+    buffer.window_duration_sec = 0.0
+    arrived = 0
+
+    def queue(thread: int) -> None:
+        for k in range(MESSAGES):
+            buffer.push(_messages.RunJavascriptMessage(f"{thread}-{k}"))
+            buffer.flush()
+
+    async def take() -> None:
+        nonlocal arrived
+        async for window in buffer.window_generator(0):
+            arrived += sum(isinstance(one, _messages.RunJavascriptMessage) for one in window)
+            if arrived == THREADS * MESSAGES:
+                return
+
+    with ThreadPoolExecutor(THREADS) as threads:
+        queued = [asyncio.wrap_future(threads.submit(queue, k)) for k in range(THREADS)]
+        async with asyncio.timeout(90.0):
+            await asyncio.gather(take(), *queued)
+    buffer.set_done()
+    return arrived
+
+
+def test_all_messages_of_several_threads_arrive():
+    assert asyncio.run(send_and_count()) == MESSAGES * THREADS
+
+
+def test_a_thread_does_not_touch_what_waits_on_the_loop():
+    """asyncio's own event, set by another thread, walks through the waiting tasks while the loop changes them."""
+
+    async def wait() -> None:
+        buffer = ThreadedBuffer(asyncio.get_running_loop(), persistent_messages=False)
+        event = buffer.message_event
+        waiting = asyncio.ensure_future(event.wait())
+        await asyncio.sleep(0)
+        (waiter,) = event._waiters
+        thread = threading.Thread(target=event.set)
+        thread.start()
+        thread.join()
+        assert event.is_set()
+        assert not waiter.done()
+        event.set()
+        assert await asyncio.wait_for(waiting, 60.0)
+
+    asyncio.run(wait())
+
+
+def test_servers_use_it():
+    assert vars(_infra)["AsyncMessageBuffer"] is ThreadedBuffer
+
+
+def test_plain_values_are_assigned_as_they_are_and_arrays_cast(monkeypatch: pytest.MonkeyPatch):
+    """Without asking viser, which would compare types; an array still becomes one of the property's own type."""
+    handle = AssignablePropsBase.__new__(AssignablePropsBase)
+    made = handle._cast_value_recursive(npt.NDArray[np.float32], np.arange(3.0), "vertices")
+    assert made.dtype == np.float32
+    monkeypatch.setattr(viser_compat, "_cast", lambda *_: pytest.fail("asked viser"))
+    for value in ("text", True, 3, 0.5, None):
+        assert handle._cast_value_recursive(str, value, "content") is value
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = viser_compat.quiet_server("127.0.0.1", 0, "test")
+    yield server
+    viser_compat.quiet_stop(server)
+
+
+def test_an_encoded_png_is_assigned_as_it_is(server: viser.ViserServer):
+    handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
+    png = encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
+    viser_compat.set_png(handle, png)
+    assert handle._data == png
+    assert Image.open(io.BytesIO(png)).size == (4, 4)
+
+
+def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
+    """The same messages, and none for what stays."""
+    one, other = (server.scene.add_frame(name) for name in ("/one", "/other"))
+    queued: list[Any] = []
+    cast(Any, server._websock_server).queue_message = queued.append
+    turn, way = np.array([0.6, 0.0, 0.8, 0.0]), np.array([1.0, -2.0, 3.0])
+    one.wxyz, one.position = turn, way
+    viser_compat.place(other, turn, way)
+    theirs, ours = ([vars(message) for message in half] for half in (queued[:2], queued[2:]))
+    assert [{**fields, "name": ""} for fields in theirs] == [{**fields, "name": ""} for fields in ours]
+    assert list(map(type, queued[:2])) == list(map(type, queued[2:]))
+    assert np.array_equal(other.wxyz, turn)
+    assert np.array_equal(other.position, way)
+    viser_compat.place(other, turn.copy(), way.copy())
+    viser_compat.place(other, turn)
+    assert len(queued) == 4
+    way[0] = 9.0  # What was sent is nobody else's.
+    assert other.position[0] == 1.0
+
+
+def test_share_handlers_are_there_to_be_removed(server: viser.ViserServer):
+    assert server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
+    viser_compat.remove_share_tunnel(server)
+    assert not server._websock_server._incoming_handlers.get(_messages.ShareUrlRequest)
+
+
+def test_a_page_runs_what_it_is_sent(server: viser.ViserServer):
+    queued: list[Any] = []
+    client = SimpleNamespace(_websock_connection=SimpleNamespace(queue_message=queued.append))
+    viser_compat.run_in_page(cast(Any, client), "RX.again()")
+    assert [message.source for message in queued] == ["RX.again()"]
+
+
+def test_a_callback_that_fails_is_logged_and_not_printed(
+    server: viser.ViserServer, caplog: pytest.LogCaptureFixture, capsys: pytest.CaptureFixture[str]
+):
+    viser_compat.log_failed_callbacks()
+    failed: Future[None] = Future()
+    failed.set_exception(ZeroDivisionError("one over nothing"))
+    for module in (_gui_api, _viser):
+        cast(Any, module).print_threadpool_errors(failed)
+    assert caplog.text.count("one over nothing") == 2
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_long_address_is_answered():
+    """By websockets' own reader of lines, which looks the limit up at each line."""
+    assert http11.MAX_LINE_LENGTH == request_filter.LONGEST_HEAD > 8192
+    line = b"x" * 20_000
+    reader = StreamReader()
+    reader.feed_data(line + b"\r\n")
+    with pytest.raises(StopIteration) as answer:
+        next(http11.parse_line(reader.read_line))
+    assert answer.value.value == line
+
+
+def test_the_versions_are_those_that_the_changes_are_for():
+    assert viser.__version__ == viser_compat.VISER
+    assert version("websockets").rsplit(".", 1)[0] == viser_compat.WEBSOCKETS
+    project = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
+    assert f'"viser=={viser_compat.VISER}"' in project
+    assert f'"websockets>={viser_compat.WEBSOCKETS}"' in project
+    client = (Path(viser_compat.__file__).parents[1] / "web" / "viser.js").read_text(encoding="utf-8")
+    assert f"viser {viser_compat.VISER}" in client.partition("\n")[0]
