@@ -82,7 +82,7 @@ def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
     assert len([name for name in scene.graph.nodes_geometry if name.startswith("blade")]) == design.rotor.blades
 
 
-@pytest.mark.parametrize(("button", "rows"), [("Disk", 40 * 120), ("Blade", 40), ("Power", 19)])
+@pytest.mark.parametrize(("button", "rows"), [("Disk", 24 * 120), ("Blade", 24), ("Power", 19)])
 def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, rows: int):
     text = saved(watched, button, tmp_path).read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]

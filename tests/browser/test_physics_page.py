@@ -66,7 +66,8 @@ def test_each_switch_says_what_it_costs(watched: Watched):
     costs = watched.at_rest(lambda: watched.page.locator('[data-explorer="cost"]').all_inner_texts())
     assert len(costs) == len(SWITCHES)
     without_effect = [cost for cost in costs if not re.fullmatch(r"[+−]\d+\.\d kW here", cost)]
-    assert without_effect == ["root loss is part of this wake", "the rotor file states none"]
+    parts = [f"{which} loss is part of this wake" for which in ("tip", "root")]
+    assert without_effect == [*parts, "the rotor file states none"]
 
 
 def test_controls_and_read_outs_explain_themselves(watched: Watched):
