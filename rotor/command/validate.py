@@ -43,6 +43,9 @@ def run(args: argparse.Namespace) -> int:
     Of a set without a target every point counts.
     """
     names = args.sets or [*SETS, INFLOW_SET]
+    for name in names:
+        if name not in TRUST_SETS:
+            raise ValueError(f"set {name!r} is not known: use one of {', '.join(TRUST_SETS)}")
     chosen = [load_set(name) for name in names if name not in (*_OTHERS, INFLOW_SET)]
     found: list[Comparison] = []
     for measured in chosen:
