@@ -175,7 +175,12 @@ def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _
 
 def source_links(_app: Sphinx, docname: str, content: list[str]):
     """Links to folders of the source code lead to their first file, Markdown outside is a file like any other."""
-    content[0] = re.sub(r"\[`?([^\]`]+)`?\]\((\.\./[\w./]+\.md)\)", r"{download}`\1 <\2>`", content[0])
+
+    def outside(found: re.Match[str]) -> str:
+        inside = ((HERE / docname).parent / found[2]).resolve().is_relative_to(HERE)
+        return found[0] if inside else f"{{download}}`{found[1]} <{found[2]}>`"
+
+    content[0] = re.sub(r"\[`?([^\]`]+)`?\]\((\.\./[\w./]+\.md)\)", outside, content[0])
     content[0] = re.sub(r"\]\((\.\./[\w./]+)/\)", r"](\1/__init__.py)", content[0])
 
 

@@ -44,6 +44,10 @@ def run(args: argparse.Namespace) -> int:
     Of a set without a target every point counts.
     """
     names = args.sets or [*SETS, *FIELDS]
+    known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
+    for name in names:
+        if name not in known:
+            raise ValueError(f"set {name!r} is not known: use one of {', '.join(known)}")
     chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
     found: list[Comparison] = []
     for measured in chosen:

@@ -167,7 +167,7 @@ def _key(series: Sequence[Series]) -> tuple[str, int]:
     parts: list[str] = []
     x, line = 12.0, 0
     for one in series:
-        wide = 44.0 + _LETTER * len(one.label)
+        wide = 52.0 + _LETTER * len(one.label)
         if x > 12.0 and x + wide > _WIDE:
             x, line = 12.0, line + 1
         y = 14.0 + 18.0 * line

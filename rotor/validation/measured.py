@@ -99,7 +99,7 @@ def sets_of(rotor: str) -> tuple["MeasuredSet", ...]:
 def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
     if name not in SETS:
-        raise ValueError(f"set {name!r} is not known: use one of {', '.join((*SETS, *FIELDS))}")
+        raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)}")
     record: dict[str, Any] = tomllib.loads(asset_path(f"measured/{name}.toml").read_text(encoding="utf-8"))
     columns = cast(dict[str, list[float]], record["points"])
     points = tuple(
