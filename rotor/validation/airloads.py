@@ -181,7 +181,7 @@ def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array
         case "cn_m2":
             field_ = (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)) * disk.mach**2
         case "cm_m2":
-            field_ = found.cm * disk.mach**2
+            field_ = (found.cm + _pitch_damping(solution)) * disk.mach**2
         case "cl":
             field_ = disk.cl
         case _:
@@ -189,6 +189,18 @@ def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array
     after = int(np.clip(np.searchsorted(disk.r, measured.r), 1, len(disk.r) - 1))
     share = (measured.r - disk.r[after - 1]) / (disk.r[after] - disk.r[after - 1])
     return disk.psi, (1.0 - share) * field_[after - 1] + share * field_[after]
+
+
+def _pitch_damping(solution: Solution) -> Array:
+    """C_m about the quarter chord of the rate of pitch, −(π/4) c θ̇/U (Theodorsen, NACA Report 496), shape of the disk.
+
+    Pressures on the surface hold it, and the trim of an elastic blade; the section's own C_m does not.
+    """
+    disk, rotor = solution.disk, solution.design.rotor
+    order = np.fft.rfftfreq(len(disk.psi), 1.0 / len(disk.psi))
+    rate = np.fft.irfft(1j * order * np.fft.rfft(disk.theta, axis=1), len(disk.psi), axis=1)
+    chord = rotor.blade.chord(disk.r) / rotor.radius
+    return -0.25 * math.pi * chord[:, None] * rate / np.hypot(disk.u_t, disk.u_p)
 
 
 def harmonics(psi: Array, values: Array, highest: int) -> Array:
