@@ -108,7 +108,7 @@ def airload_report(rows: list[CurveAgreement]) -> str:
             f"{row.measured_rms:10.4f}{row.mean:10.4f}{row.measured_mean:10.4f}"
         )
     lines.append(
-        "Harmonics 1 to 10 (of the tip's twist and flapping 1 to 3), without the mean; rms of the difference, and of the measured curve."
+        "Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of the difference and of the measured."
     )
     return "\n".join(lines)
 

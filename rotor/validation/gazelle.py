@@ -43,12 +43,12 @@ def gazelle_set() -> TrustSet:
         ),
         charts=tuple(_chart(name, [(one, our_curve(one, solutions[name])) for one in curves]) for name in solutions),
         text=(
-            "The report gives c_l of the section, and the target is set for it: harmonics 1 to 10 without the mean. Most of "
-            "its change around the azimuth is that of speed: c_l is large where the blade is slow. Lift itself goes "
-            "with c_l (r + µ sin ψ)²; there the correlation is lower, and no target was set. Angle of attack is not measured "
-            "and the report's way from pressures to c_l is not known to us.",
-            "More azimuths and panels (24 × 48, 36 × 48 in place of 24 × 24) move the correlations of c_l by less than "
-            "0.01. Power and controls: [power and controls in flight](flown-power.md).",
+            "The report gives c_l of the section, and the target is set for it: harmonics 1 to 10 without the mean. "
+            "Most of its change around the azimuth is that of speed: c_l is large where the blade is slow. Lift "
+            "itself goes with c_l (r + µ sin ψ)²; there the correlation is lower, and no target was set. Angle of "
+            "attack is not measured and the report's way from pressures to c_l is not known to us.",
+            "More azimuths and panels (24 × 48, 36 × 48 in place of 24 × 24) move the correlations of c_l by less "
+            "than 0.01. Power and controls: [power and controls in flight](flown-power.md).",
         ),
         points=_points(found),
     )
@@ -87,10 +87,16 @@ def _chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[np.ndarray, np
 
 
 def _points(found: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
-    rows = [("Flight", "r/R", "Quantity", "Correlation", "rms", "of", "Mean", "Measured mean")]
+    rows: list[tuple[str, ...]] = [("Flight", "r/R", "Quantity", "Correlation", "rms", "of", "Mean", "Measured mean")]
     for one in found:
         numbers = (one.rms, one.measured_rms, one.mean, one.measured_mean)
         rows.append(
-            (one.case.name, f"{one.r:g}", _NAMES[one.quantity], f"{one.correlation:.3f}", *(f"{x:.3f}" for x in numbers))
+            (
+                one.case.name,
+                f"{one.r:g}",
+                _NAMES[one.quantity],
+                f"{one.correlation:.3f}",
+                *(f"{x:.3f}" for x in numbers),
+            )
         )
     return tuple(rows)
