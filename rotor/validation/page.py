@@ -14,7 +14,7 @@ from functools import partial
 from itertools import groupby
 from pathlib import Path
 
-from rotor.validation import cross_codes, flown, gazelle, hart2, uh60a
+from rotor.validation import cross_codes, flown, hart2, uh60a
 from rotor.validation.chart import draw, draw_small
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
@@ -29,7 +29,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     "uh60a-hover": uh60a.hover,
     INFLOW_SET: inflow_set,
     hart2.SET: hart2.hart2_set,
-    gazelle.SET: gazelle.gazelle_set,
+    flown.AIRLOADS: flown.gazelle_set,
     flown.POWERS: flown.flown_set,
     "sc1095": uh60a.section,
     "uh60a-constants": uh60a.constants,

@@ -21,8 +21,7 @@ from rotor.validation.airloads import (
     measured_curves,
     our_curve,
 )
-from rotor.validation.flown import flown_angles, flown_powers, shape_errors, tail_pitch
-from rotor.validation.gazelle import LEAST, gazelle_set
+from rotor.validation.flown import LEAST, flown_angles, flown_powers, gazelle_set, shape_errors, tail_pitch
 
 
 def test_harmonics_of_a_known_curve_at_uneven_points():
