@@ -191,7 +191,7 @@ def _shape(powers: Sequence[FlownPower], rotor: str) -> tuple[float, float]:
 _POWER_NOTES = {
     "gazelle": "FC4 (µ 0.26) lies 14 % high and no one drag area fits it with the others.",
     "bo105": (
-        "The target is met by less than 0.1 %, above µ 0.05 alone the shape's error is 9.6 %. Measured power climbs "
+        "The target is met by 0.003 % only, above µ 0.05 alone the shape's error is 9.6 %. Measured power climbs "
         "faster from 60 kt on: ours is 25 % low at 99 kt, and 23 % with the largest drag area of the sources. Mass, "
         "attitude, losses of the transmission and what else the figure's power holds are not stated."
     ),
