@@ -10,8 +10,9 @@ from typing import Any
 
 from rotor.command.common import add_command
 from rotor.user_input import make_folder
-from rotor.validation.airloads import POWERS, REPORTS, CurveAgreement, FlownPower, airload_agreement, flown_powers
+from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import LABELS, Comparison, compare
+from rotor.validation.flown import POWERS, FlownPower, flown_powers
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
 from rotor.validation.measured import FIELDS, SETS, load_set
@@ -63,9 +64,7 @@ def run(args: argparse.Namespace) -> int:
         record = {
             "sets": [one.to_dict() for one in found],
             "inflow": [asdict(one) for one in inflow],
-            "airloads": [
-                {**asdict(one), "test": one.case.test, "case": one.case.name, "fitted": False} for one in curves
-            ],
+            "airloads": [one.to_dict() | {"fitted": False} for one in curves],
             "powers": [asdict(one) | {"fitted": False} for one in powers],
             "rows": [asdict(row) for one in others for row in one.rows],
         }
@@ -113,7 +112,7 @@ def airload_report(rows: list[CurveAgreement]) -> str:
             f"{row.measured_rms:10.4f}{row.mean:10.4f}{row.measured_mean:10.4f}"
         )
     lines.append(
-        "Harmonics 1 to 10 (of the twist 1 to 3), without the mean; rms of the difference, and of the measured curve."
+        "Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of the difference and of the measured."
     )
     return "\n".join(lines)
 
@@ -121,7 +120,7 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 def power_report(rows: list[FlownPower]) -> str:
     """Measured main-rotor power beside ours, as a table."""
     lines = [
-        f"{POWERS}: main-rotor power in level flight [kW], without a target; never fitted",
+        f"{POWERS}: main-rotor power in level flight [kW]; never fitted",
         f"{'rotor':<9}{'case':>9}{'mu':>8}{'measured':>10}{'ours':>8}{'error %':>9}  between the drag areas",
     ]
     for row in rows:

@@ -1,13 +1,13 @@
-"""Rotors in flight: measured airloads and twist over the azimuth, power and controls, beside ours.
+"""Measured airloads, twist and flapping over the azimuth beside ours: HART II in the tunnel, the Gazelle in flight.
 
-HART II in the tunnel, the SA349/2 Gazelle and the Bo 105 in flight. Nothing is fitted to any of it. The level of power
-is decided by drag that no source states, so it stands between the drag areas of the rotor file, without a target.
+Nothing is fitted to any of it.
 
 Of airloads the harmonics 1 to 10 are compared, which a lifting line on 24 azimuths can have: what is above is the blade
 meeting single vortices, out of its reach. The mean stands beside them, for in HART II it differs by 12 % between cases
 of the same thrust.
 """
 
+import cmath
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.design.design import Design
@@ -26,8 +25,8 @@ from rotor.trim.solve import solve
 
 HIGHEST = 10
 """Harmonic of loads."""
-HIGHEST_TWIST = 3
-"""The same of the tip's twist, which has 22 points a revolution."""
+HIGHEST_TIP = 3
+"""The same of the tip's twist and flapping, which have 22 and 23 points a revolution."""
 
 
 @dataclass(frozen=True)
@@ -79,8 +78,9 @@ class MeasuredCurve:
 
     case: FlownCase
     quantity: str
-    """`cn_m2`, `cm_m2`: normal force and moment coefficient times Mach number squared; `cl_u2`: lift coefficient times
-    (r + µ sin ψ)²; `tip_twist_deg`: elastic twist of the tip, nose up, without the pitch of the root."""
+    """`cn_m2`, `cm_m2`: normal force and moment coefficient times Mach number squared; `cl`: lift coefficient of the
+    section; `cl_u2`: the same times (r + µ sin ψ)²; `tip_twist_deg`: elastic twist of the tip, nose up, without the
+    pitch of the root; `tip_flap`: deflection of the tip up from the precone, over R."""
     r: float
     """r/R"""
     psi: Array
@@ -91,10 +91,15 @@ class MeasuredCurve:
     @property
     def highest(self) -> int:
         """Harmonic up to which it is compared."""
-        return HIGHEST_TWIST if self.quantity == "tip_twist_deg" else HIGHEST
+        return HIGHEST_TIP if self.quantity.startswith("tip_") else HIGHEST
+
+    @property
+    def waves(self) -> Array:
+        """Its `harmonics`."""
+        return harmonics(self.psi, self.values, self.highest)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CurveAgreement:
     """A measured curve and ours by harmonics, without the mean."""
 
@@ -108,6 +113,31 @@ class CurveAgreement:
     """Of the measured curve itself."""
     mean: float
     measured_mean: float
+    waves: Array = field(repr=False)
+    """Ours by `harmonics`."""
+    measured_waves: Array = field(repr=False)
+
+    def amplitude(self, n: int, *, measured: bool = False) -> float:
+        """Of harmonic n."""
+        return abs(wave(self.measured_waves if measured else self.waves, n))
+
+    def phase_deg(self, n: int, *, measured: bool = False) -> float:
+        """φ of A cos(nψ − φ), −180 to 180°."""
+        return math.degrees(cmath.phase(wave(self.measured_waves if measured else self.waves, n)))
+
+    def ratio(self, n: int) -> float:
+        """Our amplitude over the measured one, less 1."""
+        return self.amplitude(n) / self.amplitude(n, measured=True) - 1.0
+
+    def late_deg(self, n: int) -> float:
+        """Our phase less the measured one, −180 to 180°."""
+        return math.degrees(cmath.phase(wave(self.waves, n) / wave(self.measured_waves, n)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """For `validate --json`."""
+        names = ("quantity", "r", "correlation", "rms", "measured_rms", "mean", "measured_mean")
+        waves = {"harmonics": self.waves.tolist(), "measured_harmonics": self.measured_waves.tolist()}
+        return {"test": self.case.test, "case": self.case.name} | {name: getattr(self, name) for name in names} | waves
 
 
 def measured_curves() -> tuple[MeasuredCurve, ...]:
@@ -122,15 +152,17 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
         for name in ("cn", "cm"):
             values = np.array([float(row[f"{name}_{case.name.lower()}"]) for row in loads])
             yield MeasuredCurve(case, f"{name}_m2", 0.87, psi, values)
-        twist = [row for row in csv_rows(asset_path("measured/hart2_twist.csv")) if row["case"] == case.name]
-        psi = np.radians([float(row["psi_deg"]) for row in twist])
-        yield MeasuredCurve(case, "tip_twist_deg", 1.0, psi, np.array([float(row["twist_deg"]) for row in twist]))
+        for quantity, file, column in (("tip_twist_deg", "twist", "twist_deg"), ("tip_flap", "flap", "z")):
+            tip = [row for row in csv_rows(asset_path(f"measured/hart2_{file}.csv")) if row["case"] == case.name]
+            psi = np.radians([float(row["psi_deg"]) for row in tip])
+            yield MeasuredCurve(case, quantity, 1.0, psi, np.array([float(row[column]) for row in tip]))
         return
     rows = [row for row in csv_rows(asset_path("measured/gazelle_airloads.csv")) if row["case"] == case.name]
     for r in sorted({float(row["r"]) for row in rows}):
         here = [row for row in rows if float(row["r"]) == r]
         psi = np.radians([float(row["psi_deg"]) for row in here])
         cl = np.array([float(row["cl"]) for row in here])
+        yield MeasuredCurve(case, "cl", r, psi, cl)
         yield MeasuredCurve(case, "cl_u2", r, psi, cl * (r + case.conditions["mu"] * np.sin(psi)) ** 2)
 
 
@@ -138,20 +170,37 @@ def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array
     """Azimuths [rad] and our values of a measured quantity there, (azimuths,) each."""
     disk = solution.disk
     if measured.quantity == "tip_twist_deg":
-        assert solution.elastic is not None
-        twist = solution.elastic.tip
+        twist = np.zeros(len(disk.psi)) if solution.elastic is None else solution.elastic.tip
         return np.linspace(0.0, 2.0 * math.pi, len(twist), endpoint=False), np.degrees(twist)
+    if measured.quantity == "tip_flap":
+        blade, state = solution.design.rotor.blade, solution.controls
+        flapping = state.coning + state.flap_1c * np.cos(disk.psi) + state.flap_1s * np.sin(disk.psi)
+        return disk.psi, (1.0 - blade.flap_hinge) * (flapping - blade.flap_rest)
     found = distribution(solution)
     match measured.quantity:
         case "cn_m2":
             field_ = (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)) * disk.mach**2
         case "cm_m2":
-            field_ = found.cm * disk.mach**2
+            field_ = (found.cm + _pitch_damping(solution)) * disk.mach**2
+        case "cl":
+            field_ = disk.cl
         case _:
             field_ = disk.cl * (disk.r[:, None] + solution.design.condition.advance_ratio * np.sin(disk.psi)) ** 2
     after = int(np.clip(np.searchsorted(disk.r, measured.r), 1, len(disk.r) - 1))
     share = (measured.r - disk.r[after - 1]) / (disk.r[after] - disk.r[after - 1])
     return disk.psi, (1.0 - share) * field_[after - 1] + share * field_[after]
+
+
+def _pitch_damping(solution: Solution) -> Array:
+    """C_m about the quarter chord of the rate of pitch, −(π/4) c θ̇/U (Theodorsen, NACA Report 496), shape of the disk.
+
+    Pressures on the surface hold it, and the trim of an elastic blade; the section's own C_m does not.
+    """
+    disk, rotor = solution.disk, solution.design.rotor
+    order = np.fft.rfftfreq(len(disk.psi), 1.0 / len(disk.psi))
+    rate = np.fft.irfft(1j * order * np.fft.rfft(disk.theta, axis=1), len(disk.psi), axis=1)
+    chord = rotor.blade.chord(disk.r) / rotor.radius
+    return -0.25 * math.pi * chord[:, None] * rate / np.hypot(disk.u_t, disk.u_p)
 
 
 def harmonics(psi: Array, values: Array, highest: int) -> Array:
@@ -160,6 +209,11 @@ def harmonics(psi: Array, values: Array, highest: int) -> Array:
     waves = np.concatenate([np.cos(np.outer(psi, order)), np.sin(np.outer(psi, order))], axis=1)
     basis = np.concatenate([np.ones((len(psi), 1)), waves], axis=1)
     return np.asarray(np.linalg.lstsq(basis, values, rcond=None)[0], dtype=np.float64)
+
+
+def wave(of: Array, n: int) -> complex:
+    """A exp(iφ) of the part A cos(nψ − φ) of `harmonics`."""
+    return complex(of[n], of[n + len(of) // 2])
 
 
 def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement]:
@@ -171,65 +225,23 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
             continue
         if case.test + case.name not in solutions:
             solutions[case.test + case.name] = solve(case.design()).require()
-        theirs = harmonics(measured.psi, measured.values, measured.highest)
-        ours = harmonics(*our_curve(measured, solutions[case.test + case.name]), measured.highest)
-        one, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
-        yield CurveAgreement(
-            case=case,
-            quantity=measured.quantity,
-            r=measured.r,
-            correlation=float(one @ other / math.sqrt((one @ one) * (other @ other))),
-            rms=math.sqrt(0.5 * float((one - other) @ (one - other))),
-            measured_rms=math.sqrt(0.5 * float(other @ other)),
-            mean=float(ours[0]),
-            measured_mean=float(theirs[0]),
-        )
+        yield agreement(measured, solutions[case.test + case.name])
 
 
-POWERS = "flown-power"
-"""Name of the set of powers on the command line."""
-
-
-@dataclass(frozen=True)
-class FlownPower:
-    """Main-rotor power of one flight [W], angles in degrees."""
-
-    rotor: str
-    case: str
-    mu: float
-    measured: float
-    ours: float | None
-    """None where our rotor does not trim."""
-    band: tuple[float, float] | None
-    """Ours with the lowest and the highest drag area of the sources."""
-    measured_angles: tuple[float, float, float] | None
-    """Collective, cyclic 1c and 1s; None where they were not measured. Where along the blade the report takes the
-    collective is not known."""
-    angles: tuple[float, float, float] | None
-    """Ours, the collective at 0.75 R."""
-
-
-def flown_powers() -> Iterator[FlownPower]:
-    """Every measured power beside ours."""
-    for row in csv_rows(asset_path("measured/flown_power.csv")):
-        mu = float(row["mu"])
-        mass, altitude = float(row["mass_kg"]), float(row["altitude_m"])
-        solution = solve(make_design(rotor=row["rotor"], mu=mu, mass_kg=mass, altitude_m=altitude))
-        ends, controls = between_drag_areas(solution), solution.controls
-        ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
-        names = ("theta0_deg", "theta1c_deg", "theta1s_deg")
-        yield FlownPower(
-            rotor=row["rotor"],
-            case=row["case"],
-            mu=mu,
-            measured=1e3 * float(row["power_kw"]),
-            ours=solution.power.main_rotor if solution.converged else None,
-            band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-            measured_angles=_three([float(row[name]) for name in names]) if row["theta0_deg"] else None,
-            angles=_three([math.degrees(one) for one in ours]) if solution.converged else None,
-        )
-
-
-def _three(values: list[float]) -> tuple[float, float, float]:
-    first, second, third = values
-    return first, second, third
+def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
+    """A measured curve beside that of a solution."""
+    theirs, ours = measured.waves, harmonics(*our_curve(measured, solution), measured.highest)
+    one, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
+    size = math.sqrt((one @ one) * (other @ other))
+    return CurveAgreement(
+        case=measured.case,
+        quantity=measured.quantity,
+        r=measured.r,
+        correlation=float(one @ other / size) if size > 0.0 else 0.0,
+        rms=math.sqrt(0.5 * float((one - other) @ (one - other))),
+        measured_rms=math.sqrt(0.5 * float(other @ other)),
+        mean=float(ours[0]),
+        measured_mean=float(theirs[0]),
+        waves=ours,
+        measured_waves=theirs,
+    )

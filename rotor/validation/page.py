@@ -14,7 +14,7 @@ from functools import partial
 from itertools import groupby
 from pathlib import Path
 
-from rotor.validation import cross_codes, uh60a
+from rotor.validation import cross_codes, flown, hart2, uh60a
 from rotor.validation.chart import draw, draw_small
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
@@ -28,6 +28,9 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     **{name: partial(measured_set, name) for name in MEASURED},
     "uh60a-hover": uh60a.hover,
     INFLOW_SET: inflow_set,
+    hart2.SET: hart2.hart2_set,
+    flown.AIRLOADS: flown.gazelle_set,
+    flown.POWERS: flown.flown_set,
     "sc1095": uh60a.section,
     "uh60a-constants": uh60a.constants,
     "uh60a-forward": uh60a.forward,

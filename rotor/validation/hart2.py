@@ -1,0 +1,389 @@
+"""HART II beside the tunnel, as a set of the trust page: airloads, twist, flapping and tip vortices."""
+
+import cmath
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.arrays import Array
+from rotor.assets import asset_path, csv_rows
+from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.validation.airloads import (
+    CASES,
+    REPORTS,
+    CurveAgreement,
+    FlownCase,
+    MeasuredCurve,
+    agreement,
+    harmonics,
+    measured_curves,
+    our_curve,
+    wave,
+)
+from rotor.validation.chart import AZIMUTH, Series, TrustChart
+from rotor.validation.trust import TrustRow, TrustSet
+
+SET = "hart2-airloads"
+BEND = 0.2125
+"""r/R about which OpenCOPTER lets the blade flap as a rigid one: 0.425 m."""
+LEAST_CORRELATION = 0.8
+"""Target for C_n M² without its mean."""
+TORSION_3, TORSION_3_DEG, TORSION_LOW = 0.25, 30.0, 0.35
+"""Targets: amplitude and phase of the tip's twist of MN at 3/rev; its amplitudes of BL at 1 and 2/rev."""
+QUANTITIES = {
+    "cn_m2": "C_n M² at 0.87 R",
+    "cm_m2": "C_m M² at 0.87 R",
+    "tip_twist_deg": "Elastic twist of the tip [°]",
+    "tip_flap": "Flap deflection of the tip [z/R]",
+}
+_TEST = "rotor/validation/test_hart2.py"
+_WORDS = (
+    "BL is the baseline, MN has 0.8° of 3/rev pitch at the root for least noise. Both descend: the shaft is tilted "
+    "4.3° aft, so the wake stays near the disk and the blades meet its vortices. Harmonics 1 to 10 of the loads are "
+    "compared, 1 to 3 of the tip's motion: what lies above are single vortices, of which a lifting line on 24 "
+    "azimuths knows nothing. Phase is φ of A cos(nψ − φ). Stiffness and inertia of the blade are recalled, not "
+    "sourced (assets/rotors/hart2.toml gives what hangs on them).",
+    "Checked, and not the reason of a miss: the measured twist is what OpenCOPTER adds to collective, cyclic, 3/rev "
+    "pitch and built-in twist, so it is elastic twist alone; it adds the measured flapping to the precone of 2.5°, "
+    "as is done here. Another zero of azimuth would not help: the best shift of ours is −6° in both cases and gives "
+    "0.60 and 0.90. The mean of C_m M² at 0.87 R of BL is met (−0.0022, −0.0026 measured), so the tab's sign is "
+    "right. But the measured mean doubles in MN (−0.0058) while the mean twist stays, so one of the two is not a "
+    "mean of the flow. Found, and put right: measured C_m holds the moment of the rate of pitch, which the trim had "
+    "and the comparison had not; without it the correlations of C_m M² were 0.18 (BL) and 0.62 (MN).",
+)
+_GRID = (
+    "- A finer lifting line: 24 × 48, 36 × 72 and 48 × 96 panels and azimuths give 0.55, 0.56, 0.56 (BL) and 0.83, "
+    "0.82, 0.82 (MN): what the grid smears is not the reason.\n"
+    "- Twice the gradient of the wake's sinking from front to rear (E = χ in place of χ/2): 0.64 (BL), 0.89 (MN), "
+    "height of the vortices of BL 0.033 rms in place of 0.046, of MN 0.039 in place of 0.036. With it and the "
+    "measured twist 0.75 (BL): twist and wake make most of the gap. Elsewhere it is worse: forward-flight torque of "
+    "the XV-15 rms 7.2 % in place of 6.4 %, lift of the Gazelle at µ 0.14, 0.88 R 0.84 in place of 0.90. So it is "
+    "not taken."
+)
+_MISSED = {
+    "cn": (
+        "2/rev comes out at less than half, with its phase 79° off: half of the gap is the twist at 2/rev, which "
+        "ours lacks, and part of the rest the wake's course: measured vortices lie up to 0.08 R above ours at the "
+        "middle of the disk."
+    ),
+    "twist": (
+        "The moment of the air at 2/rev is a quarter of the measured one, which alone would twist the tip by about "
+        "0.5°, as was measured; what makes it is not known."
+    ),
+}
+_NOTES = {
+    "mean": (
+        "With the measured moment of the air at 0.87 R, GJ and inertia as recalled give −1.6°. Tension that unwinds "
+        "the blade (k_A², unknown, here 0) is worth up to +0.4°; nothing known to us gives the rest."
+    ),
+    "flap": (
+        "Mean met within 0.001 R. The measured 1/rev, 0.008 R, would take 110 N m at the hub by our spring; 20 to "
+        "30 N m are stated. So the cameras' plane of reference is tilted by 0.4°, or the moments are others. "
+        "Bending at 2 and 3/rev is not modelled: 0.005 R at 3/rev in MN."
+    ),
+    "vortices": (
+        "Measured vortices rise faster over the front half and sink faster over the rear; our course has Beddoes' "
+        "gradient."
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Vortices:
+    """Centres of tip vortices over R in axes of the hub: x aft, y to starboard, z up; (points,) each."""
+
+    case: str
+    x: Array
+    y: Array
+    z: Array
+
+
+def measured_vortices(case: str) -> Vortices:
+    """Those of one case, `BL` or `MN`."""
+    rows = [row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case]
+    x, y, z = (np.array([float(row[name]) for row in rows]) for name in "xyz")
+    return Vortices(case, x, y, z)
+
+
+def height(course: WakeCourse, x: Array, y: Array) -> Array:
+    """z/R of the tip vortices that left the front edge of the disk, where they pass over x, y inside it, (points,).
+
+    A vortex moves along x alone; what passes one place in the disk has left at one azimuth.
+    """
+    found = np.empty_like(x)
+    for k, (aft, side) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
+        released = math.pi - math.asin(side)
+        age = (aft - math.cos(released)) / course.mu_x
+        found[k] = course.nodes(np.array([released + age]), np.array([age]), np.ones(1))[0, 0, 0, 2]
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """What was tried on the misses, one input changed in both cases."""
+
+    words: str
+    found: tuple[CurveAgreement, CurveAgreement, CurveAgreement]
+    """C_n M² of BL and of MN, twist of the tip of BL."""
+
+    def __str__(self) -> str:
+        baseline, moved, twist = self.found
+        rigid = twist.amplitude(2) == 0.0
+        torsion = "" if rigid else f", twist of BL {twist.mean:.2f}° mean, {twist.amplitude(2):.2f}° at 2/rev"
+        return f"- {self.words}: {baseline.correlation:.2f} (BL), {moved.correlation:.2f} (MN){torsion}."
+
+
+def cases() -> tuple[FlownCase, FlownCase]:
+    """BL and MN."""
+    baseline, moved = (case for case in CASES if case.test == SET)
+    return baseline, moved
+
+
+def hart2_set() -> TrustSet:
+    """For the trust page."""
+    solutions = {case.name: solve(case.design()).require() for case in cases()}
+    curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
+    found = {key: agreement(one, solutions[key[0]]) for key, one in curves.items()}
+    rows = (*_load_rows(found), *_twist_rows(found), *_motion_rows(found), *_vortex_rows(solutions))
+    normal = [found[name, "cn_m2"].correlation for name in solutions]
+    tried = "\n".join([*map(str, attempts()), _GRID])
+    return TrustSet(
+        name=SET,
+        title="HART II, airloads and twist",
+        compared="C_n M², C_m M², twist, flapping, vortices, with and without 3/rev",
+        error=f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}",
+        source=REPORTS[SET],
+        rows=rows,
+        charts=(*_charts(curves, solutions), _vortex_chart(solutions["BL"])),
+        text=(*_WORDS, "## What was tried", "Correlations of C_n M²; nothing is fitted.", tried),
+        points=_points(found),
+    )
+
+
+def attempts() -> Iterator[Attempt]:
+    """The changes of inputs, as computed first."""
+    changes: dict[str, Callable[[FlownCase, Design], Design]] = {
+        "As computed": lambda case, design: design,
+        "Shaft tilt 5.3° aft, nominal, in place of 4.3° by the wall correction": lambda case, design: _stand(
+            design, shaft_tilt=math.radians(-5.3)
+        ),
+        "Hub moments of the other sign": _other_moments,
+        "A hub moment of 110 N m, which the measured 1/rev flapping would take": lambda case, design: _stand(
+            design, hub_roll=-110.0, hub_pitch=0.0
+        ),
+        "Tension carried by all of the mass, k_A² = I_θ/m = 6e-4 m²": _all_tension,
+        "A blade rigid in torsion": lambda case, design: _rigid(design),
+        "The same with the measured twist, its harmonics 1 to 5 linear along the blade": _measured_twist,
+        "And the measured flapping at 2 and 3/rev, as pitch of the same angle of attack at 0.87 R": _measured_motion,
+    }
+    curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
+    baseline, moved = cases()
+    for words, change in changes.items():
+        first, second = (solve(change(case, case.design())).require() for case in (baseline, moved))
+        yield Attempt(
+            words,
+            (
+                agreement(curves["BL", "cn_m2"], first),
+                agreement(curves["MN", "cn_m2"], second),
+                agreement(curves["BL", "tip_twist_deg"], first),
+            ),
+        )
+
+
+def _stand(design: Design, **changes: float) -> Design:
+    stand = design.condition.stand
+    assert stand is not None
+    return replace(design, condition=replace(design.condition, stand=replace(stand, **changes)))
+
+
+def _other_moments(case: FlownCase, design: Design) -> Design:
+    del case
+    stand = design.condition.stand
+    assert stand is not None
+    return _stand(design, hub_roll=-stand.hub_roll, hub_pitch=-stand.hub_pitch)
+
+
+def _all_tension(case: FlownCase, design: Design) -> Design:
+    del case
+    blade = design.rotor.blade
+    assert blade.structure is not None
+    structure = replace(blade.structure, tension_gyration=6e-4)
+    return replace(design, rotor=replace(design.rotor, blade=replace(blade, structure=structure)))
+
+
+def _rigid(design: Design) -> Design:
+    return replace(design, models=replace(design.models, elastic_twist=False))
+
+
+def _measured_twist(case: FlownCase, design: Design) -> Design:
+    """The measured twist given to a rigid blade as active twist; its mean is left to the collective."""
+    twist = next(one for one in measured_curves() if (one.case, one.quantity) == (case, "tip_twist_deg"))
+    waves = np.radians(harmonics(twist.psi, twist.values, 5))
+    of = tuple(_harmonic(n, wave(waves, n)) for n in range(1, 6))
+    return replace(_rigid(design), active_twist=ActiveTwist(of, (design.rotor.blade.root_cutout, 1.0)))
+
+
+def _measured_motion(case: FlownCase, design: Design) -> Design:
+    """The same, and root pitch −ż/U of the measured flapping at 2 and 3/rev, about the bend at `BEND`.
+
+    z = A cos(nψ − φ) has the rate n A cos(nψ − φ + 90°).
+    """
+    flap = next(one for one in measured_curves() if (one.case, one.quantity) == (case, "tip_flap"))
+    lever = (0.87 - BEND) / (0.87 * (1.0 - BEND))
+    pitch = {n: 1j * n * lever * wave(flap.waves, n) for n in (2, 3)}
+    for one in design.pitch_per_rev:
+        pitch[one.per_rev] = pitch.get(one.per_rev, 0.0) + cmath.rect(one.amplitude, one.phase)
+    given = tuple(_harmonic(n, of) for n, of in pitch.items())
+    return replace(_measured_twist(case, design), pitch_per_rev=given)
+
+
+def _harmonic(n: int, of: complex) -> Harmonic:
+    return Harmonic(n, abs(of), cmath.phase(of))
+
+
+_Found = Mapping[tuple[str, str], CurveAgreement]
+
+
+def _row(what: str, shown: str, error: float, allowed: float, test: str, **more: str) -> TrustRow:
+    met = more.pop("met", "")
+    verdict = "no target" if not met else "met" if met == "yes" else "missed"
+    return TrustRow(
+        SET, "validation", what, REPORTS[SET], shown, error, allowed, f"{_TEST}::{test}", verdict=verdict, **more
+    )
+
+
+def _yes(met: bool) -> str:
+    return "yes" if met else "no"
+
+
+def _load_rows(found: _Found) -> Iterator[TrustRow]:
+    for name in ("BL", "MN"):
+        one = found[name, "cn_m2"]
+        met = one.correlation >= LEAST_CORRELATION
+        yield _row(
+            f"{name}: C_n M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.02,
+            "test_normal_force", target=f"at least {LEAST_CORRELATION:g}", met=_yes(met),
+            note="" if met else _MISSED["cn"],
+        )  # fmt: skip
+    for name in ("BL", "MN"):
+        one = found[name, "cm_m2"]
+        yield _row(
+            f"{name}: C_m M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.03, "test_moments"
+        )
+
+
+def _twist_rows(found: _Found) -> Iterator[TrustRow]:
+    moved, base = found["MN", "tip_twist_deg"], found["BL", "tip_twist_deg"]
+    size, late = moved.ratio(3), moved.late_deg(3)
+    yield _row(
+        "MN: twist of the tip at 3/rev", f"{100 * size:+.0f} %, {late:+.0f}°", size, 0.03, "test_twist",
+        target=f"{100 * TORSION_3:g} % and {TORSION_3_DEG:g}°",
+        met=_yes(abs(size) <= TORSION_3 and abs(late) <= TORSION_3_DEG),
+    )  # fmt: skip
+    for n in (1, 2):
+        met = abs(base.ratio(n)) <= TORSION_LOW
+        yield _row(
+            f"BL: twist of the tip at {n}/rev", f"{100 * base.ratio(n):+.0f} %, {base.late_deg(n):+.0f}°",
+            base.ratio(n), 0.03, "test_twist", target=f"{100 * TORSION_LOW:g} % of amplitude", met=_yes(met),
+            note="" if met else _MISSED["twist"],
+        )  # fmt: skip
+    for one in (base, moved):
+        error = one.mean - one.measured_mean
+        yield _row(
+            f"{one.case.name}: mean twist of the tip", f"{error:+.2f}°", error, 0.03, "test_twist", note=_NOTES["mean"]
+        )
+
+
+def _motion_rows(found: _Found) -> Iterator[TrustRow]:
+    for name in ("BL", "MN"):
+        one = found[name, "tip_flap"]
+        yield _row(
+            f"{name}: flap deflection of the tip", f"mean {one.mean - one.measured_mean:+.4f} R, rms {one.rms:.4f} R",
+            one.rms, 3e-4, "test_flapping", note=_NOTES["flap"],
+        )  # fmt: skip
+
+
+def _vortex_rows(solutions: Mapping[str, Solution]) -> Iterator[TrustRow]:
+    for name, solution in solutions.items():
+        rms, mean, points = vortex_errors(solution, name)
+        yield _row(
+            f"{name}: height of tip vortices, {points} points", f"rms {rms:.3f} R, mean {mean:+.3f} R", rms, 2e-3,
+            "test_tip_vortices", note=_NOTES["vortices"],
+        )  # fmt: skip
+
+
+def vortex_errors(solution: Solution, case: str) -> tuple[float, float, int]:
+    """Root mean square and mean of our height of the tip vortices less the measured one, over R; number of points."""
+    course, measured = solution.wake_course, measured_vortices(case)
+    assert course is not None
+    error = height(course, measured.x, measured.y) - measured.z
+    return float(np.sqrt(np.mean(error**2))), float(error.mean()), len(error)
+
+
+def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[str, Solution]) -> Iterator[TrustChart]:
+    """Loads less their mean, a chart for each case; twist and flapping as they are."""
+    for quantity in ("cn_m2", "cm_m2"):
+        for name, solution in solutions.items():
+            measured = curves[name, quantity]
+            psi, values = our_curve(measured, solution)
+            theirs = measured.values - measured.values.mean()
+            label = f"{QUANTITIES[quantity]}, {name}, without mean"
+            series = (
+                Series("measured", _degrees(measured.psi[::2]), tuple(theirs[::2].tolist())),
+                Series("computed", *_closed(psi, values - values.mean()), "line", 1),
+            )
+            yield TrustChart(label, "azimuth [°]", label, series, x_ticks=AZIMUTH)
+    for quantity in ("tip_twist_deg", "tip_flap"):
+        series_of: list[Series] = []
+        for k, (name, solution) in enumerate(solutions.items(), start=1):
+            measured = curves[name, quantity]
+            theirs = tuple(measured.values.tolist())
+            series_of.append(Series(f"{name}, measured", _degrees(measured.psi), theirs, "points", k))
+            series_of.append(Series("computed", *_closed(*our_curve(measured, solution)), "line", k))
+        label = QUANTITIES[quantity]
+        yield TrustChart(label, "azimuth [°]", label, tuple(series_of), x_ticks=AZIMUTH)
+
+
+def _vortex_chart(solution: Solution) -> TrustChart:
+    """Height over x of BL near three planes y."""
+    course, measured = solution.wake_course, measured_vortices("BL")
+    assert course is not None
+    series: list[Series] = []
+    for k, y in enumerate((0.4, 0.7, -0.7), start=1):
+        here = np.flatnonzero(np.abs(measured.y - y) < 0.05)
+        here = here[np.argsort(measured.x[here])]
+        x, z = measured.x[here], measured.z[here]
+        side = "advancing" if y > 0.0 else "retreating"
+        series.append(Series(f"{side}, {abs(y):g} R, measured", tuple(x.tolist()), tuple(z.tolist()), "points", k))
+        along = np.linspace(-math.sqrt(1.0 - y * y), float(x.max()), 30)
+        ours = height(course, along, np.full_like(along, y))
+        series.append(Series("computed", tuple(along.tolist()), tuple(ours.tolist()), "line", k))
+    return TrustChart("Tip vortices above the hub, BL", "x/R, aft", "z/R of tip vortices, BL", tuple(series))
+
+
+def _degrees(psi: Array) -> tuple[float, ...]:
+    return tuple(np.degrees(psi).tolist())
+
+
+def _closed(psi: Array, values: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Degrees and values, with the first repeated at 360°."""
+    return (*_degrees(psi), 360.0), (*values.tolist(), float(values[0]))
+
+
+def _points(found: _Found) -> tuple[tuple[str, ...], ...]:
+    """Means and harmonics."""
+    rows: list[tuple[str, ...]] = [("Case", "Quantity", "n", "Measured", "φ [°]", "Ours", "φ [°]")]
+    for (name, quantity), one in found.items():
+        form = ".2f" if quantity == "tip_twist_deg" else ".5f"
+        rows.append((name, QUANTITIES[quantity], "mean", f"{one.measured_mean:{form}}", "", f"{one.mean:{form}}", ""))
+        for n in range(1, len(one.waves) // 2 + 1):
+            size, angle = one.amplitude(n, measured=True), one.phase_deg(n, measured=True)
+            ours = (f"{one.amplitude(n):{form}}", f"{one.phase_deg(n):.0f}")
+            rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *ours))
+    return tuple(rows)
