@@ -1,15 +1,19 @@
 """The test stand of the page: what is given in place of weight and drag, and the measured conditions of a rotor."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
+from explorer.flown import airload_cases, measured_powers
+from rotor.design.active_twist import Harmonic
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design
 from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.validation import airloads, inflow
+from rotor.validation import inflow
 from rotor.validation.compare import design_at
 from rotor.validation.measured import sets_of
 
@@ -130,7 +134,23 @@ class MeasuredCondition:
     label: str
     """The point in the menu."""
     advance_ratio: float
-    stand: StandInputs
+    stand: StandInputs | None
+    """None: flown, with the mass and the altitude below."""
+    mass: float = 0.0
+    """[kg]"""
+    altitude: float = 0.0
+    """[m]"""
+    pitch_per_rev: tuple[Harmonic, ...] = ()
+    first: bool = False
+    """Whether a rotor begins with it; where none says so, with the middle one of the first test."""
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What it sets of the page's inputs, by name."""
+        shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
+        if self.stand is not None:
+            return shared
+        return {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude, "climb_m_s": 0.0}
 
 
 @cache
@@ -144,11 +164,8 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):
             words = ", ".join(f"{_SHORT[name]} {point[name]:.4g}" for name in several)
-            design = design_at(measured, point)
-            stand = stand_of(design)
-            assert stand is not None
             title = _TITLES[measured.name]
-            found.append(MeasuredCondition(title, f"{number}: {words}", design.condition.advance_ratio, stand))
+            found.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
     if rotor == inflow.ROTOR:
         for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
             solidity = make_design(rotor=rotor).rotor.solidity
@@ -156,25 +173,48 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
             found.append(
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
-    if rotor == airloads.HART2_BASELINE.rotor:
-        design = airloads.HART2_BASELINE.design()
-        stand = stand_of(design)
-        assert stand is not None
-        found.append(MeasuredCondition("HART II", "Baseline: descent", design.condition.advance_ratio, stand))
+    powers = measured_powers(rotor)
+    flown = {one.case for one in powers}
+    found.extend(
+        MeasuredCondition("Flight", one.title, one.mu, None, mass=one.mass, altitude=one.altitude) for one in powers
+    )
+    for number, case in enumerate(one for one in airload_cases(rotor) if one.name not in flown):
+        title, label = _CASES.get(case.name, (case.test, case.name))
+        found.append(replace(_condition(title, label, case.design()), first=number == 0))
     return tuple(found)
+
+
+def _condition(test: str, label: str, design: Design) -> MeasuredCondition:
+    here = design.condition
+    return MeasuredCondition(
+        test, label, here.advance_ratio, stand_of(design), here.mass, here.altitude, design.pitch_per_rev
+    )
+
+
+def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
+    """The measured condition of a flight or of airloads, by the name of the case."""
+    label = _CASES.get(case, ("", f"{case}:"))[1]
+    return next((one for one in measured_conditions(rotor) if one.label.startswith(label)), None)
+
+
+def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
+    """The condition that a test begins with."""
+    return next((one for one in conditions if one.first), conditions[len(conditions) // 2])
 
 
 def first_condition(rotor: str) -> MeasuredCondition | None:
     """The condition that a measured rotor begins with: the middle one of its first test."""
     conditions = measured_conditions(rotor)
     first = [one for one in conditions if one.test == conditions[0].test]
-    return first[len(first) // 2] if first else None
+    return opening(first) if first else None
 
 
 def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
     """Advance ratio and test that a rotor without an airframe begins with."""
     condition = first_condition(aircraft.key)
-    return (0.0, StandInputs()) if condition is None else (condition.advance_ratio, condition.stand)
+    if condition is None or condition.stand is None:
+        return 0.0, StandInputs()
+    return condition.advance_ratio, condition.stand
 
 
 _SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
@@ -191,3 +231,5 @@ _TITLES = {
     "uh60a-hover": "Hover (digitised)",
 }
 """Short titles of the sets, for a menu."""
+_CASES = {"BL": ("HART II", "Baseline"), "MN": ("HART II", "Minimum noise: 3/rev pitch")}
+"""Title of the test and of the point in the menu, by the name of a case of airloads."""
