@@ -7,8 +7,7 @@ from typing import Any
 import viser
 from viser import uplot
 
-from explorer.charts.flown import FlownPowers, source_of
-from explorer.charts.measured import MeasuredChart
+from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
 from explorer.charts.plots import Plot, PowerCurve, Range
 from explorer.charts.strip import (
     StripChart,

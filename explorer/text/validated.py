@@ -4,7 +4,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.flown import POWER_REPORTS, airload_cases, as_measured, measured_powers
+from explorer.stand import POWER_REPORTS, airload_cases, as_measured, measured_powers
 from explorer.text.units import number
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution

@@ -10,7 +10,7 @@ from explorer.charts import svg
 from explorer.charts.svg import Point
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
-from explorer.tabs.probe.section_data import lift_curve, public_table
+from explorer.tabs.probe.measured import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.text.units import degrees, number
