@@ -186,9 +186,10 @@ class FlownPowers:
 
     def marks(self, solution: Solution, units: Units) -> tuple[StripMark, ...]:
         """The measured flights as far as ours are known; empty unless the blade is that of the flights."""
-        design = solution.design
+        design, unit = solution.design, units.power[0]
+        if not _shown(design):
+            return ()
         ours = self._ours.get(_any_flight(design), {})
-        unit = units.power[0]
         return tuple(
             StripMark(
                 one.mu,
@@ -212,6 +213,8 @@ class FlownPowers:
     def rest(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
         """Trim in every measured flight, unless newer input comes; `shown`: called when there is more to draw."""
         flights = _shown(solution.design)
+        if not flights:
+            return
         key = _any_flight(solution.design)
         if len(self._ours) > _KEPT:
             self._ours.clear()

@@ -57,12 +57,9 @@ CONTROLS: dict[str, Term] = {
         "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; with "
         "the conditions of its tests, where a rotor was measured."
     ),
+    "fly_measured": Term("Sets the condition in which this was measured; the blade stays as it is."),
     "measured_test": Term("Tests and flights in which this rotor was measured; choose one to set its conditions."),
     "measured_point": Term("The measured points of this test or flight; choose one to set its conditions."),
-    "drag_band": Term(
-        "Total power of this flight trimmed with the lowest and the highest drag area that the sources of the "
-        "airframe allow."
-    ),
     "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
     "stand_flapping": Term(
         "First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub moments."
@@ -271,7 +268,10 @@ READOUTS: dict[str, Term] = {
         "ours as a line.",
         section=5,
     ),
-    "fly_measured": Term("Sets the condition in which this was measured; the blade stays as it is."),
+    "drag_band": Term(
+        "Total power of this flight trimmed with the lowest and the highest drag area that the sources of the "
+        "airframe allow."
+    ),
     "chart_lift_curve": Term(
         "Lift curve of the section at this Mach number, the present point on it, and public data within 0.05 of Mach.",
         section=5,

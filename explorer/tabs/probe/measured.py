@@ -27,6 +27,8 @@ _SHORT = {
     "umd-net": "RANS net",
     "cr-166309": "simulation deck",
     "tm-86719": "wind tunnel",
+    "tm-88370": "rotor table",
+    "hart2": "HART II table",
 }
 
 _LOAD_HEIGHT, _LOAD_LEFT, _LOAD_RIGHT, _LOAD_BOTTOM = 104.0, 34.0, 302.0, 86.0
