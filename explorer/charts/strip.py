@@ -207,7 +207,9 @@ def total_power_chart(
     here = curve.in_unit(unit)
     power = here.design
     mus, now = np.array(SWEEP), math.nan if total is None else unit.of(total)
-    seen = [value for value in (*power[mus <= max(0.4, mu)], now) if math.isfinite(value)]
+    fastest = max([mark.x for mark in marks], default=0.4)  # Flights are slow, and their points low, beside 0.4.
+    values = (*power[mus <= max(fastest + 0.03, mu)], now, *(mark.y for mark in marks))
+    seen = [value for value in values if math.isfinite(value)]
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
     known = curve.current and math.isfinite(power[least])
     role: Role = "saving" if curve.current else "earlier"
@@ -216,7 +218,7 @@ def total_power_chart(
     shaft = [] if here.main_rotor is None or not marks else [StripLine(mus, here.main_rotor, "reference")]
     return StripChart(
         title="Power over µ",
-        unit=f"{unit.symbol}; dashed: main rotor" if shaft else unit.symbol,
+        unit=f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol,
         x_range=(0.0, SWEEP[-1]),
         y_range=held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan)),
         lines=(*shaft, StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),

@@ -57,7 +57,6 @@ CONTROLS: dict[str, Term] = {
         "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; with "
         "the conditions of its tests, where a rotor was measured."
     ),
-    "fly_measured": Term("Sets the condition in which this was measured; the blade stays as it is."),
     "measured_test": Term("Tests and flights in which this rotor was measured; choose one to set its conditions."),
     "measured_point": Term("The measured points of this test or flight; choose one to set its conditions."),
     "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
@@ -263,6 +262,7 @@ READOUTS: dict[str, Term] = {
     ),
     "probe_torque": Term("Torque of one blade per metre of span, about the shaft.", ("2.18", "3.10")),
     "probe_power": Term("Torque times rotor speed; negative where the flow drives the blade.", section=12),
+    "fly_measured": Term("Sets the condition in which this was measured; the blade stays as it is."),
     "probe_measured": Term(
         "Airloads measured over a revolution at the radius and in the condition nearest to the probe's, as points, and "
         "ours as a line.",

@@ -65,7 +65,8 @@ def drag_band_words(design: Design, ends: tuple[Solution, Solution] | None, unit
     areas = open_drag_area(design)
     if areas is None or ends is None:
         return ""
-    low, high = (number(units.power[0].of(end.power.total), fineness(end.power)) for end in ends)
+    digits = fineness(ends[0].power)
+    low, high = (number(units.power[0].of(end.power.total), digits) for end in ends)
     return f"Drag area {number(areas[0], 2)} to {number(areas[1], 2)} m²: {low} to {high} {units.power[0].symbol}"
 
 

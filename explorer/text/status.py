@@ -114,8 +114,8 @@ def section_title(section: str) -> str:
         "naca0015re242k": "NACA 0015",
         "goe429": "Göttingen 429",
         "oa209": "OA209",
-        "naca23012tab": "NACA 23012 with tab",
-        "naca23012tab-model": "NACA 23012 with tab, model scale",
+        "naca23012tab": "NACA 23012 tab",
+        "naca23012tab-model": "23012 tab, model",
     }
     return titles.get(section, section)
 

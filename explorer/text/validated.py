@@ -75,7 +75,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         words = f"{here.case}: {number(percent, 1, sign=True)} % of measured"
         kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
-        return ValidationRecord(words, f"Main rotor {kilowatts} ({report}){airloads}")
+        return ValidationRecord(words, f"Main rotor {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:
         report = REPORTS[cases[0].test]
         return ValidationRecord("airloads measured", f"Its power was not measured; its airloads were: {report}.{blade}"

@@ -8,7 +8,7 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.charts.strip import round_ticks
-from explorer.stand import MeasuredCondition, airload_curves, as_measured, condition_of, is_at, nearest_case
+from explorer.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
@@ -135,11 +135,6 @@ class BesideMeasured:
     curves: tuple[tuple[MeasuredCurve, Array, Array], ...]
     """A measured curve, then azimuths [rad] and values of ours."""
 
-    @property
-    def condition(self) -> MeasuredCondition | None:
-        """That of the test, for the page to set."""
-        return condition_of(self.case.rotor, self.case.name)
-
 
 def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
     """What was measured nearest to r/R in the condition most like that of a solution; None without a measurement.
@@ -163,20 +158,27 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
 
 def measured_panel(beside: BesideMeasured, psi: float) -> str:
     """The curves one beneath the other; `psi`: azimuth of the probe [rad]."""
-    condition = beside.condition
-    name = beside.case.name if condition is None else f"{condition.test}, {condition.label}"
+    condition = condition_of(beside.case.rotor, beside.case.name)
+    name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"
+    report = escape(REPORTS[beside.case.test])
     differs = [
-        *([] if beside.at_test else ["at another condition than the test"]),
-        *([] if beside.blade else ["of another twist than the blade of the test"]),
+        *([] if beside.at_test else ["at another condition"]),
+        *([] if beside.blade else ["of another twist"]),
     ]
-    words = f"Our lines are {' and '.join(differs)}." if differs else ""
+    words = f"Ours is {' and '.join(differs)}." if differs else ""
+    press = (
+        ""
+        if beside.at_test or condition is None
+        else f'<button class="rx-push" data-do="flown" data-value="{escape(beside.case.name)}"{tip("fly_measured")}>'
+        "Set that of the test</button>"
+    )
+    line = f'<div class="rx-line rx-small rx-base"><span>{words}</span>{press}</div>' if differs else ""
     charts = "".join(_chart(curve, at, ours, psi, not differs) for curve, at, ours in beside.curves)
     return (
-        f'<div class="rx rx-probe" data-explorer="probe-measured" title="{escape(REPORTS[beside.case.test])}">'
-        f'<div class="rx-line rx-probe-title"{tip("probe_measured")}><span><b>Measured</b></span>'
-        f'<span class="rx-dim">{escape(name)}</span>'
-        f'<span><span class="rx-dash" style="background:{THIS}"></span>ours</span></div>'
-        f'{charts}<div class="rx-small rx-dim">{words} Measured: {escape(REPORTS[beside.case.test])}.</div></div>'
+        f'<div data-explorer="probe-measured"><div class="rx-line rx-probe-title"{tip("probe_measured")}>'
+        f'<span><b>Measured</b></span><span class="rx-dim" title="{report}">{escape(name)}</span>'
+        f'<span><span class="rx-dash" style="background:{THIS}"></span>ours</span></div>{line}{charts}'
+        f'<div class="rx-small rx-dim">Points: {report}.</div></div>'
     )
 
 

@@ -3,7 +3,7 @@
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -171,11 +171,8 @@ class ProbePanel:
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
-        self._measured = gui.add_html("", visible=False)
-        self._fly = gui.add_button("Set the measured condition", color="gray", visible=False, hint=hint("fly_measured"))
         self._beside: tuple[Solution, float, BesideMeasured | None] | None = None
         """A solution and r/R, and what was measured there."""
-        self._fly.on_click(lambda _: self._fly_measured())
         self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
         self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
@@ -203,29 +200,20 @@ class ProbePanel:
         if self._drawn == (solution, place, pitch, rides):
             return
         self._drawn = solution, place, pitch, rides
-        self._html = probe_panel(here, solution, place.opened)
+        self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
         self._panel.content = self._html
-        self._show_measured(solution, here)
         with self._client.atomic():
             if place.shown:
                 self._cursor.show(solution.design.rotor, here, pitch, rides)
             else:
                 self._cursor.hide()
 
-    def _show_measured(self, solution: Solution, here: Probe) -> None:
-        """Airloads over the azimuth, where they were measured on this rotor."""
+    def _measured(self, solution: Solution, here: Probe) -> str:
+        """Airloads over the azimuth as HTML; empty where none were measured on this rotor."""
         if self._beside is None or self._beside[:2] != (solution, here.r):
             self._beside = solution, here.r, beside_measured(solution, here.r)
         beside = self._beside[2]
-        self._measured.visible = beside is not None
-        self._fly.visible = beside is not None and not beside.at_test
-        if beside is not None:
-            self._measured.content = measured_panel(beside, here.psi)
-
-    def _fly_measured(self) -> None:
-        condition = None if self._beside is None or self._beside[2] is None else self._beside[2].condition
-        if condition is not None:
-            self._context.set_inputs(replace(self._context.inputs(), **condition.inputs))
+        return "" if beside is None else measured_panel(beside, here.psi)
 
     def show_failure(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""
