@@ -242,6 +242,8 @@ def flight_words(one: MeasuredPower, ours: OurPower | None, units: Units) -> str
     if ours.band is None:
         return f"{words}."
     low, high = (units.watts(end, 1) for end in ours.band)
+    if low == high:
+        return f"{words}."
     return f"{words}; {low} to {high} between the drag areas of the sources."
 
 

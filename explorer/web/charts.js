@@ -54,7 +54,7 @@
     const tight = element.toggleAttribute('data-tight', width < 260), title = tight && SHORT[one.name] || one.title, unit = tight ? one.unit.replace(/ over designs tried|^both /, '') : one.unit;
     element.innerHTML = `<div class="rxf-head"><b>${text(title)}</b><span class="rxf-dim">${text(unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 1}" width="${place.right - place.left + 2}" height="${place.base - place.top + 2}"/></clipPath>
-      ${axes(one, place, height)}<g clip-path="url(#${clip})">${band}${one.lines.map(line => curve(line, place, one)).join('')}${marks}</g>${dots}</svg>`;
+      ${axes(one, place, height)}<g clip-path="url(#${clip})">${band}${one.lines.map(line => curve(line, place, one)).join('')}</g>${dots}<g clip-path="url(#${clip})">${marks}</g></svg>`;
   }
   RX.paint('strip', all => {
     const strip = part('strip');

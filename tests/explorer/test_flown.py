@@ -207,7 +207,7 @@ def test_the_chip_says_what_was_measured():
     assert "4 flights at µ 0.14 to 0.362" in flying.sentence
     solution = solve(FC1.design())
     percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
-    assert validated(solution).words == f"FC1: {percent:.1f} % of measured".replace("-", "−")
+    assert validated(solution).words == f"measured: {percent:.1f} % (FC1)".replace("-", "−")
     changed = validated(solve(replace(FC1, law="linear", linear=-12.0).design()))
     assert "Measured with the twist as built." in changed.sentence
     assert validated(solve(with_rotor(OPENING, "hart2").design())).words == "airloads measured"
