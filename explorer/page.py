@@ -26,6 +26,7 @@ from explorer.sharing import share, stored_history
 from explorer.sharing.address import Address
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.view_code import VIEW, view_from
+from explorer.stand import condition_of
 from explorer.state import Inputs, ViewState, with_optimum
 from explorer.tabs.actuator.cut import fit_cut
 from explorer.tabs.actuator.panel import ActuatorPanel
@@ -217,6 +218,12 @@ class Page:
         if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
 
+    def _fly_measured(self, case: str) -> None:
+        """Set a measured flight or test of this rotor, by its name."""
+        condition = condition_of(self.controls.inputs().rotor, case)
+        if condition is not None and not self._held:
+            self.controls.stand.set_measured(condition)
+
     def show_power_number(self, state: SessionState) -> None:
         """Power, and what stands beside the hand: what a drag needs at each step."""
         self.results.card.show(state, self._pause)
@@ -317,6 +324,7 @@ class Page:
         bridge.on("mode", self._set_mode)
         bridge.on("drawer", self._toggle_drawer)
         bridge.on("rotor", lambda name: None if self._held else controls.choose_rotor(name))
+        bridge.on("flown", self._fly_measured)
         bridge.on("undo", lambda _: self._step(self.history.undo))
         bridge.on("redo", lambda _: self._step(self.history.redo))
         bridge.on("view", lambda name: self._look(name))

@@ -185,6 +185,8 @@ class Session:
         swept = set_shown(solution) is not None or self._curves.sweep(design, state.reference.design, stop, show_power)
         if swept and not stop():
             page.rest(state, stop)
+            if self._curves.widen(design, stop):
+                show_power()
 
     def _show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, with the sentence."""

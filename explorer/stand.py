@@ -1,15 +1,20 @@
-"""The test stand of the page: what is given in place of weight and drag, and the measured conditions of a rotor."""
+"""The test stand of the page: what is given in place of weight and drag; and what was measured of a rotor and where."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
+from rotor.assets import asset_path, csv_rows
+from rotor.design.active_twist import Harmonic
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design
 from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.validation import airloads, inflow
+from rotor.validation import inflow
+from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, measured_curves
 from rotor.validation.compare import design_at
 from rotor.validation.measured import sets_of
 
@@ -121,6 +126,99 @@ def stand_like(solution: Solution) -> StandInputs:
     )
 
 
+POWER_REPORTS = {
+    "gazelle": "NASA TM-88351 (1987), digitised by the authors of HEROES",
+    "bo105": "DLR flight test in Padfield, Helicopter Flight Dynamics (1996), figure 4.11; its mass is not stated, "
+    "2200 kg assumed",
+}
+"""Sources of the powers, by rotor."""
+
+
+@dataclass(frozen=True)
+class MeasuredPower:
+    """Main-rotor power of one flight in level flight."""
+
+    case: str
+    mu: float
+    mass: float
+    """[kg]"""
+    altitude: float
+    """Pressure altitude [m]."""
+    power: float
+    """[W]"""
+
+    def same_air(self, design: Design) -> bool:
+        """Whether a design has this mass and altitude and neither climbs nor descends."""
+        here = design.condition
+        pairs = ((here.mass, self.mass), (here.altitude, self.altitude), (here.climb_speed, 0.0))
+        return here.stand is None and all(math.isclose(one, other, abs_tol=1e-6) for one, other in pairs)
+
+    def same_flight(self, design: Design) -> bool:
+        """The same at this advance ratio too."""
+        return self.same_air(design) and math.isclose(design.condition.advance_ratio, self.mu, abs_tol=1e-9)
+
+    @property
+    def title(self) -> str:
+        """The flight in words."""
+        return f"{self.case}: µ {self.mu:g}, {self.mass:g} kg, {self.altitude:g} m"
+
+
+@cache
+def measured_powers(rotor: str) -> tuple[MeasuredPower, ...]:
+    """The powers of a shipped rotor in flight, by its name; none for a rotor without."""
+    return tuple(
+        MeasuredPower(
+            row["case"], float(row["mu"]), float(row["mass_kg"]), float(row["altitude_m"]), 1e3 * float(row["power_kw"])
+        )
+        for row in csv_rows(asset_path("measured/flown_power.csv"))
+        if row["rotor"] == rotor
+    )
+
+
+@cache
+def airload_cases(rotor: str) -> tuple[FlownCase, ...]:
+    """The conditions in which airloads of a shipped rotor were measured."""
+    return tuple(case for case in CASES if case.rotor == rotor)
+
+
+@cache
+def airload_curves(rotor: str) -> tuple[MeasuredCurve, ...]:
+    """All that was measured over the azimuth on a shipped rotor."""
+    return tuple(curve for curve in measured_curves() if curve.case.rotor == rotor) if airload_cases(rotor) else ()
+
+
+def as_measured(design: Design) -> bool:
+    """Whether a design has the blade of the tests: its twist as built and none driven."""
+    return design.twist == design.rotor.builtin_twist and design.active_twist is None
+
+
+@cache
+def _design_of(case: FlownCase) -> Design:
+    return case.design()
+
+
+def is_at(case: FlownCase, design: Design) -> bool:
+    """Whether a design is in this condition, whatever its blade."""
+    test = _design_of(case)
+    return (test.condition, test.models.trim, test.pitch_per_rev) == (
+        design.condition, design.models.trim, design.pitch_per_rev,
+    )  # fmt: skip
+
+
+def nearest_case(design: Design) -> FlownCase | None:
+    """The measured condition that is most like that of a design: the same, else that nearest in advance ratio.
+
+    None for a rotor without measured airloads.
+    """
+
+    def apart(case: FlownCase) -> tuple[bool, bool, float]:
+        test = _design_of(case)
+        mu = abs(test.condition.advance_ratio - design.condition.advance_ratio)
+        return not is_at(case, design), test.pitch_per_rev != design.pitch_per_rev, mu
+
+    return min(airload_cases(design.aircraft.key), key=apart, default=None)
+
+
 @dataclass(frozen=True)
 class MeasuredCondition:
     """One measured point of a rotor, as the page can be set to it."""
@@ -130,7 +228,23 @@ class MeasuredCondition:
     label: str
     """The point in the menu."""
     advance_ratio: float
-    stand: StandInputs
+    stand: StandInputs | None
+    """None: flown, with the mass and the altitude below."""
+    mass: float = 0.0
+    """[kg]"""
+    altitude: float = 0.0
+    """[m]"""
+    pitch_per_rev: tuple[Harmonic, ...] = ()
+    first: bool = False
+    """Whether a rotor begins with it; where none says so, with the middle one of the first test."""
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What it sets of the page's inputs, by name."""
+        shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
+        if self.stand is not None:
+            return shared
+        return {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude, "climb_m_s": 0.0}
 
 
 @cache
@@ -144,11 +258,8 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):
             words = ", ".join(f"{_SHORT[name]} {point[name]:.4g}" for name in several)
-            design = design_at(measured, point)
-            stand = stand_of(design)
-            assert stand is not None
             title = _TITLES[measured.name]
-            found.append(MeasuredCondition(title, f"{number}: {words}", design.condition.advance_ratio, stand))
+            found.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
     if rotor == inflow.ROTOR:
         for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
             solidity = make_design(rotor=rotor).rotor.solidity
@@ -156,25 +267,48 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
             found.append(
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
-    if rotor == airloads.HART2_BASELINE.rotor:
-        design = airloads.HART2_BASELINE.design()
-        stand = stand_of(design)
-        assert stand is not None
-        found.append(MeasuredCondition("HART II", "Baseline: descent", design.condition.advance_ratio, stand))
+    powers = measured_powers(rotor)
+    flown = {one.case for one in powers}
+    found.extend(
+        MeasuredCondition("Flight", one.title, one.mu, None, mass=one.mass, altitude=one.altitude) for one in powers
+    )
+    for number, case in enumerate(one for one in airload_cases(rotor) if one.name not in flown):
+        title, label = _CASES.get(case.name, (case.test, case.name))
+        found.append(replace(_condition(title, label, case.design()), first=number == 0))
     return tuple(found)
+
+
+def _condition(test: str, label: str, design: Design) -> MeasuredCondition:
+    here = design.condition
+    return MeasuredCondition(
+        test, label, here.advance_ratio, stand_of(design), here.mass, here.altitude, design.pitch_per_rev
+    )
+
+
+def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
+    """The measured condition of a flight or of airloads, by the name of the case."""
+    label = _CASES.get(case, ("", f"{case}:"))[1]
+    return next((one for one in measured_conditions(rotor) if one.label.startswith(label)), None)
+
+
+def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
+    """The condition that a test begins with."""
+    return next((one for one in conditions if one.first), conditions[len(conditions) // 2])
 
 
 def first_condition(rotor: str) -> MeasuredCondition | None:
     """The condition that a measured rotor begins with: the middle one of its first test."""
     conditions = measured_conditions(rotor)
     first = [one for one in conditions if one.test == conditions[0].test]
-    return first[len(first) // 2] if first else None
+    return opening(first) if first else None
 
 
 def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
     """Advance ratio and test that a rotor without an airframe begins with."""
     condition = first_condition(aircraft.key)
-    return (0.0, StandInputs()) if condition is None else (condition.advance_ratio, condition.stand)
+    if condition is None or condition.stand is None:
+        return 0.0, StandInputs()
+    return condition.advance_ratio, condition.stand
 
 
 _SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
@@ -191,3 +325,5 @@ _TITLES = {
     "uh60a-hover": "Hover (digitised)",
 }
 """Short titles of the sets, for a menu."""
+_CASES = {"BL": ("HART II", "Baseline"), "MN": ("HART II", "Minimum noise: 3/rev pitch")}
+"""Title of the test and of the point in the menu, by the name of a case of airloads."""

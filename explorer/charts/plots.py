@@ -1,7 +1,7 @@
 """Solution → chart data: finite arrays and axis ranges; a gap is NaN inside an array and never a number on screen."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,11 +38,23 @@ class PowerCurve:
     """This design's power with the least induced power that any circulation could have."""
     current: bool = True
     """Whether `design` has been swept; else it is the curve of the design before it."""
+    main_rotor: Array | None = None
+    """Of `design`, as flight tests measure it."""
+    band: Array | None = None
+    """Power of `design` with the lowest and the highest drag area of its sources, (2, speeds); None until it is known,
+    and where the sources give one value."""
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
         """The curve in a unit other than kW."""
         factor = KILOWATT.size / unit.size
-        return PowerCurve(factor * self.design, factor * self.reference, factor * self.ideal, self.current)
+        return replace(
+            self,
+            design=factor * self.design,
+            reference=factor * self.reference,
+            ideal=factor * self.ideal,
+            main_rotor=None if self.main_rotor is None else factor * self.main_rotor,
+            band=None if self.band is None else factor * self.band,
+        )
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.text.readout import ideal_induced
 from explorer.workers.scheduler import SCHEDULER
+from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.low_speed import passes_over
@@ -27,6 +28,8 @@ _FEW = (0, 1, 3, 6, 9, 12, 15, 18)
 """Places in `SWEEP` computed first; a smooth line joins them where time is short."""
 _FEWEST = (0, 6, 12, 15, 18)
 """The same where the curve of a design much like it is known: the line then joins the differences from it."""
+_BAND = (4, 8, 13, 18)
+"""Places in `SWEEP` at which the band between the drag areas is trimmed."""
 _KEPT = 200
 """Curves remembered per session."""
 
@@ -37,7 +40,11 @@ class PowerCurves:
     def __init__(self, haste: float = HASTE) -> None:
         self._haste = haste
         self._curves: dict[Design, Array] = {}
-        """(2, points): total and ideal [kW]."""
+        """(3, points): total, ideal and main-rotor power [kW]."""
+        self._bands: dict[Design, Array] = {}
+        """(2, points): change of total power with the lowest and the highest drag area [kW]."""
+        self._band: Design | None = None
+        """The last of these that was asked for."""
         self._coarse: set[Design] = set()
         """Curves swept coarsely, to be swept again once there is time."""
         self._last: Design | None = None
@@ -55,13 +62,49 @@ class PowerCurves:
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
         """The curves of a design and of its reference; until the design is swept, the curve before it."""
-        blank = np.full((2, len(SWEEP)), math.nan)
+        blank = np.full((3, len(SWEEP)), math.nan)
         last = self._last
         alike = last is not None and last.aircraft == design.aircraft
         before = self._curves.get(last, blank) if last is not None and alike else blank
         family = _family(design)
-        total, ideal = self._curves.get(family, before)
-        return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal, family in self._curves)
+        total, ideal, main_rotor = self._curves.get(family, before)
+        if family in self._bands:
+            self._band = family
+        # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
+        near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
+        level = near is not None and near.condition.climb_speed == design.condition.climb_speed
+        band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
+        reference_total = self._curves.get(_family(reference), blank)[0]
+        return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)
+
+    def widen(self, design: Design, superseded: Callable[[], bool]) -> bool:
+        """Find the band of a design's curve between the drag areas of its sources; whether there is more to draw.
+
+        Trimmed at a few speeds: between them the change of power over the cube of speed, which is nearly constant,
+        is a smooth line.
+        """
+        family = _family(design)
+        flies = design.condition.stand is None and design.models.fuselage
+        if family in self._bands or design.fuselage.drag_area_band is None or not flies:
+            return False
+        found: dict[int, tuple[float, float]] = {}
+        for k in _BAND:
+            if superseded():
+                return False
+            at = family.at(mu=SWEEP[k])
+            if vortex_ring(at):
+                continue
+            point = solve(at, self._starts.get(k))
+            ends = between_drag_areas(point)
+            if ends is not None:
+                low, high = ((end.power.total - point.power.total) / 1e3 for end in ends)
+                found[k] = low, high
+        if len(found) < 2:
+            return False
+        if len(self._bands) >= _KEPT:
+            del self._bands[next(iter(self._bands))]
+        self._bands[family] = _over_speed(found)
+        return True
 
     def sweep(
         self,
@@ -88,9 +131,9 @@ class PowerCurves:
         return True
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
-        """Total and ideal power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
+        """Total, ideal and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
         begun, slow = time.monotonic(), 0 if passes_over(family) else 1
-        values = np.full((2, len(SWEEP)), math.nan)
+        values = np.full((3, len(SWEEP)), math.nan)
         points: dict[int, Guess] = {}
         before = self._starts if self._last is not None and _alike(self._last, family) else {}
         base = self._fine[1] if self._fine is not None and _alike(self._fine[0], family) else None
@@ -141,17 +184,27 @@ def _alike(one: Design, other: Design) -> bool:
     return (one.rotor, one.models, one.condition.stand) == (other.rotor, other.models, other.condition.stand)
 
 
-def _powers(point: Solution) -> tuple[float, float]:
-    """Total power, and total power with the least induced power at this lift [kW], which is NaN at low speed."""
+def _powers(point: Solution) -> tuple[float, float, float]:
+    """Total power, that with the least induced power at this lift, NaN at low speed, and main-rotor power [kW]."""
     total, slow = point.power.total / 1e3, 0.0 < point.design.condition.advance_ratio < LOW_SPEED
     ideal = None if slow else ideal_induced(point)
-    return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+    least = math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+    return total, least, point.power.main_rotor / 1e3
+
+
+def _over_speed(found: dict[int, tuple[float, float]]) -> Array:
+    """Changes of power over `SWEEP`, (2, points), from those at a few of its places; NaN beyond the last."""
+    mus, at = np.array(SWEEP), np.array(sorted(found))
+    ratios = np.array([found[k] for k in at.tolist()]) / mus[at, None] ** 3
+    inside = np.clip(mus, mus[at[0]], None)
+    line = PchipInterpolator(mus[at], ratios, extrapolate=False)(inside)
+    return np.asarray(line * mus[:, None] ** 3, dtype=np.float64).T
 
 
 def _bridged(values: Array, first: int, base: Array | None) -> Array:
     """Fill the points left out of a coarse sweep, from `first` on, by a smooth line of the values less those of a base.
 
-    values, base: (2, points).
+    values, base: (powers, points).
     """
     base = np.zeros_like(values) if base is None else base
     k = np.arange(values.shape[1])

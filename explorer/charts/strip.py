@@ -56,6 +56,19 @@ class StripMark:
     """Scatter of y, up and down."""
     words: str
     """Measured value, ours and the error."""
+    case: str = ""
+    """Name of the flight that a press sets; empty: it cannot be pressed."""
+    elsewhere: bool = False
+    """Whether it was flown with another mass or at another altitude than the lines of the chart."""
+
+
+@dataclass(frozen=True, eq=False)
+class StripBand:
+    """The area between two lines."""
+
+    x: Array
+    low: Array
+    high: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +83,7 @@ class StripChart:
     lines: tuple[StripLine, ...]
     dots: tuple[StripDot, ...] = ()
     marks: tuple[StripMark, ...] = ()
+    band: StripBand | None = None
     value: str = ""
     """The number to remember, in the corner."""
     note: str = ""
@@ -89,6 +103,11 @@ class StripChart:
         """Whether most of a line lies within the axis: a limit of which only small parts do is left out."""
         low, high = self.y_range
         return bool(np.mean((line.y >= low) & (line.y <= high)) > 0.5)
+
+    def _area(self, band: StripBand, digits: int) -> dict[str, list[float | None]]:
+        known = np.isfinite(band.low) & np.isfinite(band.high)
+        edges = {"x": (band.x, 4), "low": (band.low, digits), "high": (band.high, digits)}
+        return {name: _plain(values[known], places) for name, (values, places) in edges.items()}
 
     @cached_property
     def as_dict(self) -> dict[str, Any]:
@@ -117,9 +136,12 @@ class StripChart:
                     "y": round(mark.y, digits),
                     "error": round(mark.error, digits + 1),
                     "words": mark.words,
+                    "case": mark.case,
+                    "elsewhere": mark.elsewhere,
                 }
                 for mark in self.marks
             ],
+            "band": None if self.band is None else self._area(self.band, digits),
             "value": self.value,
             "note": self.note,
         }
@@ -169,28 +191,40 @@ def autorotation_words(curve: PowerCurve) -> str:
 
 
 def total_power_chart(
-    curve: PowerCurve, mu: float, total: float | None, units: Units = SI, held: Range | None = None
+    curve: PowerCurve,
+    mu: float,
+    total: float | None,
+    units: Units = SI,
+    held: Range | None = None,
+    marks: tuple[StripMark, ...] = (),
 ) -> StripChart:
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
+    `marks`: main-rotor power measured in flight; then there is a line of ours too.
     """
     unit = units.power[0]
-    power = curve.in_unit(unit).design
+    here = curve.in_unit(unit)
+    power = here.design
     mus, now = np.array(SWEEP), math.nan if total is None else unit.of(total)
-    seen = [value for value in (*power[mus <= max(0.4, mu)], now) if math.isfinite(value)]
+    fastest = max([mark.x for mark in marks], default=0.4)  # Flights are slow, and their points low, beside 0.4.
+    values = (*power[mus <= max(fastest + 0.03, mu)], now, *(mark.y for mark in marks))
+    seen = [value for value in values if math.isfinite(value)]
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
     known = curve.current and math.isfinite(power[least])
     role: Role = "saving" if curve.current else "earlier"
     driven = StripLine(mus, np.where(power < 0.0, power, np.nan), role, filled=True)
     value = "autorotation" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
+    shaft = [] if here.main_rotor is None or not marks else [StripLine(mus, here.main_rotor, "reference")]
     return StripChart(
         title="Power over µ",
-        unit=unit.symbol,
+        unit=f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol,
         x_range=(0.0, SWEEP[-1]),
         y_range=held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan)),
-        lines=(StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),
+        lines=(*shaft, StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),
         dots=(*([StripDot(0.0, float(power[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
+        marks=marks,
+        band=None if here.band is None else StripBand(mus, here.band[0], here.band[1]),
         value=value,
         note=autorotation_words(curve),
         x_name="µ",

@@ -1,12 +1,13 @@
 """The live charts: uplots made once and then only given data, and the strip below the scene."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import viser
 from viser import uplot
 
-from explorer.charts.measured import MeasuredChart
+from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
 from explorer.charts.plots import Plot, PowerCurve, Range
 from explorer.charts.strip import (
     StripChart,
@@ -22,8 +23,9 @@ from explorer.overlay.bridge import Bridge
 from explorer.tabs.optimise.run import Starts
 from explorer.tabs.power_card import against
 from explorer.text import readout
-from explorer.text.units import UNITS, Units
+from explorer.text.units import UNITS, Units, number
 from explorer.theme.colours import PINNED, PINNED_DASH, START_COLOURS, THIS, css
+from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 
@@ -132,6 +134,9 @@ class ChartStrip:
         """Whether power over µ shows the power itself."""
         self._starts: dict[str, Any] | None = None
         self._measured = MeasuredChart()
+        self._flown = FlownPowers()
+        self._power: tuple[SessionState, PowerCurve, bool] | None = None
+        """What power over µ shows, to be drawn again when more is known."""
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
         """Follow a converged state; `gradient`: of its power by pitch, None where there is none.
@@ -150,13 +155,19 @@ class ChartStrip:
         self._show_measured(state.solution)
 
     def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
-        """The page rests: trim at the measured points of this rotor, where it is on a test stand."""
+        """The page rests: trim at the measured points of this rotor, of a test or in flight."""
 
         def shown() -> None:
             self._show_measured(state.solution)
             self._send()
 
+        def flown() -> None:
+            if self._power is not None:
+                self.show_power(*self._power)
+
         self._measured.rest(state.solution, superseded, shown)
+        if self._plain:
+            self._flown.rest(state.solution, superseded, flown)
 
     def _show_measured(self, solution: Solution) -> None:
         chart = self._measured.chart(solution, self._held(_MEASURED))
@@ -178,6 +189,7 @@ class ChartStrip:
         `failed`: the present inputs have no solution.
         """
         change = None
+        self._power = state, curve, failed
         if not failed and state.reference.converged:
             change = state.solution.power.total - state.reference.power.total
         # A preview, such as the flight of a schedule, is elsewhere than the sliders.
@@ -188,11 +200,15 @@ class ChartStrip:
         plain = design == state.reference.design
         held = self._held("power") if plain == self._plain else None
         self._plain = plain
-        self._charts["power"] = (
-            total_power_chart(curve, mu, None if failed else state.solution.power.total, units, held)
-            if plain
-            else power_change_chart(curve, mu, change, name, units, held)
-        )
+        if plain:
+            marks = self._flown.marks(state.solution, units)
+            chart = total_power_chart(curve, mu, None if failed else state.solution.power.total, units, held, marks)
+            notes = [chart.note, band_words(design, curve.band is not None), source_of(design)]
+            value = "" if failed else self._flown.value(state.solution)
+            chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
+        else:
+            chart = power_change_chart(curve, mu, change, name, units, held)
+        self._charts["power"] = chart
         self._send()
 
     def show_starts(self, starts: Starts | None, units: Units) -> None:
@@ -228,6 +244,14 @@ class ChartStrip:
             if name in self._charts
         ]
         self._bridge.set(strip=charts if self._starts is None else [self._starts, *charts])
+
+
+def band_words(design: Design, drawn: bool) -> str:
+    """What the band of power over µ is; empty where none is drawn."""
+    areas = design.fuselage.drag_area_band
+    if areas is None or not drawn:
+        return ""
+    return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², which the sources allow."
 
 
 def starts_chart(starts: Starts, units: Units) -> dict[str, Any]:

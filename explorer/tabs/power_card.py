@@ -126,9 +126,16 @@ class PowerCard:
             **_numbers(state, units),
             **self._change(state, units),
             "problem": "",
+            "band": "",
             "status": _status(state),
         }
         self._bridge.set(power=self._content)
+
+    def show_band(self, words: str) -> None:
+        """Say between which powers the drag area of the sources leaves the total."""
+        if self._content is not None and not self._content["problem"]:
+            self._content = {**self._content, "band": words}
+            self._bridge.set(power=self._content)
 
     def show_problem(self, sentence: str) -> None:
         """Keep the last numbers, greyed, beside the sentence that says why there are none."""
@@ -266,5 +273,5 @@ def _kind(change: float, total: float) -> str:
 
 _EMPTY: dict[str, Any] = {
     "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
-    "ideal_title": "", "since": None, "rest": "", "why": "",
+    "ideal_title": "", "since": None, "rest": "", "why": "", "band": "",
 }  # fmt: skip

@@ -19,6 +19,7 @@ from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel, trust_page
 from explorer.text.units import SI, UNITS, Units
+from rotor.analysis.series import between_drag_areas
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
 
@@ -35,6 +36,8 @@ class ResultsPanel:
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
+        self._band: tuple[Solution, tuple[Solution, Solution] | None] | None = None
+        """A solution, and the same flight with the lowest and the highest drag area."""
         with layout.in_drawer("details"):
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
@@ -54,7 +57,7 @@ class ResultsPanel:
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
-            self._power.content, self._trim.content = _numbers(state)
+            self._power.content, self._trim.content = _numbers(state, self._band_words(state))
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
@@ -71,6 +74,7 @@ class ResultsPanel:
         if self._state is not None:
             self.worth.rest(self._state, superseded)
             self.strip.rest(self._state, superseded)
+            self._rest_band(self._state, superseded)
 
     def problem(self, sentence: str) -> None:
         """Keep the last converged numbers, greyed, with the sentence that says why there are none."""
@@ -79,7 +83,8 @@ class ResultsPanel:
         self.worth.clear()
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
-            self._power.content, self._trim.content = map(readout.faded, _numbers(self._state))
+            numbers = _numbers(self._state, self._band_words(self._state))
+            self._power.content, self._trim.content = map(readout.faded, numbers)
 
     @property
     def units(self) -> Units:
@@ -107,6 +112,24 @@ class ResultsPanel:
         shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
         self._bridge.set(inset={**shown, **names})
 
+    def _rest_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+        """Power between the drag areas of the sources: two more trims."""
+        solution = state.solution
+        if superseded() or readout.open_drag_area(solution.design) is None:
+            return
+        if self._band is None or self._band[0] is not solution:
+            self._band = solution, between_drag_areas(solution)
+        words = self._band_words(state)
+        self.card.show_band(words)
+        if self._layout.drawer == "details":
+            self._power.content = _numbers(state, words)[0]
+
+    def _band_words(self, state: SessionState) -> str:
+        """The band of this state as far as it is known."""
+        known = self._band is not None and self._band[0] is state.solution
+        ends = self._band[1] if self._band is not None and known else None
+        return readout.drag_band_words(state.solution.design, ends, UNITS[state.view.units])
+
     def _gradient_of(self, solution: Solution) -> PitchGradient | None:
         if solution.design.models.trim == "free-rotor":
             return None  # Its shaft takes no power, whatever the twist.
@@ -115,9 +138,9 @@ class ResultsPanel:
         return self._gradient[1]
 
 
-def _numbers(state: SessionState) -> tuple[str, str]:
+def _numbers(state: SessionState, band: str) -> tuple[str, str]:
     """Power and trim: of this design, or of A and B."""
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
-        return readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
-    return ab_readout.power_panel(solution, pinned, units), ab_readout.trim_panel(solution, pinned)
+        return readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
+    return ab_readout.power_panel(solution, pinned, units, band), ab_readout.trim_panel(solution, pinned)

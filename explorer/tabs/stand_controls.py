@@ -15,6 +15,7 @@ from explorer.stand import (
     StandInputs,
     load_of,
     measured_conditions,
+    opening,
     stand_like,
 )
 from explorer.state import Inputs
@@ -117,8 +118,9 @@ class StandControls:
                 handle.value = round(value, 6)
 
     def show_measured(self, inputs: Inputs) -> None:
-        """The measured condition that is set, where one is; in flight there is none."""
-        conditions = () if inputs.stand is None else measured_conditions(inputs.rotor)
+        """The measured condition that is set, where one is; in flight those of flights."""
+        flown = inputs.stand is None
+        conditions = [one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown]
         self._test.visible = bool(conditions)
         now = next((one for one in conditions if _is_at(inputs, one)), None)
         tests = list(dict.fromkeys(one.test for one in conditions))
@@ -181,21 +183,22 @@ class StandControls:
         if event.client is None or event.target.value == _NONE:
             return
         found = [one for one in measured_conditions(self._inputs().rotor) if one.test == event.target.value]
-        self._set(found[len(found) // 2])
+        self.set_measured(opening(found))
 
     def _point_chosen(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is None:
             return
         for one in measured_conditions(self._inputs().rotor):
             if one.test == self._test.value and one.label == event.target.value:
-                self._set(one)
+                self.set_measured(one)
 
-    def _set(self, condition: MeasuredCondition) -> None:
-        self._set_inputs(replace(self._inputs(), advance_ratio=condition.advance_ratio, stand=condition.stand))
+    def set_measured(self, condition: MeasuredCondition) -> None:
+        """Fly or test the rotor there, its blade unchanged."""
+        self._set_inputs(replace(self._inputs(), **condition.inputs))
 
 
 def _is_at(inputs: Inputs, condition: MeasuredCondition) -> bool:
-    return inputs.stand == condition.stand and inputs.advance_ratio == condition.advance_ratio
+    return all(getattr(inputs, name) == value for name, value in condition.inputs.items())
 
 
 def _seen(stand: StandInputs) -> tuple[str, ...]:

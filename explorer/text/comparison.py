@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from explorer.text.glossary import tip
 from explorer.text.readout import (
+    band_line,
     bar,
     dash,
     direction,
@@ -22,10 +23,10 @@ _Entry = tuple[str, str, Callable[[Solution], float | None], int]
 """Symbol, name in the glossary, function that reads the value, digits."""
 
 
-def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
+def power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> str:
     """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
 
-    Where A has no trim it shows dashes.
+    Where A has no trim it shows dashes. `band`: of B, as `drag_band_words` says it.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
@@ -45,7 +46,7 @@ def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
         f'<div class="rx-line rx-dim"{tip("change")}><span>total power of {_name("B")}</span>'
         f"<span>{against}</span></div>"
-        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}</div>"
+        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}{band_line(band)}</div>"
     )
 
 

@@ -57,8 +57,8 @@ CONTROLS: dict[str, Term] = {
         "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; with "
         "the conditions of its tests, where a rotor was measured."
     ),
-    "measured_test": Term("Tests in which this rotor was measured; choose one to set its conditions."),
-    "measured_point": Term("The measured points of this test; choose one to set its conditions."),
+    "measured_test": Term("Tests and flights in which this rotor was measured; choose one to set its conditions."),
+    "measured_point": Term("The measured points of this test or flight; choose one to set its conditions."),
     "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
     "stand_flapping": Term(
         "First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub moments."
@@ -262,6 +262,16 @@ READOUTS: dict[str, Term] = {
     ),
     "probe_torque": Term("Torque of one blade per metre of span, about the shaft.", ("2.18", "3.10")),
     "probe_power": Term("Torque times rotor speed; negative where the flow drives the blade.", section=12),
+    "fly_measured": Term("Sets the condition in which this was measured; the blade stays as it is."),
+    "probe_measured": Term(
+        "Airloads measured over a revolution at the radius and in the condition nearest to the probe's, as points, and "
+        "ours as a line.",
+        section=5,
+    ),
+    "drag_band": Term(
+        "Total power of this flight trimmed with the lowest and the highest drag area that the sources of the "
+        "airframe allow."
+    ),
     "chart_lift_curve": Term(
         "Lift curve of the section at this Mach number, the present point on it, and public data within 0.05 of Mach.",
         section=5,

@@ -33,8 +33,8 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> str:
-    """Total power with its change, the bar of parts, and the table of parts."""
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: str = "") -> str:
+    """Total power with its change, the bar of parts, and the table of parts; `band`: as `drag_band_words` says it."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
@@ -44,8 +44,30 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
         f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
         f"<span>vs. {escape(baseline_title(solution.design))}</span></div>"
-        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}</div>'
+        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}'
+        f"{band_line(band)}</div>"
     )
+
+
+def band_line(words: str) -> str:
+    """The band of the drag area below the table of powers; empty without words."""
+    return f'<div class="rx-dim" data-explorer="drag-band"{tip("drag_band")}>{escape(words)}</div>' if words else ""
+
+
+def open_drag_area(design: Design) -> tuple[float, float] | None:
+    """Lowest and highest drag area [m²] that the sources allow; None where they give one, in hover and on a stand."""
+    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
+    return design.fuselage.drag_area_band if flies else None
+
+
+def drag_band_words(design: Design, ends: tuple[Solution, Solution] | None, units: Units) -> str:
+    """Total power between the drag areas of the sources; empty where they give one, or `ends` are not known."""
+    areas = open_drag_area(design)
+    if areas is None or ends is None:
+        return ""
+    digits = fineness(ends[0].power)
+    low, high = (number(units.power[0].of(end.power.total), digits) for end in ends)
+    return f"Drag area {number(areas[0], 2)} to {number(areas[1], 2)} m²: {low} to {high} {units.power[0].symbol}"
 
 
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:

@@ -7,6 +7,7 @@ from itertools import groupby
 
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
+from explorer.text.readout import open_drag_area
 from explorer.text.units import number
 from explorer.text.validated import validated
 from rotor.aero.problem import grid_of
@@ -44,12 +45,12 @@ def _measurement(solution: Solution) -> str:
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     """Caveats of a solution; with A pinned, those of both, and the other differences between the two."""
-    own = [typographic(caveat.sentence) for caveat in solution.caveats]
+    own = _own_cautions(solution)
     if pinned is None:
         return own
     if not pinned.converged:
         return [f"A: {pinned.message}", *own]
-    other = [typographic(caveat.sentence) for caveat in pinned.caveats]
+    other = _own_cautions(pinned)
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
@@ -61,6 +62,20 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
         *(sentence for sentence in own if sentence in other),
         *(f"A: {sentence}" for sentence in other if sentence not in own),
         *(f"B: {sentence}" for sentence in own if sentence not in other),
+    ]
+
+
+def _own_cautions(solution: Solution) -> list[str]:
+    """The caveats of one solution, and the drag area where its sources leave it open."""
+    found = [typographic(caveat.sentence) for caveat in solution.caveats]
+    areas = open_drag_area(solution.design)
+    if areas is None:
+        return found
+    used = solution.design.fuselage.drag_area
+    return [
+        *found,
+        f"Power in forward flight is indicative: the sources allow drag areas of {number(areas[0], 2)} to "
+        f"{number(areas[1], 2)} m²; here it is {number(used, 2)} m².",
     ]
 
 
@@ -98,6 +113,9 @@ def section_title(section: str) -> str:
         "naca64208": "NACA 64-208",
         "naca0015re242k": "NACA 0015",
         "goe429": "Göttingen 429",
+        "oa209": "OA209",
+        "naca23012tab": "NACA 23012 tab",
+        "naca23012tab-model": "23012 tab, model",
     }
     return titles.get(section, section)
 

@@ -4,9 +4,11 @@ import math
 import re
 from dataclasses import dataclass
 
+from explorer.stand import POWER_REPORTS, airload_cases, as_measured, measured_powers
 from explorer.text.units import number
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
+from rotor.validation.airloads import REPORTS
 from rotor.validation.measured import MeasuredSet, sets_of
 from rotor.validation.trust import TrustRow, trust_rows
 
@@ -32,6 +34,8 @@ def validated(solution: Solution) -> ValidationRecord:
     kind = "hover" if design.hovering else "forward"
     where = "in hover" if design.hovering else "in forward flight"
     alike = [one for one in sets if one.kind == kind]
+    if not alike and (flown := _flown(solution)) is not None:
+        return flown
     if not alike:
         note = f"No measured power of this rotor {where} could be reached."
         if sets:
@@ -54,6 +58,29 @@ def validated(solution: Solution) -> ValidationRecord:
     words = f"measured: {_short(row, measured)}" if not outside else "outside the test range"
     sentence = typographic(" ".join(part for part in parts if part))
     return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)
+
+
+def _flown(solution: Solution) -> ValidationRecord | None:
+    """What was measured of this rotor in flight, or of its airloads in a tunnel; None where neither was."""
+    design = solution.design
+    key, blade = design.aircraft.key, "" if as_measured(design) else " Measured with the twist as built."
+    powers, cases = measured_powers(key), airload_cases(key)
+    airloads = "" if not cases else " The probe shows its measured airloads."
+    if powers and not design.hovering and design.condition.stand is None:
+        report = POWER_REPORTS[key]
+        count = f"{len(powers)} flights at µ {powers[0].mu:g} to {max(one.mu for one in powers):g}"
+        here = next((one for one in powers if one.same_flight(design)), None)
+        if here is None or blade:
+            return ValidationRecord("measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}")
+        percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
+        words = f"measured: {number(percent, 1, sign=True)} % ({here.case})"
+        kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
+        return ValidationRecord(words, f"Main rotor {kilowatts} ({report}).{airloads}")
+    if cases and design.condition.stand is not None and not design.hovering:
+        report = REPORTS[cases[0].test]
+        return ValidationRecord("airloads measured", f"Its power was not measured; its airloads were: {report}.{blade}"
+                                f"{airloads}")  # fmt: skip
+    return None
 
 
 def nearest(sets: list[MeasuredSet], solution: Solution) -> MeasuredSet:

@@ -10,7 +10,7 @@
       + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
     const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
-    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span></div>
+    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span></div>
       <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div></div>
       <div class="rxf-rule"></div>
       ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)}</div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>

@@ -40,14 +40,21 @@
   function chart(element, one) {
     const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 7 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;
     const dots = one.dots.map(dot => `<circle cx="${place.X(dot.x).toFixed(1)}" cy="${place.Y(Math.max(one.y_range[0], Math.min(one.y_range[1], dot.y))).toFixed(1)}" r="${dot.label ? 3.5 : 4.5}" fill="${dot.label ? COLOURS.saving : COLOURS.this}" stroke="var(--rx-paper)" stroke-width="2"><title>${text(dot.label || 'now')}</title></circle>`).join('');
-    const marks = (one.marks ?? []).map(mark => `<g data-mark><title>${text(mark.words)}</title><path d="M${place.X(mark.x).toFixed(1)} ${place.Y(mark.y + mark.error).toFixed(1)}V${place.Y(mark.y - mark.error).toFixed(1)}" stroke="var(--rx-ink)" stroke-width="1.2" opacity=".55"/><circle cx="${place.X(mark.x).toFixed(1)}" cy="${place.Y(mark.y).toFixed(1)}" r="2.6" fill="var(--rx-paper)" stroke="var(--rx-ink)" stroke-width="1.2"/></g>`).join('');
+    // A measured point; one of a flight is pressed to fly there.
+    const marks = (one.marks ?? []).map(mark => {
+      const x = place.X(mark.x).toFixed(1), y = place.Y(mark.y).toFixed(1), press = mark.case ? `role="button" tabindex="0" data-do="flown" data-value="${text(mark.case)}" aria-label="${text(mark.words)}"` : '';
+      const scatter = mark.error ? `<path d="M${x} ${place.Y(mark.y + mark.error).toFixed(1)}V${place.Y(mark.y - mark.error).toFixed(1)}" stroke="var(--rx-ink)" stroke-width="1.2" opacity=".55"/>` : '';
+      return `<g data-mark ${press} ${mark.elsewhere ? 'opacity=".5"' : ''}><title>${text(mark.words)}${mark.case ? ' Press to fly there.' : ''}</title>${mark.case ? `<circle cx="${x}" cy="${y}" r="7" fill="transparent"/>` : ''}${scatter}<circle cx="${x}" cy="${y}" r="2.6" fill="var(--rx-paper)" stroke="var(--rx-ink)" stroke-width="1.2"/></g>`;
+    }).join('');
+    const edge = ys => ys.map((y, k) => `${place.X(one.band.x[k]).toFixed(1)} ${place.Y(y).toFixed(1)}`);
+    const band = one.band ? `<path d="M${[...edge(one.band.low), ...edge(one.band.high).reverse()].join('L')}Z" fill="${COLOURS.saving}" opacity=".16" data-band/>` : '';
     const key = (one.key ?? []).map(([name, shade]) => `<span class="rxf-legend-line" style="--c:${shade}"><i></i>${text(name)}</span>`).join('');
     element.title = one.note ?? '';
     element.toggleAttribute('data-faded', Boolean(one.faded));
     const tight = element.toggleAttribute('data-tight', width < 260), title = tight && SHORT[one.name] || one.title, unit = tight ? one.unit.replace(/ over designs tried|^both /, '') : one.unit;
     element.innerHTML = `<div class="rxf-head"><b>${text(title)}</b><span class="rxf-dim">${text(unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 1}" width="${place.right - place.left + 2}" height="${place.base - place.top + 2}"/></clipPath>
-      ${axes(one, place, height)}<g clip-path="url(#${clip})">${one.lines.map(line => curve(line, place, one)).join('')}${marks}</g>${dots}</svg>`;
+      ${axes(one, place, height)}<g clip-path="url(#${clip})">${band}${one.lines.map(line => curve(line, place, one)).join('')}</g>${dots}<g clip-path="url(#${clip})">${marks}</g></svg>`;
   }
   RX.paint('strip', all => {
     const strip = part('strip');

@@ -32,7 +32,7 @@
     if (!event.target.matches?.(`${FOLDER}, #rx [role=button]`)) return;
     event.preventDefault();
     event.stopPropagation();
-    event.target.click();
+    event.target.dispatchEvent(new MouseEvent('click', {bubbles: true}));  // Parts of a drawing have no click().
     setTimeout(name, 400);  // Once the folder has unfolded.
   }, true);
 

@@ -87,7 +87,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     file = tmp_path / "mine.toml"
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=mine.toml, line 14: radius_m is -3.8, outside", timeout=WAIT)
+    watched.page.wait_for_selector("text=radius_m is -3.8, outside", timeout=WAIT)
     watched.drawer("trust")
     watched.page.wait_for_selector('[data-explorer="provenance"]', timeout=WAIT)
     watched.reads("provenance", "SC1095")  # Nothing is lost.

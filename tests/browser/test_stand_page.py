@@ -1,4 +1,4 @@
-"""The test stand on the real page: beside flight, a measured rotor in its tests, and points over the curve."""
+"""The test stand on the real page: a measured rotor in its tests and flights, and points over the curve."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -63,6 +63,28 @@ def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched
     watched.page.locator(".rxf-rotor").select_option(label="UH-60A")
     until(watched, f"() => !({CHART})()")
     watched.row("Mass").wait_for(timeout=WAIT)
+
+
+def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
+    watched.page.locator(".rxf-rotor").select_option(label="SA349/2 Gazelle")
+    power = "RX.state.strip?.find(one => one.name === 'power')"
+    until(watched, f"() => {power}?.marks.length === 4 && {power}.marks[1].words.includes('ours')")
+    watched.until(lambda: watched.page.locator("[data-name=power] [data-band]").count() == 1)
+    watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
+    until(watched, f"() => {power}?.value.startsWith('FC2: ')")
+    assert "FC2" in watched.row("Point").locator("input").first.input_value()
+    assert watched.row("Altitude").locator("input:not([type=hidden])").last.input_value() == "1521"
+    watched.page.locator("[data-name=power] [data-value=FC4]").click()
+    until(watched, f"() => {power}?.value.startsWith('FC4: ')")
+    watched.drawer("probe")
+    measured = watched.page.locator("[data-explorer=probe-measured]")
+    measured.get_by_role("button").click()
+    until(watched, f"() => {power}?.value.startsWith('FC2: ')")
+    watched.until(lambda: "FC2" in measured.inner_text() and "correlation" in measured.inner_text())
+    assert measured.get_by_role("button").count() == 0
+    watched.page.locator(".rxf-rotor").select_option(label="HART II")
+    watched.until(lambda: measured.locator("svg").count() == 3)
+    until(watched, "() => document.querySelector('[data-explorer=validated]')?.innerText === 'airloads measured'")
 
 
 @pytest.mark.slow

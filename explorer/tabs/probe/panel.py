@@ -18,6 +18,7 @@ from explorer.picture.poses import about, flown_twist
 from explorer.scene.page_scene import TURN_RATES, tie
 from explorer.tabs.keys import COARSE
 from explorer.tabs.probe.element import Probe, probe
+from explorer.tabs.probe.measured import BesideMeasured, beside_measured, measured_panel
 from explorer.tabs.probe.readout import outline, probe_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
@@ -170,6 +171,8 @@ class ProbePanel:
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
+        self._beside: tuple[Solution, float, BesideMeasured | None] | None = None
+        """A solution and r/R, and what was measured there."""
         self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
         self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
@@ -197,13 +200,20 @@ class ProbePanel:
         if self._drawn == (solution, place, pitch, rides):
             return
         self._drawn = solution, place, pitch, rides
-        self._html = probe_panel(here, solution, place.opened)
+        self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
         self._panel.content = self._html
         with self._client.atomic():
             if place.shown:
                 self._cursor.show(solution.design.rotor, here, pitch, rides)
             else:
                 self._cursor.hide()
+
+    def _measured(self, solution: Solution, here: Probe) -> str:
+        """Airloads over the azimuth as HTML; empty where none were measured on this rotor."""
+        if self._beside is None or self._beside[:2] != (solution, here.r):
+            self._beside = solution, here.r, beside_measured(solution, here.r)
+        beside = self._beside[2]
+        return "" if beside is None else measured_panel(beside, here.psi)
 
     def show_failure(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""

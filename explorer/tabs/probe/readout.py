@@ -10,7 +10,7 @@ from explorer.charts import svg
 from explorer.charts.svg import Point
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
-from explorer.tabs.probe.section_data import lift_curve, public_table
+from explorer.tabs.probe.measured import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.text.units import degrees, number
@@ -222,8 +222,11 @@ _CHIPS = {
 }
 
 
-def probe_panel(probe: Probe, solution: Solution, opened: bool = False) -> str:
-    """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider."""
+def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured: str = "") -> str:
+    """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider.
+
+    `measured`: airloads over the azimuth, as `measured_panel` draws them.
+    """
     disk, design = solution.disk, solution.design
     fastest = design.rotor.tip_speed * float(np.hypot(disk.u_t, disk.u_p).max())
     per_metre = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
@@ -231,7 +234,7 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False) -> str:
     picture, scales = drawing(probe, fastest, strongest, opened)
     return (
         f'<div class="rx rx-probe" data-explorer="probe">{_head(probe)}{picture}{_key(scales)}{_table(probe)}'
-        f"{lift_curve(probe)}{public_table(probe)}</div>"
+        f"{measured}{lift_curve(probe)}{public_table(probe)}</div>"
     )
 
 

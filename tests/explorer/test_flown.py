@@ -1,0 +1,214 @@
+"""Measured in flight on the page: flights over the power curve, airloads in the probe, the band of the drag area."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from explorer.charts.measured import FlownPowers, source_of
+from explorer.charts.plots import SWEEP
+from explorer.charts.power_curve import PowerCurves
+from explorer.charts.strip import total_power_chart
+from explorer.sharing.share import code_of, inputs_from
+from explorer.stand import condition_of, first_condition, measured_conditions
+from explorer.state import OPENING, Inputs, with_rotor
+from explorer.tabs.probe.element import probe
+from explorer.tabs.probe.measured import beside_measured, correlation, measured_panel
+from explorer.tabs.probe.readout import probe_panel
+from explorer.text.readout import drag_band_words, open_drag_area
+from explorer.text.status import cautions
+from explorer.text.units import SI
+from explorer.text.validated import validated
+from rotor.analysis.series import between_drag_areas
+from rotor.trim.solve import solve
+from rotor.validation.airloads import MeasuredCurve
+
+NEW = ("gazelle", "bo105", "hart2")
+
+
+def at_test(rotor: str, case: str) -> Inputs:
+    condition = condition_of(rotor, case)
+    assert condition is not None
+    return replace(with_rotor(OPENING, rotor), **condition.inputs)
+
+
+GAZELLE = with_rotor(OPENING, "gazelle")
+FC1 = at_test("gazelle", "FC1")
+
+
+@pytest.mark.parametrize("name", NEW)
+def test_every_flight_and_test_survives_a_link_exactly(name: str):
+    conditions = measured_conditions(name)
+    assert conditions
+    for condition in conditions:
+        inputs = replace(with_rotor(OPENING, name), **condition.inputs)
+        assert inputs_from(code_of(inputs.design())) == inputs
+
+
+def test_hart_2_begins_with_its_baseline_and_its_other_case_has_pitch_at_3_per_rev():
+    first = first_condition("hart2")
+    assert first is not None
+    assert first.label == "Baseline"
+    minimum_noise = at_test("hart2", "MN")
+    assert [wave.per_rev for wave in minimum_noise.pitch_per_rev] == [3]
+    assert minimum_noise.stand is not None
+    assert minimum_noise.stand.value == 3300.0
+
+
+class TestFlights:
+    def test_points_are_those_of_the_report_and_ours_that_of_a_solve(self):
+        solution, flown, drawn = solve(FC1.design()), FlownPowers(), list[bool]()
+        before = flown.marks(solution, SI)
+        assert [(mark.x, mark.y) for mark in before] == [
+            (0.14, 172.5),
+            (0.362, 441.9),
+            (0.2599, 221.4),
+            (0.3441, 442.6),
+        ]
+        assert [mark.elsewhere for mark in before] == [False, True, True, True]
+        assert "ours" not in before[1].words
+        flown.rest(solution, lambda: False, lambda: drawn.append(True))
+        assert drawn
+        other = solve(at_test("gazelle", "FC2").design())
+        ends = between_drag_areas(other)
+        assert ends is not None
+        words = flown.marks(solution, SI)[1].words
+        for one in (other, *ends):
+            assert f"{one.power.main_rotor / 1e3:.1f} kW" in words
+        percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
+        assert flown.value(solution) == f"FC1: {percent:.1f} %".replace("-", "−")
+        assert "TM-88351" in source_of(solution.design)
+
+    def test_rest_gives_way_and_does_not_trim_twice(self):
+        solution, flown, drawn = solve(FC1.design()), FlownPowers(), list[bool]()
+        flown.rest(solution, lambda: True, lambda: drawn.append(True))
+        assert not drawn
+        for _ in range(2):
+            flown.rest(solution, lambda: False, lambda: drawn.append(True))
+        assert len(drawn) == 1
+
+    @pytest.mark.parametrize(
+        "inputs",
+        [
+            OPENING,
+            replace(GAZELLE, climb_m_s=2.0),
+            replace(GAZELLE, law="linear", linear=-5.0),
+            with_rotor(OPENING, "hart2"),
+        ],
+    )
+    def test_none_for_another_blade_a_climb_a_stand_and_an_unmeasured_rotor(self, inputs: Inputs):
+        solution = solve(inputs.design())
+        assert FlownPowers().marks(solution, SI) == ()
+        assert source_of(solution.design) == ""
+
+
+class TestBand:
+    @pytest.mark.parametrize("name", ["gazelle", "bo105"])
+    def test_between_its_trims_it_is_within_two_per_cent_of_its_half_width(self, name: str):
+        design, curves = with_rotor(OPENING, name).design(), PowerCurves()
+        assert curves.sweep(design, design, lambda: False)
+        assert curves.known(design, design).band is None
+        assert curves.widen(design, lambda: False)
+        assert not curves.widen(design, lambda: False)
+        curve = curves.known(design, design)
+        assert curve.band is not None
+        assert curve.band[:, 0] == pytest.approx(curve.design[0])  # Hover has no drag.
+        for mu in (0.15, 0.25, 0.4):
+            solution, k = solve(design.at(mu=mu)), SWEEP.index(mu)
+            ends = between_drag_areas(solution)
+            assert ends is not None
+            for band, end in zip(curve.band, ends, strict=True):
+                change = (end.power.total - solution.power.total) / 1e3
+                assert band[k] - curve.design[k] == pytest.approx(change, rel=0.02)
+
+    def test_it_gives_way_and_is_drawn_without_gaps(self):
+        design, curves = GAZELLE.design(), PowerCurves()
+        curves.sweep(design, design, lambda: False)
+        assert not curves.widen(design, lambda: True)
+        curves.widen(design, lambda: False)
+        drawn = json.loads(json.dumps(total_power_chart(curves.known(design, design), 0.2, 2e5).as_dict))["band"]
+        assert len(drawn["x"]) == len(drawn["low"]) == len(drawn["high"]) == len(SWEEP)
+        assert all(low <= high for low, high in zip(drawn["low"], drawn["high"], strict=True))
+
+    def test_none_where_the_sources_give_one_drag_area(self):
+        curves = PowerCurves()
+        assert not curves.widen(OPENING.design(), lambda: False)
+        assert not curves.widen(with_rotor(OPENING, "hart2").design(), lambda: False)
+        assert open_drag_area(replace(GAZELLE, advance_ratio=0.0).design()) is None
+
+    def test_the_page_says_it(self):
+        solution = solve(GAZELLE.design())
+        ends = between_drag_areas(solution)
+        assert ends is not None
+        low, high = (f"{end.power.total / 1e3:.1f}" for end in ends)
+        assert drag_band_words(solution.design, ends, SI) == f"Drag area 0.80 to 1.17 m²: {low} to {high} kW"
+        sentence = cautions(solution, None)[-1]
+        assert sentence.startswith("Power in forward flight is indicative")
+        assert "0.80 to 1.17 m²; here it is 1.10 m²" in sentence
+        assert not any("indicative" in one for one in cautions(solve(OPENING.design()), None))
+
+
+class TestAirloads:
+    def test_the_nearest_radius_and_condition(self):
+        fast = solve(replace(GAZELLE, advance_ratio=0.33).design())
+        beside = beside_measured(fast, 0.9)
+        assert beside is not None
+        assert (beside.case.name, beside.at_test) == ("FC2", False)
+        radii = {0.75: 0.75, 0.9: 0.88, 1.0: 0.97}
+        for r, measured in radii.items():
+            there = beside_measured(fast, r)
+            assert there is not None
+            assert [curve.r for curve, _, _ in there.curves] == [measured]
+        assert 'data-do="flown" data-value="FC2"' in measured_panel(beside, 1.0)
+
+    @pytest.mark.parametrize("case", ["BL", "MN"])
+    def test_hart_2_shows_loads_and_twist_of_the_case_that_is_set(self, case: str):
+        solution = solve(at_test("hart2", case).design())
+        beside = beside_measured(solution, 0.87)
+        assert beside is not None
+        assert (beside.case.name, beside.at_test, beside.blade) == (case, True, True)
+        assert [curve.quantity for curve, _, _ in beside.curves] == ["cn_m2", "cm_m2", "tip_twist_deg"]
+        html = measured_panel(beside, 1.0)
+        assert html.count('data-explorer="correlation">correlation') == 3
+        assert "<button" not in html
+        assert "nan" not in html
+
+    def test_another_blade_is_named_and_not_correlated(self):
+        beside = beside_measured(solve(replace(FC1, law="linear", linear=-12.0).design()), 0.75)
+        assert beside is not None
+        html = measured_panel(beside, 0.0)
+        assert "Ours is of another twist." in html
+        assert ">correlation" not in html
+
+    def test_the_correlation_is_that_of_the_waves_without_the_mean(self):
+        psi = np.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
+        beside = beside_measured(solve(FC1.design()), 0.75)
+        assert beside is not None
+        measured = MeasuredCurve(beside.case, "cl_u2", 0.75, psi, 0.3 + np.cos(psi) + 5.0 * np.cos(20.0 * psi))
+        assert correlation(measured, psi, 7.0 + 2.0 * np.cos(psi)) == pytest.approx(1.0)
+        assert correlation(measured, psi, np.cos(psi - math.pi / 3.0)) == pytest.approx(0.5)
+
+    @pytest.mark.parametrize("inputs", [OPENING, with_rotor(OPENING, "bo105"), replace(GAZELLE, advance_ratio=0.0)])
+    def test_none_in_hover_and_for_a_rotor_without(self, inputs: Inputs):
+        assert beside_measured(solve(inputs.design()), 0.75) is None
+
+
+@pytest.mark.parametrize(("name", "source"), [("gazelle", "rotor table"), ("hart2", "HART II table")])
+def test_the_probe_names_the_source_of_the_section_s_public_points(name: str, source: str):
+    solution = solve(with_rotor(OPENING, name).design())
+    assert source in probe_panel(probe(solution, 0.75, math.radians(65.0)), solution)
+
+
+def test_the_chip_says_what_was_measured():
+    flying = validated(solve(GAZELLE.design()))
+    assert flying.words == "measured in flight"
+    assert "4 flights at µ 0.14 to 0.362" in flying.sentence
+    solution = solve(FC1.design())
+    percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
+    assert validated(solution).words == f"measured: {percent:.1f} % (FC1)".replace("-", "−")
+    changed = validated(solve(replace(FC1, law="linear", linear=-12.0).design()))
+    assert "Measured with the twist as built." in changed.sentence
+    assert validated(solve(with_rotor(OPENING, "hart2").design())).words == "airloads measured"
+    assert validated(solve(replace(GAZELLE, advance_ratio=0.0).design())).words == "no test data at this condition"
