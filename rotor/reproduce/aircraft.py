@@ -106,7 +106,6 @@ def figure_3_10() -> Report:
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in _NAMES}
     return Report(
         number="3.10",
-        kind="figure",
         caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
         "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
         "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the flight-test "

@@ -31,7 +31,6 @@ def figure_2_6() -> Report:
     slope = float(np.polyfit(disk.r, disk.u_t[:, 0], 1)[0])
     return Report(
         number="2.6",
-        kind="figure",
         caption="Velocity normal to the leading edge over the hovering disk, over ΩR.",
         statement="In hover the velocity distribution is the same at every azimuth (p. 13).",
         ours=f"Largest difference over azimuth {spread:.1e}; U_T/ΩR = {slope:.6f} r.",
@@ -66,7 +65,6 @@ def figure_2_7() -> Report:
     good = all(numbers[f"{p}_share"] > 0.5 and numbers[f"{p}_tip_over_peak"] < 2 / 3 for p in ("thesis", "flight"))
     return Report(
         number="2.7",
-        kind="figure",
         caption="Induced velocity and thrust along the hovering blade.",
         statement="Both depend on the radius only; most thrust is made between 50 % and 90 % of the blade, little near "
         "the hub, and it falls fast at the tip by the tip loss (p. 13–14).",
@@ -101,7 +99,6 @@ def figure_2_8() -> Report:
     good = abs(ours - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
     return Report(
         number="2.8",
-        kind="figure",
         caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the thesis states none).",
         statement="At ψ = 90° the blade meets ΩR + V; on the retreating side there is a region where air comes from "
         "the trailing edge (p. 14).",
@@ -181,16 +178,6 @@ def convergence_order(powers: Sequence[float]) -> float:
     return -float(np.polyfit(np.arange(len(steps)), np.log2(steps), 1)[0])
 
 
-def figure_3_7() -> Report:
-    """Elements in hover."""
-    return _elements("3.7", 0.0, 8)
-
-
-def figure_3_8() -> Report:
-    """Elements in forward flight."""
-    return _elements("3.8", FORWARD, 120)
-
-
 def figure_3_9() -> Report:
     """Azimuths."""
     rows: list[list[float | str]] = [[m] for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
@@ -213,7 +200,6 @@ def figure_3_9() -> Report:
     needed = max(numbers[f"{name}_needed"] for name, _ in CASES)
     return Report(
         number="3.9",
-        kind="figure",
         caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths, with linear inflow.",
         statement="At least 100 azimuthal positions are needed (p. 22).",
         ours=f"At 100 azimuths the power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS}; "
@@ -246,7 +232,9 @@ def figure_3_9() -> Report:
     )
 
 
-def _elements(number: str, mu: float, azimuths: int) -> Report:
+def elements_figure(number: str) -> Report:
+    """Power against the number of elements: 3.7 in hover, 3.8 in forward flight."""
+    mu, azimuths = (0.0, 8) if number == "3.7" else (FORWARD, 120)
     rows: list[list[float | str]] = [[n] for n in ELEMENTS]
     curves: list[Curve] = []
     powers_of: list[Curve] = []
@@ -269,7 +257,6 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
     where = "hover" if mu == 0.0 else f"forward flight, µ {mu:.2f}"
     return Report(
         number=number,
-        kind="figure",
         caption=f"Main-rotor power in {where} against the number of blade elements.",
         statement="Power settles as the number of elements grows, so that a smallest sufficient number can be read off "
         "(p. 21–22; the number is in the figure, which is not available).",

@@ -9,7 +9,7 @@ import numpy as np
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.reproduce.actuated_blade import BLADES, fitted_blade
+from rotor.reproduce.actuation import BLADES, fitted_blade
 from rotor.reproduce.report import Agreement, Report, TableCell, table
 from rotor.reproduce.twist_effect import FAST_KMH, STRONG, WEAK
 from rotor.trim.solve import solve

@@ -1,7 +1,7 @@
 """Solutions, searches and optima that several figures share, computed once.
 
-Chapter 4 needs the twist of least power for every concept, over speed, in both presets and with every inflow model.
-The thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its
+Chapter 4 needs the twist of least power for every concept, over speed, in four variants of the two presets. The
+thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its
 parameters, the band within 0.1 % of its power, the power, and the saving relative to the thesis' baseline, a fixed
 linear twist of −16°.
 """
@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
 
-from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.twist import parse_twist
@@ -82,7 +81,6 @@ def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[
         yield (function, args), function(*args)
 
 
-PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)
 """The linear twists of the thesis [degrees per radius] (thesis §3.3)."""
 
@@ -91,62 +89,31 @@ THESIS_WAKE = "thesis-wake"
 power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
-
 THESIS_TRIMMED = "thesis-trimmed"
 """The `thesis` preset's blade and section with the lifting line and the `flight` preset's trim: cyclic, and µ sin α
 in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
-"""Those that have a picture of their own: each preset with an inflow model that responds to loading, and with one that
-does not."""
+"""Each preset with an inflow model that responds to loading, and with one that does not."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the lifting line",
     "flight": "flight preset (lifting line)",
     FLIGHT_LINEAR: "flight preset with linear inflow",
 }
-_INFLOW = {
-    "thesis": "pitt-peters-15pi/23",
-    THESIS_WAKE: "lifting-line",
-    THESIS_TRIMMED: "lifting-line",
-    "flight": "lifting-line",
-    FLIGHT_LINEAR: "pitt-peters",
-}
-"""Inflow model of the variants that have a name."""
+_INFLOW = {THESIS_WAKE: "lifting-line", THESIS_TRIMMED: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
+"""Inflow model of the variants that do not have their preset's own."""
 
 
-def with_inflow(preset: str, inflow: str) -> str:
-    """The variant of a preset with any inflow model: its name where it has one, else `preset:inflow`."""
-    own = (name for name in VARIANTS if choices(name) == (preset, inflow))
-    return next(own, f"{preset}:{inflow}")
-
-
-def choices(name: str) -> tuple[str, str]:
-    """Preset and inflow model of a variant."""
-    preset, _, inflow = name.partition(":")
-    return preset.partition("-")[0], inflow or _INFLOW[name]
-
-
-REPRESENTATIVE = {"thesis": "thesis", "flight": FLIGHT_LINEAR}
-"""The variant of each preset that stands for all models which do not respond to loading; their optima coincide."""
-
-
-def linear_twin(name: str) -> str | None:
-    """The representative of a variant with linear inflow; None for itself and for models that respond to loading."""
-    preset, inflow = choices(name)
-    own = REPRESENTATIVE[preset]
-    return None if INFLOW_MODELS[inflow].load_dependent or name == own else own
-
-
-EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for inflow in INFLOW_MODELS)
-"""Both presets with every inflow model."""
+def preset_of(name: str) -> str:
+    """The preset of a variant."""
+    return name.partition("-")[0]
 
 
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
-    preset, inflow = choices(name)
-    design = make_design(preset=preset, twist=twist, mu=mu, mass_kg=mass)
-    models = replace(design.models, inflow=inflow)
+    design = make_design(preset=preset_of(name), twist=twist, mu=mu, mass_kg=mass)
+    models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
     if name == THESIS_TRIMMED:
         models = replace(models, trim="propulsive", disk_axial_flow=True)
     return replace(design, models=models)
@@ -239,7 +206,7 @@ def _family(concept: str) -> Concept:
 @CachedFunction
 def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
-    preset = choices(name)[0]
+    preset = preset_of(name)
     if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
         return replace(best(preset, concept, mu, scope), variant=name)
     family = _family(concept)
@@ -253,16 +220,12 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     place = speeds.index(mu) if mu in speeds else 0
     neighbour = [speeds[place - 1]] if place > 0 else []
     near = [best(name, concept, slower, scope).twist for slower in neighbour]
-    twin = linear_twin(name)
-    if twin is not None:
-        # Its optimum lies within the band of the representative's, so the band is not measured again.
-        near = [best(twin, concept, mu, scope).twist, *near]
-    elif concept != "linear":
+    if concept != "linear":
         near.append(best(name, "linear", mu, scope).twist)
     guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
-    starts = max(2 if neighbour or twin else scope.starts, len(guesses))
-    found = run_search(Search(design, family, starts=starts, guesses=guesses, band=twin is None))
+    starts = max(2 if neighbour else scope.starts, len(guesses))
+    found = run_search(Search(design, family, starts=starts, guesses=guesses))
     return _record(name, concept, mu, family, found)
 
 
@@ -273,7 +236,7 @@ def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
     power, is taken off the two-segment blade with the document's polynomials.
     """
     found = best(name, concept, mu, scope)
-    if concept != "two airfoils" or choices(name)[0] != "thesis":
+    if concept != "two airfoils" or preset_of(name) != "thesis":
         return found.power_kw
     decks, polynomials = best(name, SC1095_DECKS, mu, scope), best(name, "two 50-50", mu, scope)
     return polynomials.power_kw * found.power_kw / decks.power_kw
@@ -308,7 +271,7 @@ def best_fixed(name: str, scope: Scope) -> FixedBlade:
 def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
     """The calls of `best` for these concepts, in the order that lets each start from its neighbours."""
     wanted = dict.fromkeys(("linear", *concepts))
-    if {"two airfoils", "two 50-50"} <= set(wanted) and choices(name)[0] == "thesis":
+    if {"two airfoils", "two 50-50"} <= set(wanted) and preset_of(name) == "thesis":
         wanted[SC1095_DECKS] = None
     return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 

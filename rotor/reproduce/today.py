@@ -7,17 +7,7 @@ drag rise, a wake that responds to loading, trim by cyclic and a blade that twis
 from functools import lru_cache
 
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, TableCell, curve, table
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    FULL,
-    Call,
-    Scope,
-    best,
-    best_fixed,
-    main_rotor_kw,
-    searches,
-    variant,
-)
+from rotor.reproduce.runs import FIVE_RATES, FULL, Call, Scope, best, best_fixed, main_rotor_kw, searches, variant
 from rotor.reproduce.twist_effect import best_of_five
 from rotor.trim.solve import solve
 

@@ -4,6 +4,7 @@ One file, because all of them compare the same five twists: the powers are solve
 cost of a twist and the crossings of two are used by every figure.
 """
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -22,14 +23,7 @@ from rotor.reproduce.report import (
     judged,
     table,
 )
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    THESIS_TRIMMED,
-    THESIS_WAKE,
-    VARIANT_TITLES,
-    main_rotor_kw,
-    solved,
-)
+from rotor.reproduce.runs import FIVE_RATES, THESIS_TRIMMED, THESIS_WAKE, VARIANT_TITLES, main_rotor_kw, solved
 
 MASSES = (4000.0, 5000.0, 6000.0, 7000.0, 8322.4, 9000.0)
 DOCUMENT_HOVER, DOCUMENT_STRONG = -13.5, -16.0
@@ -59,15 +53,16 @@ def figure_3_11() -> Report:
         sigma = make_design(preset=name).rotor.solidity
         powers = {rate: [solved(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES}
         loading = [one.ct / sigma for one in powers[0]]
-        curves = [curve(f"{rate}°", loading, [one.cp for one in powers[rate]]) for rate in FIVE_RATES]
-        panels.append(PlotPanel("C_T/σ", "C_P", tuple(curves), title=f"{name} preset"))
-        least = [min(powers[rate][k].cp for rate in FIVE_RATES) for k in range(len(MASSES))]
-        over = {
-            rate: [100.0 * (one.cp / low - 1.0) for one, low in zip(powers[rate], least, strict=True)]
-            for rate in FIVE_RATES
-        }
-        curves = [curve(f"{rate}°", loading, over[rate]) for rate in FIVE_RATES]
-        panels.append(PlotPanel("C_T/σ", "relative to the best of the five [%]", tuple(curves), title=f"{name} preset"))
+        least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
+        title = f"{name} preset"
+        panels += [
+            PlotPanel("C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp), title=title),
+            PlotPanel(
+                "C_T/σ", "relative to the best of the five [%]",
+                _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
+                title=title,
+            ),
+        ]  # fmt: skip
         rows = [
             (mass, loading[k], *(powers[rate][k].power.main_rotor / 1e3 for rate in FIVE_RATES))
             for k, mass in enumerate(MASSES)
@@ -106,13 +101,7 @@ def figure_3_11() -> Report:
     rates = np.arange(-24.0, -7.9, 1.0)
     loss = [100.0 * (main_rotor_kw("thesis", float(rate), 0.0) / least - 1.0) for rate in rates]
     marks = [
-        curve(
-            f"−13.5° and −16° {words}",
-            readings[words],
-            [100.0 * cost for cost in costs[words]],
-            "points",
-            colour=k,
-        )
+        curve(f"−13.5° and −16° {words}", readings[words], [100.0 * cost for cost in costs[words]], "points", colour=k)
         for k, words in enumerate(readings, start=1)
     ]
     panels.append(
@@ -124,7 +113,6 @@ def figure_3_11() -> Report:
     holds = max(costs["root to tip"][0], 0.0) <= TOLERANCE < costs["root to tip"][1]
     return Report(
         number="3.11",
-        kind="figure",
         caption="Power in hover against thrust for five linear twists.",
         statement="Power falls with more twist down to an optimum of −13.5°; −16° lies past it, because the inner "
         "blade stalls (p. 27). The unit of twist is not stated.",
@@ -234,15 +222,11 @@ def figure_3_15() -> Report:
     tables = tuple(_power_table(name, speeds, f"{name}_kw") for name in FIVE_NAMES)
     panels = tuple(
         PlotPanel(
-            "advance ratio µ",
-            "power over that of −8° [%]",
-            tuple(
-                curve(
-                    f"{rate}°", speeds,
-                    [100.0 * (main_rotor_kw(name, rate, mu) / main_rotor_kw(name, -8, mu) - 1.0) for mu in speeds],
-                    colour=k,
-                )
-                for k, rate in enumerate(FIVE_RATES)
+            "advance ratio µ", "power over that of −8° [%]",
+            _five(
+                speeds,
+                lambda rate, k, name=name: 100.0
+                * (main_rotor_kw(name, rate, speeds[k]) / main_rotor_kw(name, -8, speeds[k]) - 1.0),
             ),
             title=VARIANT_TITLES[name],
         )
@@ -251,7 +235,6 @@ def figure_3_15() -> Report:
     spread = {name: max(_spread(name, mu) for mu in speeds) for name in FIVE_NAMES}
     return Report(
         number="3.15",
-        kind="figure",
         caption="Five linear twists over speed, as power over that of −8°. The thesis shows here a figure of Han et "
         "al. 2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this figure shows the "
         "same subject.",
@@ -265,6 +248,12 @@ def figure_3_15() -> Report:
         panels=panels,
         numbers={f"{name}_spread": value for name, value in spread.items()},
     )
+
+
+def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Curve, ...]:
+    """A curve for each of the five twists; `value` of a twist at a place in x."""
+    places = range(len(x))
+    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
 
 
 def best_of_five(name: str, mu: float) -> int:
@@ -298,20 +287,18 @@ def _speeds(
     number: str, word: str, speeds: tuple[float, ...], statement: str, verdict: Agreement, because: str,
     extra: dict[str, float],
 ) -> Report:  # fmt: skip
-    panels: list[PlotPanel] = []
-    for name in FIVE_NAMES:
-        curves: list[Curve] = [
-            curve(f"{rate}°", speeds, [main_rotor_kw(name, rate, mu) for mu in speeds], colour=k)
-            for k, rate in enumerate(FIVE_RATES)
-        ]
-        panels.append(PlotPanel("advance ratio µ", "main-rotor power [kW]", tuple(curves), title=VARIANT_TITLES[name]))
+    panels = [
+        PlotPanel(
+            "advance ratio µ", "main-rotor power [kW]",
+            _five(speeds, lambda rate, k, name=name: main_rotor_kw(name, rate, speeds[k])),
+            title=VARIANT_TITLES[name],
+        )
+        for name in FIVE_NAMES
+    ]  # fmt: skip
     panels += [
         PlotPanel(
             "advance ratio µ", "relative to the best of the five [%]",
-            tuple(
-                curve(f"{rate}°", speeds, [100.0 * _cost(name, rate, mu) for mu in speeds], colour=k)
-                for k, rate in enumerate(FIVE_RATES)
-            ),
+            _five(speeds, lambda rate, k, name=name: 100.0 * _cost(name, rate, speeds[k])),
         )
         for name in FIVE_NAMES
     ]  # fmt: skip
@@ -325,7 +312,6 @@ def _speeds(
     met = [f"{first}° and {second}° at µ {mu:.3f}" for name, first, second, mu in crossed if name == "thesis"]
     return Report(
         number=number,
-        kind="figure",
         caption=f"Main-rotor power of five linear twists at {word} speed.",
         statement=statement,
         ours=words + ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis)."),

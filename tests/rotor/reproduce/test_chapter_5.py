@@ -3,12 +3,12 @@
 from collections.abc import Callable
 
 import pytest
+from rotor.reproduce.actuated_blade import BLADES, fitted_blade
+from rotor.reproduce.actuator_sheets import sheet
 
 from rotor.actuator.electrical import thermal_coefficients
 from rotor.actuator.pictures import twist_under_voltage
 from rotor.reproduce import Agreement, Report
-from rotor.reproduce.actuated_blade import BLADES, fitted_blade
-from rotor.reproduce.actuator_sheets import sheet
 
 Make = Callable[[str], Report]
 
