@@ -53,7 +53,7 @@ def _compared(name: str) -> Sequence[Call]:
 
 
 def _beside_data(name: str) -> Sequence[Call]:
-    return [(comparison.three_segment_rows, (name, FULL))]
+    return [(comparison.three_segment_rows, (name, None))] if name == "flight" else []
 
 
 _INTRODUCTION = "1.2 Active blade twist control"

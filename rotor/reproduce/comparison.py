@@ -4,8 +4,7 @@ Figures 4.11, 4.12: the twist of the UH-60A blade; the best three-segment blade 
 Figure 4.13 and Table 4.1: all concepts side by side, and how much of their saving a fixed blade would have.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from rotor.files.make_design import make_design, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.optimum_twist import SHORT
-from rotor.reproduce.report import Curve, PlotPanel, Report, card, curve, judged, table
+from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
     FULL,
@@ -28,7 +27,7 @@ from rotor.reproduce.runs import (
 )
 from rotor.trim.solve import solve
 from rotor.units import KNOT
-from rotor.validation.uh60a import HORSEPOWER_KW, public_data
+from rotor.validation.uh60a import HORSEPOWER_KW, SLOWEST, public_data
 
 
 def figure_4_11() -> Report:
@@ -59,34 +58,13 @@ def figure_4_11() -> Report:
     )  # fmt: skip
 
 
-SLOWEST = 0.075
-"""µ below which no inflow model is validated."""
-FEW = 3
-"""Speeds in a test."""
-
-
-@dataclass(frozen=True)
-class SpeedRow:
-    """One speed of the public curve; powers of the main rotor [kW]."""
-
-    mu: float
-    public_kw: float
-    flown_kw: float
-    """Built-in twist."""
-    moved_kw: float
-    """With the best three segments."""
-    twist: str
-    """SPEC of these"""
-
-    @property
-    def saving(self) -> float:
-        """Part of the flown blade's power."""
-        return 1.0 - self.moved_kw / self.flown_kw
+SpeedRow = tuple[float, float, float, float, str]
+"""µ; main-rotor power of the public curve, of the built-in twist, of the best three segments [kW]; SPEC of these."""
 
 
 @CachedFunction
-def three_segment_rows(name: str, scope: Scope) -> tuple[SpeedRow, ...]:
-    """The rows of a variant at mass and altitude of the public curve."""
+def three_segment_rows(name: str, most: int | None = None) -> tuple[SpeedRow, ...]:
+    """The rows of a variant at mass and altitude of the public curve; at most so many, from hover on."""
     forward = public_data()["forward"]
     tip_speed = make_design().rotor.tip_speed
     concept = find_concept("three-segment")
@@ -94,7 +72,7 @@ def three_segment_rows(name: str, scope: Scope) -> tuple[SpeedRow, ...]:
     guess: tuple[tuple[float, ...], ...] = ()
     for knots, horsepower in zip(forward["speed_kt"], forward["main_rotor_hp"], strict=True):
         mu = knots * KNOT / tip_speed
-        if 0.0 < mu < SLOWEST or (scope != FULL and len(rows) == FEW):
+        if 0.0 < mu < SLOWEST or len(rows) == most:
             continue
         design = variant(name, twist="uh60a", mu=mu, mass=forward["mass_kg"])
         design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
@@ -102,56 +80,32 @@ def three_segment_rows(name: str, scope: Scope) -> tuple[SpeedRow, ...]:
         assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
         guess = (found.best.parameters,)
         flown, moved = (solve(one).require().power.main_rotor / 1e3 for one in (design, found.design))
-        rows.append(SpeedRow(mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
+        rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
     return tuple(rows)
 
 
-def figure_4_12(scope: Scope = FULL, variants: Sequence[str] = VARIANTS) -> Report:
+def figure_4_12(most: int | None = None) -> Report:
     """Three segments and public data."""
-    found = {name: three_segment_rows(name, scope) for name in variants}
-    savings = {name: [row.saving for row in found[name]] for name in variants}
-    ranges = ", ".join(
-        f"{100 * min(savings[name]):.1f} to {100 * max(savings[name]):.1f} % ({SHORT[name]})" for name in variants
+    rows = three_segment_rows("flight", most)
+    savings = [1.0 - moved / flown for _, _, flown, moved, _ in rows]
+    mu, public, flown, moved, _ = zip(*rows, strict=True)
+    curves = (
+        *with_gap("built-in twist", mu, flown, colour=0),
+        *with_gap("three segments, variable", mu, moved, colour=1),
+        *with_gap("public model curve (indicative)", mu, public, "points", colour=7),
     )
     return card(
         "4.12",
-        "Main-rotor power of the flown twist and of the best three-segment blade at each speed, beside a public model "
-        "curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
-        f"Relative to the built-in twist the best three segments save {ranges} of main-rotor power.",
+        "Main-rotor power of the flown twist and of the best three-segment blade at each speed (flight preset), beside "
+        "a public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
+        f"Relative to the built-in twist the best three segments save {100 * min(savings):.1f} to "
+        f"{100 * max(savings):.1f} % of main-rotor power.",
         "The saving is smaller than the difference between model and data, so only differences between our own curves "
         "are meaningful.",
-        table(
-            "main_rotor_kw",
-            ("variant", "mu", "public_model_curve", "built_in_twist", "three_segments", "twist"),
-            [
-                (name, row.mu, row.public_kw, row.flown_kw, row.moved_kw, row.twist)
-                for name in variants
-                for row in found[name]
-            ],
-        ),
-        tuple(_panel(name, found[name]) for name in variants),
-        {
-            **{f"{name}_least_saving": min(savings[name]) for name in variants},
-            **{f"{name}_largest_saving": max(savings[name]) for name in variants},
-        },
+        table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
+        (PlotPanel("advance ratio µ", "main-rotor power [kW]", curves),),
+        {"least_saving": min(savings), "largest_saving": max(savings)},
     )
-
-
-def _panel(name: str, rows: Sequence[SpeedRow]) -> PlotPanel:
-    curves: list[Curve] = []
-    labels = ("built-in twist", "three segments, variable", "public model curve (indicative)")
-    # No inflow model is validated between hover and the lowest speed: leave a gap.
-    for part, (built, moved, public) in (
-        ([row for row in rows if row.mu > 0.0], labels),
-        ([row for row in rows if row.mu == 0.0], ("", "", "")),
-    ):
-        speeds = [row.mu for row in part]
-        curves += [
-            curve(built, speeds, [row.flown_kw for row in part], "both", colour=0),
-            curve(moved, speeds, [row.moved_kw for row in part], "both", colour=1),
-            curve(public, speeds, [row.public_kw for row in part], "points", colour=7),
-        ]
-    return PlotPanel("advance ratio µ", "main-rotor power [kW]", tuple(curves), title=VARIANT_TITLES[name])
 
 
 _SAME_BASELINE = (
@@ -171,11 +125,7 @@ def figure_4_13(scope: Scope = FULL) -> Report:
     for name in VARIANTS:
         curves: list[Curve] = []
         for k, concept in enumerate(CONCEPTS):
-            row = dict(zip(scope.speeds, savings[name, concept], strict=True))
-            # No inflow model is validated between hover and the lowest speed: leave a gap.
-            flying = {mu: value for mu, value in row.items() if mu > 0.0}
-            curves.append(curve(concept, list(flying), list(flying.values()), "both", colour=k))
-            curves.append(curve("", [0.0], [row[0.0]], "both", colour=k))
+            curves += with_gap(concept, scope.speeds, savings[name, concept], colour=k)
         panels.append(
             PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
         )
@@ -187,7 +137,7 @@ def figure_4_13(scope: Scope = FULL) -> Report:
         "Saving of total power by each concept at its optimum for each speed, relative to a fixed linear "
         f"−16°.{_SAME_BASELINE}",
         "Three segments save more than one linear twist by at most "
-        + ", ".join(f"{gain[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
+        + by_name({SHORT[name]: value / 100.0 for name, value in gain.items()}, "{:.2f} %")
         + ".",
         "One variable linear twist gives most of the saving of steady twist.",
         table(

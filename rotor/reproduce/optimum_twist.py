@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from rotor.reproduce.report import Curve, PlotPanel, Report, card, curve, table
+from rotor.reproduce.report import Curve, PlotPanel, Report, card, table, with_gap
 from rotor.reproduce.runs import CONCEPTS, FULL, VARIANT_TITLES, VARIANTS, ConceptOptimum, Scope, best
 
 SHORT = {
@@ -27,10 +27,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
     "4.1": ("linear", ("rate_deg",), ""),
     "4.2": ("quadratic", ("curvature_deg",), ""),
     "4.3": ("quadratic", ("difference_deg",), ""),
-    "4.4": ("two 40-60", _TWO, ""),
-    "4.5": ("two 50-50", _TWO, ""),
-    "4.6": ("two 60-40", _TWO, ""),
-    "4.7": ("two 70-30", _TWO, ""),
+    **{f"4.{k}": (f"two {10 * k}-{100 - 10 * k}", _TWO, "") for k in (4, 5, 6, 7)},
     "4.8": (
         "two airfoils", _TWO,
         " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; that of the thesis is not known). "
@@ -84,7 +81,6 @@ def optimum_figure(number: str, scope: Scope = FULL) -> Report:
             ],
         ),
         tuple(_panel(name, row, shown) for name, row in found.items()),
-        {f"{name}_saving_at_{one.mu:g}": one.saving for name, row in found.items() for one in row},
     )  # fmt: skip
 
 
@@ -104,15 +100,13 @@ def _on_bound(found: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> s
 
 def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> PlotPanel:
     curves: list[Curve] = []
-    hover, flying = [one for one in row if one.mu == 0.0], [one for one in row if one.mu > 0.0]
+    speeds = [one.mu for one in row]
     for k, key in enumerate(shown):
-        label = _word(key) if len(shown) > 1 else "optimum"
-        # No inflow model is validated between hover and the lowest speed: leave a gap.
-        for part, words in ((flying, label), (hover, "")):
-            speeds = [one.mu for one in part]
-            low, high = ([_band(one, key)[end] for one in part] for end in (0, 1))
-            curves.append(curve("", speeds, low, "band", upper=high, colour=k))
-            curves.append(curve(words, speeds, [_value(one, key) for one in part], "both", colour=k))
+        low, high = zip(*(_band(one, key) for one in row), strict=True)
+        curves += with_gap("", speeds, low, "band", upper=high, colour=k)
+        curves += with_gap(
+            _word(key) if len(shown) > 1 else "optimum", speeds, [_value(one, key) for one in row], colour=k
+        )
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
     return PlotPanel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
 

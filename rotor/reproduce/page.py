@@ -95,12 +95,7 @@ def draw(report: Report, folder: Path) -> None:
             else:
                 _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
-            pairs = [pair for place in axes.flat for pair in zip(*place.get_legend_handles_labels(), strict=True)]
-            key = {label: handle for handle, label in pairs}
-            room = 0.6 + 0.065 * max(map(len, key))  # Inches that one name takes.
-            fit = max(1, min(len(key), int(width / room)))
-            lines = math.ceil(len(key) / fit)
-            figure.legend(key.values(), key.keys(), loc="outside lower center", ncols=math.ceil(len(key) / lines))
+            figure.legend(*axes[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         # Transparent: the page has a dark form.
@@ -201,7 +196,7 @@ td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cur
 .shown{overflow-x:auto;margin:10px 0}.shown td,.shown th{text-align:left;padding:3px 8px;font-size:12.5px}
 .shown th{font-weight:600;color:var(--soft)}
 .yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
-.shown.code td:nth-child(4){font-family:monospace;white-space:pre-wrap}
+.shown td.code{font-family:monospace;white-space:pre-wrap}
 .talk main{max-width:1240px;padding-bottom:20px}.talk details{display:none}
 .talk article{display:grid;grid-template-columns:7fr 5fr;column-gap:24px;align-items:start}
 .talk h3,.talk h3+div,.talk .files{grid-column:1/-1}.talk img{grid-column:1;grid-row:3/5}
@@ -228,18 +223,6 @@ article>details,.files,.talk p{display:none}
 """
 
 
-def write_page(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> Path:
-    """Write the page; pictures are read back from the folder and put inside."""
-    parts = [_head(made, pictures)]
-    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
-        parts.append(f"<h2>{escape(chapter)}</h2>")
-        parts += [_article(report, folder, pictures=pictures) for _, report in group]
-    parts.append("</main></html>\n")
-    path = folder / "index.html"
-    path.write_text("\n".join(parts), encoding="utf-8")
-    return path
-
-
 def escape(text: str) -> str:
     """Text for the page."""
     return escape_html(typographic(text))
@@ -254,24 +237,22 @@ def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, p
     """Write the last chapter as a page of its own, where it was made."""
     report = _talk_of(made)
     if report is not None:
-        parts = (
-            _opening("What the thesis would have found", "talk"),
-            '<p class=small><a href="index.html">The thesis, rebuilt</a></p><h1>What the thesis would have found</h1>',
-            f"{_article(report, folder, pictures=pictures)}</main></html>\n",
-        )
-        (folder / TALK).write_text("\n".join(parts), encoding="utf-8")
+        _write_beside(folder / TALK, "What the thesis would have found", _article(report, folder, pictures=pictures))
 
 
 def write_misprints(folder: Path) -> Path:
     """Write the page of what the thesis omits or misprints into `folder`; its path."""
-    title = "What the thesis omits or misprints"
-    path = folder / MISPRINTS_PAGE
-    path.write_text(
-        f'{_opening(title)}<p class=small><a href="index.html">The thesis, rebuilt</a></p><h1>{title}</h1><p>Each with '
-        f'two lines that were run to make this page.</p><div class="shown text code">{_rows(misprint_table())}</div>'
-        "</main></html>\n",
-        encoding="utf-8",
+    body = (
+        f'<p>Each with two lines that were run to make this page.</p><div class="shown text">{_rows(misprint_table())}'
     )
+    return _write_beside(folder / MISPRINTS_PAGE, "What the thesis omits or misprints", f"{body}</div>")
+
+
+def _write_beside(path: Path, title: str, body: str) -> Path:
+    """Write a page that leads back to the index; its path."""
+    kind = "talk" if path.name == TALK else ""
+    back = '<p class=small><a href="index.html">The thesis, rebuilt</a></p>'
+    path.write_text(f"{_opening(title, kind)}{back}<h1>{title}</h1>{body}</main></html>\n", encoding="utf-8")
     return path
 
 
@@ -307,7 +288,7 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
         "the captions.</p>"
         f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {len(made) - checkable} "
-        f"ours under a caption or beside a picture without numbers; {len(DRAWINGS)} drawings, not rebuilt. "
+        f"ours under a caption or a picture without numbers; {len(DRAWINGS)} drawings of the thesis, not rebuilt. "
         f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>{without}'
         f"<details open><summary>Contents</summary><table class=toc>{rows}</table>"
         f"<p class=small>Drawings in the thesis, not rebuilt: figures {escape(drawings)}.</p></details>"
@@ -353,6 +334,8 @@ def _rows(one: ReportTable) -> str:
 def _cell(cell: TableCell) -> str:
     if not isinstance(cell, str):
         return f"<td>{cell:.5g}</td>"
+    if "\n" in cell:
+        return f"<td class=code>{escape_html(cell)}</td>"  # To be copied: its hyphens stay.
     kind = " class=yes" if cell.startswith("yes ") else ""
     return f"<td{kind}>{escape(cell)}</td>"
 
@@ -394,16 +377,19 @@ def write_csv(path: Path, report: Report, one: ReportTable) -> None:
         file.write(f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(one.columns)
-        writer.writerows([shown(cell) for cell in row] for row in one.rows)
-
-
-def shown(cell: TableCell) -> str:
-    """A cell as text: numbers with six significant digits, more than the accuracy of any."""
-    return cell if isinstance(cell, str) else f"{cell:.6g}"
+        # Six significant digits are more than the accuracy of any.
+        writer.writerows([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in one.rows)
 
 
 def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
+    pictures = can_draw()
     write_misprints(folder)
-    write_talk(made, folder, pictures=can_draw())
-    return write_page(made, folder, pictures=can_draw())
+    write_talk(made, folder, pictures=pictures)
+    parts = [_head(made, pictures)]
+    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
+        parts.append(f"<h2>{escape(chapter)}</h2>")
+        parts += [_article(report, folder, pictures=pictures) for _, report in group]
+    path = folder / "index.html"
+    path.write_text("\n".join([*parts, "</main></html>\n"]), encoding="utf-8")
+    return path

@@ -163,6 +163,19 @@ def curve(
     return Curve(label, floats(x), floats(y), style, top, colour)
 
 
+def with_gap(
+    label: str, mu: Sequence[float], y: Sequence[float], style: CurveStyle = "both", *, colour: int,
+    upper: Sequence[float] | None = None,
+) -> list[Curve]:  # fmt: skip
+    """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
+    places = [[k for k, one in enumerate(mu) if (one > 0.0) is flying] for flying in (True, False)]
+    cut = [[None if row is None else [row[k] for k in part] for row in (mu, y, upper)] for part in places]
+    return [
+        curve(words, x or (), low or (), style, upper=top, colour=colour)
+        for words, (x, low, top) in zip((label, ""), cut, strict=True)
+    ]
+
+
 def floats(values: ArrayLike) -> tuple[float, ...]:
     """Plain floats of any array-like, flattened."""
     return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
@@ -193,9 +206,16 @@ def card(
     kind = "figure" if panels else "table"
     return Report(
         number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
-        statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers are not.",
+        statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
+        "thesis are not.",
         verdict=Agreement.ALONE, tables=(replace(data, shown=not panels),),
     )  # fmt: skip
+
+
+def by_name(values: Mapping[str, float], form: str = "{:.1f} %") -> str:
+    """`2.1 % (thesis), 9.9 % (flight)`: parts by name, shown in per cent, or as `form` says."""
+    factor = 100.0 if "%" in form else 1.0
+    return ", ".join(f"{form.format(factor * value)} ({name})" for name, value in values.items())
 
 
 def best_within_tolerance(costs: Iterable[float]) -> Agreement:

@@ -154,8 +154,6 @@ QUICK = Scope((0.0, 0.15, 0.30), 2)
 class ConceptOptimum:
     """One optimum."""
 
-    variant: str
-    concept: str
     mu: float
     converged: bool
     message: str
@@ -172,8 +170,6 @@ class ConceptOptimum:
     """Total power."""
     baseline_kw: float
     """Total power of `BASELINE` on the preset's own airfoils."""
-    minima: int
-    """Local minima found."""
 
     @property
     def saving(self) -> float:
@@ -181,18 +177,18 @@ class ConceptOptimum:
         return 1.0 - self.power_kw / self.baseline_kw
 
 
-CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
-    "linear": ("one section, linear twist", lambda: find_concept("linear")),
-    "quadratic": ("quadratic twist", lambda: find_concept("quadratic")),
+CONCEPTS: dict[str, tuple[str, Concept]] = {
+    "linear": ("one section, linear twist", find_concept("linear")),
+    "quadratic": ("quadratic twist", find_concept("quadratic")),
     **{
         f"two {100 * d:.0f}-{100 * (1 - d):.0f}": (
             f"two sections, linear twist, divided {100 * d:.0f} – {100 * (1 - d):.0f}",
-            lambda d=d: find_concept("two-segment", (d,)),
+            find_concept("two-segment", (d,)),
         )
         for d in DIVISIONS
     },
-    "two airfoils": ("two sections, two airfoils, 50 – 50", lambda: find_concept("two-segment-two-airfoils", (0.5,))),
-    "three": ("three linear sections", lambda: find_concept("three-segment")),
+    "two airfoils": ("two sections, two airfoils, 50 – 50", find_concept("two-segment-two-airfoils", (0.5,))),
+    "three": ("three linear sections", find_concept("three-segment")),
 }
 """The thesis' concepts: title, and the concept."""
 SC1095_DECKS = "two 50-50, SC1095 deck"
@@ -200,7 +196,7 @@ SC1095_DECKS = "two 50-50, SC1095 deck"
 
 
 def _family(concept: str) -> Concept:
-    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]()
+    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
 
 
 @CachedFunction
@@ -208,7 +204,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
     preset = preset_of(name)
     if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
-        return replace(best(preset, concept, mu, scope), variant=name)
+        return best(preset, concept, mu, scope)
     family = _family(concept)
     design = variant(name, twist=BASELINE, mu=mu)
     if concept in ("two airfoils", SC1095_DECKS) and design.preset == "thesis":
@@ -226,7 +222,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
     starts = max(2 if neighbour else scope.starts, len(guesses))
     found = run_search(Search(design, family, starts=starts, guesses=guesses))
-    return _record(name, concept, mu, family, found)
+    return _record(name, mu, family, found)
 
 
 def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
@@ -257,7 +253,7 @@ class FixedBlade:
 @CachedFunction
 def best_fixed(name: str, scope: Scope) -> FixedBlade:
     """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
-    family = CONCEPTS["linear"][1]()
+    family = CONCEPTS["linear"][1]
     design = variant(name, twist=BASELINE, mu=scope.speeds[0])
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
     middle = sum(best(name, "linear", mu, scope).values[0] for mu in scope.speeds) / len(scope.speeds)
@@ -276,7 +272,7 @@ def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
     return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 
 
-def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
+def _record(name: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
     assert found.baseline_power is not None, f"{name}, µ {mu:g}: the baseline blade does not trim"
     bands: dict[str, Band] = {one.parameter: one for one in found.band}
     parameters = family.parameters
@@ -286,8 +282,6 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
     found_band = {name: (one.low, one.high) for name, one in bands.items() if one.high > one.low}
     edges = [found_band.get(p.name, (math.nan, math.nan)) for p in parameters]
     return ConceptOptimum(
-        variant=name,
-        concept=concept,
         mu=mu,
         converged=found.status is SearchStatus.CONVERGED,
         message=found.message,
@@ -297,5 +291,4 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
         twist=least.twist if least is not None else found.design.twist.spec(),
         power_kw=(least.power if least is not None else found.baseline_power) / 1e3,
         baseline_kw=found.baseline_power / 1e3,
-        minima=len(found.minima),
     )

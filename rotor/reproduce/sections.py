@@ -21,17 +21,16 @@ from rotor.assets import asset_path
 from rotor.reproduce.report import Agreement, PlotPanel, Report, ReportTable, curve, judged, table
 
 Coefficient = Literal["lift", "drag"]
-TITLES = {"naca23015": "NACA 23015", "sc1095": "SC1095", "sc1094r8": "SC1094 R8"}
 ARROW = 0.25
 """Chords per unit of Cp in the arrows."""
 
 
 FORCES = {
-    "2.3": ("naca23015", "XFOIL gives how the forces are distributed around a section (p. 9–10)."),
-    "3.1": ("sc1095", "The SC1095 of the UH-60A at 3° (p. 17)."),
-    "3.2": ("sc1094r8", "The SC1094 R8 of the UH-60A at 3° (p. 18)."),
+    "2.3": ("naca23015", "NACA 23015", "XFOIL gives how the forces are distributed around a section (p. 9–10)."),
+    "3.1": ("sc1095", "SC1095", "The SC1095 of the UH-60A at 3° (p. 17)."),
+    "3.2": ("sc1094r8", "SC1094 R8", "The SC1094 R8 of the UH-60A at 3° (p. 18)."),
 }
-"""By number: the section, and what the thesis says."""
+"""By number: the section, its name, and what the thesis says."""
 
 
 def shipped(section: str) -> Pressure:
@@ -76,20 +75,18 @@ def figure_2_4() -> Report:
 
 def force_figure(number: str) -> Report:
     """Pressure forces around a section; `number` is one of `FORCES`."""
-    section, statement = FORCES[number]
+    section, title, statement = FORCES[number]
     pressure = shipped(section)
     integrated = pressure.integrated_lift()
     gap = integrated / pressure.cl - 1.0
     beside = _beside_polar(pressure)
     return Report(
         number=number,
-        caption=f"Pressure forces around {TITLES[section]}: arrows of −Cp normal to the surface; "
-        f"{_flow(pressure.case)}. "
-        f"Angle, Mach and Reynolds number are ours where the thesis is silent.",
+        caption=f"Pressure forces around {title}: arrows of −Cp normal to the surface; {_flow(pressure.case)}. "
+        "Angle, Mach and Reynolds number are ours where the thesis is silent.",
         statement=statement,
         ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
-        f"{integrated:.3f} "
-        f"({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
+        f"{integrated:.3f} ({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
         verdict=Agreement.ALONE if abs(gap) < 5e-3 else Agreement.DIFFERS,
         because="The arrows integrate to XFOIL's lift, which verifies order, sign and scale, not XFOIL; the thesis "
         "gives no number to compare.",
@@ -235,17 +232,17 @@ def fit_figure(number: str) -> Report:
     low, high = FIT_RANGE_DEG
     keep = (polar.alpha_deg >= low) & (polar.alpha_deg <= high)
     alpha_deg = polar.alpha_deg[keep]
-    data = (polar.cl if which == "lift" else polar.cd)[keep]
-    made = fit(np.deg2rad(alpha_deg))[0 if which == "lift" else 1]
+    which_one, symbol = (0, "Cl") if which == "lift" else (1, "Cd")
+    data = (polar.cl, polar.cd)[which_one][keep]
+    made = fit(np.deg2rad(alpha_deg))[which_one]
     rms = float(np.sqrt(np.mean((made - data) ** 2)))
     attached = (alpha_deg >= ATTACHED_DEG[0]) & (alpha_deg <= ATTACHED_DEG[1])
     relative = made[attached] / data[attached] - 1.0 if which == "drag" else np.zeros(1)
     fine = np.linspace(low, high, 401)
-    smooth = fit(np.deg2rad(fine))[0 if which == "lift" else 1]
-    symbol = "Cl" if which == "lift" else "Cd"
+    smooth = fit(np.deg2rad(fine))[which_one]
     # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
     t = (2.0 * np.deg2rad(30.0) - sum(fit.fit_range)) / (fit.fit_range[1] - fit.fit_range[0])
-    series = fit.cl_series if which == "lift" else fit.cd_series
+    series = (fit.cl_series, fit.cd_series)[which_one]
     unheld = float(np.asarray(chebval(t, series), dtype=np.float64))
     words = f"rms {rms:.5f} over {low:g}…{high:g}°."
     if which == "drag":
