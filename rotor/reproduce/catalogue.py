@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from rotor.reproduce import (
     actuation,
@@ -18,7 +19,17 @@ from rotor.reproduce import (
     twist_effect,
 )
 from rotor.reproduce.report import PlotPanel, Report
-from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, FULL, VARIANTS, Call, best, best_fixed, searches
+from rotor.reproduce.runs import (
+    CONCEPTS,
+    FLIGHT_LINEAR,
+    FULL,
+    VARIANTS,
+    CachedFunction,
+    Call,
+    best,
+    best_fixed,
+    searches,
+)
 from rotor.validation.chart import Mark, Series, TrustChart
 from rotor.validation.theory import bound
 from rotor.validation.trust import TrustRow, TrustSet, share
@@ -48,12 +59,8 @@ def _all_and_fixed(name: str) -> Sequence[Call]:
     return [*searches(tuple(CONCEPTS), name, FULL), (best_fixed, (name, FULL))]
 
 
-def _compared(name: str) -> Sequence[Call]:
-    return [(actuation.compared, (name,))] if name == "flight" else []
-
-
-def _beside_data(name: str) -> Sequence[Call]:
-    return [(comparison.three_segment_rows, (name, None))] if name == "flight" else []
+def _once(function: CachedFunction[..., Any], *args: object) -> Callable[[str], Sequence[Call]]:
+    return lambda name: [(function, args)] if name == "flight" else []
 
 
 _INTRODUCTION = "1.2 Active blade twist control"
@@ -97,7 +104,7 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
         for number, (concept, *_) in optimum_twist.FIGURES.items()
     ),
     CatalogueEntry("4.11", comparison.figure_4_11, _OPTIMUM),
-    CatalogueEntry("4.12", comparison.figure_4_12, _OPTIMUM, _beside_data),
+    CatalogueEntry("4.12", comparison.figure_4_12, _OPTIMUM, _once(comparison.three_segment_rows, "flight", None)),
     CatalogueEntry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
     CatalogueEntry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
     CatalogueEntry("5.4", actuation.figure_5_4, _CONCEPT),
@@ -105,7 +112,7 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("5.7", actuation.figure_5_7, _CONCEPT),
     CatalogueEntry("5.10", actuation.figure_5_10, _CONCEPT),
     CatalogueEntry("table 5.1", actuation.table_5_1, _CONCEPT),
-    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, _compared),
+    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, _once(actuation.compared, "flight")),
     CatalogueEntry("today", today.today, _TODAY, today.needed),
 )
 
@@ -239,7 +246,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         "Figures of which only the caption is known, and drawings, are not here.",
         tuple(rows), (TrustChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
         ("*Agrees* and *differs* judge a statement. *As loaded*: its numbers are our input. "
-         " *Indicative*: compared with data of unclear origin.",),
+         "*Indicative*: compared with data of unclear origin.",),
     )  # fmt: skip
 
 

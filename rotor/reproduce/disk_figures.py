@@ -217,7 +217,7 @@ def figure_3_9() -> Report:
         "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance needs no more; "
         "integration in time, as in the thesis, may.",
         tables=(_power_table("azimuths", AZIMUTHS, powers),),
-        panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"power on {FINEST_AZIMUTHS}"),
+        panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
         numbers=numbers,
     )
 

@@ -168,12 +168,12 @@ def with_gap(
     upper: Sequence[float] | None = None,
 ) -> list[Curve]:  # fmt: skip
     """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
-    places = [[k for k, one in enumerate(mu) if (one > 0.0) is flying] for flying in (True, False)]
-    cut = [[None if row is None else [row[k] for k in part] for row in (mu, y, upper)] for part in places]
-    return [
-        curve(words, x or (), low or (), style, upper=top, colour=colour)
-        for words, (x, low, top) in zip((label, ""), cut, strict=True)
-    ]
+    parts: list[Curve] = []
+    for words, flying in ((label, True), ("", False)):
+        keep = [k for k, one in enumerate(mu) if (one > 0.0) is flying]
+        top = [upper[k] for k in keep] if upper else None
+        parts.append(curve(words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour))
+    return parts
 
 
 def floats(values: ArrayLike) -> tuple[float, ...]:

@@ -217,7 +217,7 @@ def figure_3_15() -> Report:
         "power over that of −8° [%]",
         lambda name, rate, mu: 100.0 * (main_rotor_kw(name, rate, mu) / main_rotor_kw(name, -8, mu) - 1.0),
     )
-    spread = {name: max(_spread(name, mu) for mu in speeds) for name in FIVE_NAMES}
+    spread = {name: max(max(_cost(name, rate, mu) for rate in FIVE_RATES) for mu in speeds) for name in FIVE_NAMES}
     return Report(
         number="3.15",
         caption="Five linear twists over speed, as power over that of −8°. The thesis shows here a figure of Han et "
@@ -316,13 +316,8 @@ def _power_table(name: str, speeds: tuple[float, ...], title: str) -> ReportTabl
     return table(title, ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"), rows)
 
 
-def _spread(name: str, mu: float) -> float:
-    powers = [main_rotor_kw(name, rate, mu) for rate in FIVE_RATES]
-    return max(powers) / min(powers) - 1.0
-
-
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
-    """`−12° to µ 0.09, then −8°`."""
+    """`−12°, −8° from µ 0.09`."""
     parts: list[str] = [f"{values[0]}°"]
     for before, value, mu in zip(values, values[1:], speeds[1:], strict=False):
         if value != before:
