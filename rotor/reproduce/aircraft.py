@@ -77,8 +77,7 @@ def tail_rotor() -> Report:
         verdict=judged(low >= 0.04 and high <= 0.06),
         because=f"It is not constant over speed: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
         "where induced power dominates, and falls with speed although torque rises again: flow through its disk "
-        "reduces the "
-        "induced power. The mean is near the thesis' number.",
+        "reduces the induced power. The mean is near the thesis' number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
             PlotPanel(
@@ -113,8 +112,7 @@ def figure_3_10() -> Report:
         caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
         "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
         "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the flight-test "
-        "points "
-        "of the thesis are not known.",
+        "points of the thesis are not known.",
         statement="The predictions of the simple model are in good agreement with flight test (p. 26).",
         ours=f"Main rotor beside the public model curve at {count} speeds above µ {SLOWEST:g}: flight "
         f"{100 * mean:+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "

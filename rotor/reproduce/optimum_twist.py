@@ -55,13 +55,10 @@ def optimum_figure(number: str, scope: Scope = FULL) -> Report:
         number,
         f"Twist of least total power over speed: {CONCEPTS[concept][0]}. Shaded: within 0.1 % of that power, the "
         f"other parameters re-optimised.{note}",
-        "; ".join(
+        f"From hover to µ {scope.speeds[-1]:g}: "
+        + "; ".join(
             f"{SHORT[name]}: "
-            + ", ".join(
-                f"{_word(key)} {_value(row[0], key):.1f}° in hover to {_value(row[-1], key):.1f}° at µ "
-                f"{scope.speeds[-1]:g}"
-                for key in shown
-            )
+            + ", ".join(f"{_word(key)} {_value(row[0], key):.1f}° to {_value(row[-1], key):.1f}°" for key in shown)
             + f", saving at most {100 * largest[name].saving:.1f} % (µ {largest[name].mu:g})"
             for name, row in found.items()
         )

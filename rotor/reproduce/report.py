@@ -218,11 +218,6 @@ def by_name(values: Mapping[str, float], form: str = "{:.1f} %") -> str:
     return ", ".join(f"{form.format(factor * value)} ({name})" for name, value in values.items())
 
 
-def best_within_tolerance(costs: Iterable[float]) -> Agreement:
-    """Whether a twist that the thesis calls the best costs at most `TOLERANCE` of our least power, at every speed."""
-    return judged(max(costs) <= TOLERANCE)
-
-
 def judged(agrees: bool) -> Agreement:
     """Agrees or differs."""
     return Agreement.AGREES if agrees else Agreement.DIFFERS

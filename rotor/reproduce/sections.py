@@ -202,10 +202,8 @@ def error_figure(number: str) -> Report:
         "0.3, Re 3.68 million, Ncrit 9 (our assumption; the thesis states range and flow nowhere).",
         statement=f"Order {chosen} is a good compromise between error and cost (p. 18).",
         ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
-        f"{symbol}; "
-        f"{numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order "
-        f"{chosen - 2} "
-        f"gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
+        f"{symbol}; {numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order "
+        f"{chosen - 2} gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
         f"{numbers['next_step_-10_20']:.2f}.",
         verdict=judged(knee == chosen),
         because=f"Our knee over −10…15° is at order {knee}, and the error is below {100 * GOOD:.0f} % of the spread "

@@ -18,7 +18,6 @@ from rotor.reproduce.report import (
     PlotPanel,
     Report,
     ReportTable,
-    best_within_tolerance,
     by_name,
     curve,
     judged,
@@ -165,7 +164,7 @@ def figure_3_13() -> Report:
     return _speeds(
         "3.13", "medium", MEDIUM,
         "Beyond µ 0.18 the twist of −8° needs the least power (p. 28).",
-        best_within_tolerance(_cost("thesis", -8, mu) for mu in beyond),
+        judged(cost["thesis"] <= TOLERANCE),
         f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {by_name(cost, '{:.2f} %')}. "
         "With linear inflow only profile power decides, on a flat curve"
         + (
@@ -190,7 +189,7 @@ def figure_3_14() -> Report:
     return _speeds(
         "3.14", "high", HIGH,
         "At high speed −4° gives better results (p. 28).",
-        best_within_tolerance([anywhere]),
+        judged(anywhere <= TOLERANCE),
         f"At µ {last:g} the best of the five is {_best_words(best)}; −4° costs {by_name(cost, '{:.2f} %')}, and in "
         f"the thesis preset nowhere from µ {HIGH[0]:g} on more than {100 * anywhere:.2f} %. "
         "The thesis' blade and section with the wake and a trim by cyclic, with µ sin α in U_P, has its optimum at "
