@@ -1,7 +1,7 @@
 """Electric field, free strain, capacitance and drive power of piezoelectric plies.
 
 Strain along the fibres is d·E with E = V/gap. Interdigitated electrodes lay the field along the fibres (d33, gap =
-electrode pitch), continuous electrodes through the thickness (d31, gap = thickness). Figures 5.2–5.7 of the thesis.
+electrode pitch), continuous electrodes through the thickness (d31, gap = thickness). Figures 5.4–5.7 of the thesis.
 """
 
 import math
@@ -68,13 +68,6 @@ def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
         across=across,
         by_coefficient=thermal_coefficients(ply)[0] * voltage,
     )
-
-
-def deformed_sheet(ply: PiezoPly, voltage: float, *, exaggerate: float = 1.0) -> Array:
-    """Corners of a unit square of the free sheet, fibres along x, at a voltage, (4, 2) (figure 5.2)."""
-    along, across = exaggerate * free_strain(ply, voltage)
-    half = 0.5 * np.array([1.0 + along, 1.0 + across])
-    return half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 @dataclass(frozen=True, eq=False)

@@ -77,8 +77,7 @@ def tail_rotor() -> Report:
         verdict=judged(low >= 0.04 and high <= 0.06),
         because=f"It is not constant over speed: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
         "where induced power dominates, and falls with speed although torque rises again: flow through its disk "
-        "reduces the "
-        "induced power. The mean is near the thesis' number.",
+        "reduces the induced power. The mean is near the thesis' number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
             PlotPanel(
@@ -94,24 +93,26 @@ def tail_rotor() -> Report:
     )  # fmt: skip
 
 
+TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
+"""By preset."""
+
+
 def figure_3_10() -> Report:
     """Power over advance ratio, with public data of the UH-60A."""
-    total = {name: [solved(name, _twist(name), mu).require().power.total / 1e3 for mu in SPEEDS] for name in _NAMES}
-    ours = {name: beside_model_curve(name)[2] for name in _NAMES}
+    total = {name: [solved(name, TWISTS[name], mu).require().power.total / 1e3 for mu in SPEEDS] for name in TWISTS}
+    ours = {name: beside_model_curve(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = beside_model_curve("flight")
     hover_ct, hover_cp, hover_ours = beside_hover_points()
     count = sum(mu > SLOWEST for mu in rotor_speeds)
     error, mean = model_curve_errors()
     hover_ratio = np.array(hover_ours) / np.array(hover_cp)
-    bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in _NAMES}
+    bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
     return Report(
         number="3.10",
-        kind="figure",
         caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
         "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
         "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the flight-test "
-        "points "
-        "of the thesis are not known.",
+        "points of the thesis are not known.",
         statement="The predictions of the simple model are in good agreement with flight test (p. 26).",
         ours=f"Main rotor beside the public model curve at {count} speeds above µ {SLOWEST:g}: flight "
         f"{100 * mean:+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
@@ -122,11 +123,11 @@ def figure_3_10() -> Report:
         "linear inflow underestimate drag and nonuniform induced power; agreement with flight test cannot be judged "
         "without its points.",
         tables=(
-            table("total_kw", ("mu", *_NAMES), zip(SPEEDS, *(total[name] for name in _NAMES), strict=True)),
+            table("total_kw", ("mu", *TWISTS), zip(SPEEDS, *(total[name] for name in TWISTS), strict=True)),
             table(
                 "main_rotor_beside_model_kw",
-                ("mu", "public_model_curve", *_NAMES),
-                zip(rotor_speeds, theirs, *(ours[name] for name in _NAMES), strict=True),
+                ("mu", "public_model_curve", *TWISTS),
+                zip(rotor_speeds, theirs, *(ours[name] for name in TWISTS), strict=True),
             ),
             table(
                 "hover_points", ("ct_over_sigma", "cp_over_sigma_digitised", "cp_over_sigma_flight"),
@@ -136,13 +137,13 @@ def figure_3_10() -> Report:
         panels=(
             PlotPanel(
                 "advance ratio µ", "total power [kW]",
-                tuple(curve(f"{name}, {_twist(name)}", SPEEDS, total[name], colour=k) for k, name in enumerate(_NAMES)),
+                tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS)),
                 title="8322.4 kg, sea level",
             ),
             PlotPanel(
                 "advance ratio µ", "main-rotor power [kW]",
                 (
-                    *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(_NAMES)),
+                    *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(TWISTS)),
                     curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
                 ),
                 title="7257.5 kg, 1600 m",
@@ -165,10 +166,3 @@ def figure_3_10() -> Report:
             "bucket_thesis": bucket["thesis"],
         },
     )  # fmt: skip
-
-
-_NAMES = ("flight", "thesis")
-
-
-def _twist(name: str) -> str:
-    return "uh60a" if name == "flight" else "linear:-16"

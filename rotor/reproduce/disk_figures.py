@@ -13,7 +13,19 @@ import numpy as np
 
 from rotor.aero.switches import with_switches
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import Agreement, Curve, DiskPanel, PlotPanel, Report, curve, floats, judged, table
+from rotor.reproduce.report import (
+    Agreement,
+    Curve,
+    DiskPanel,
+    PlotPanel,
+    Report,
+    ReportTable,
+    by_name,
+    curve,
+    floats,
+    judged,
+    table,
+)
 from rotor.reproduce.runs import FLIGHT_LINEAR, solved, variant
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import solve
@@ -31,14 +43,13 @@ def figure_2_6() -> Report:
     slope = float(np.polyfit(disk.r, disk.u_t[:, 0], 1)[0])
     return Report(
         number="2.6",
-        kind="figure",
         caption="Velocity normal to the leading edge over the hovering disk, over ΩR.",
         statement="In hover the velocity distribution is the same at every azimuth (p. 13).",
         ours=f"Largest difference over azimuth {spread:.1e}; U_T/ΩR = {slope:.6f} r.",
         verdict=Agreement.ALONE,
         because="True by construction. The hovering rotor is solved annulus by annulus: U_T = Ωy.",
         tables=(table("u_t", ("r", "u_t"), zip(disk.r, disk.u_t[:, 0], strict=True)),),
-        panels=(_disk(disk, disk.u_t, "U_T / ΩR", "hover"),),
+        panels=(_normal_velocity(disk, "hover"),),
         numbers={"spread_over_azimuth": spread, "slope": slope},
     )
 
@@ -66,7 +77,6 @@ def figure_2_7() -> Report:
     good = all(numbers[f"{p}_share"] > 0.5 and numbers[f"{p}_tip_over_peak"] < 2 / 3 for p in ("thesis", "flight"))
     return Report(
         number="2.7",
-        kind="figure",
         caption="Induced velocity and thrust along the hovering blade.",
         statement="Both depend on the radius only; most thrust is made between 50 % and 90 % of the blade, little near "
         "the hub, and it falls fast at the tip by the tip loss (p. 13–14).",
@@ -101,7 +111,6 @@ def figure_2_8() -> Report:
     good = abs(ours - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
     return Report(
         number="2.8",
-        kind="figure",
         caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the thesis states none).",
         statement="At ψ = 90° the blade meets ΩR + V; on the retreating side there is a region where air comes from "
         "the trailing edge (p. 14).",
@@ -120,7 +129,7 @@ def figure_2_8() -> Report:
                 ],
             ),
         ),
-        panels=(_disk(disk, disk.u_t, "U_T / ΩR", f"µ = {FAST:.2f}; the line is U_T = 0", zero_line=True),),
+        panels=(_normal_velocity(disk, f"µ = {FAST:.2f}; the line is U_T = 0", zero_line=True),),
         numbers={"reverse_area": ours, "circle_area": expected, "largest": top},
     )
 
@@ -141,16 +150,9 @@ def _reverse_area(mu: float, root: float) -> float:
     return (0.5 * mu**2 * (0.5 * span + 0.5 * math.sin(2.0 * edge)) - 0.5 * root**2 * span) / math.pi
 
 
-def _disk(disk: DiskFields, values: np.ndarray, label: str, title: str, *, zero_line: bool = False) -> DiskPanel:
-    return DiskPanel(
-        label=label,
-        r=floats(disk.r),
-        edges=floats(disk.edges),
-        psi=floats(disk.psi),
-        values=tuple(floats(row) for row in values),
-        title=title,
-        zero_line=zero_line,
-    )
+def _normal_velocity(disk: DiskFields, title: str, *, zero_line: bool = False) -> DiskPanel:
+    values = tuple(floats(row) for row in disk.u_t)
+    return DiskPanel("U_T / ΩR", floats(disk.r), floats(disk.edges), floats(disk.psi), values, title, zero_line)
 
 
 ELEMENTS = (5, 10, 20, 40, 80, 160, 320)
@@ -181,95 +183,65 @@ def convergence_order(powers: Sequence[float]) -> float:
     return -float(np.polyfit(np.arange(len(steps)), np.log2(steps), 1)[0])
 
 
-def figure_3_7() -> Report:
-    """Elements in hover."""
-    return _elements("3.7", 0.0, 8)
-
-
-def figure_3_8() -> Report:
-    """Elements in forward flight."""
-    return _elements("3.8", FORWARD, 120)
-
-
 def figure_3_9() -> Report:
     """Azimuths."""
-    rows: list[list[float | str]] = [[m] for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
-    curves: list[Curve] = []
-    powers_of: list[Curve] = []
+    powers: dict[str, list[float]] = {}
+    errors: dict[str, list[float]] = {}
     numbers: dict[str, float] = {}
-    for k, (name, twist) in enumerate(CASES):
-        grid = AZIMUTHS
-        powers = [power_on(name, twist, FORWARD, 40, m) for m in (*grid, FINEST_AZIMUTHS)]
-        errors = [abs(p / powers[-1] - 1.0) for p in powers[:-1]]
-        by_grid: dict[float | str, float] = dict(zip((*grid, FINEST_AZIMUTHS), powers, strict=True))
-        for row in rows:
-            row.append(by_grid.get(row[0], ""))
-        numbers[f"{name}_error_at_100"] = errors[grid.index(100)]
-        numbers[f"{name}_needed"] = _needed(grid, errors)
-        numbers[f"{name}_order"] = _slope(grid[-4:], errors[-4:])
-        curves.append(curve(name, grid, np.maximum(errors, 1e-9), "both", colour=k))
-        powers_of.append(curve(name, grid, powers[:-1], "both", colour=k))
+    for name, twist in CASES:
+        *powers[name], finest = [power_on(name, twist, FORWARD, 40, m) for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
+        errors[name] = [abs(power / finest - 1.0) for power in powers[name]]
+        numbers |= {
+            f"{name}_error_at_100": errors[name][AZIMUTHS.index(100)],
+            f"{name}_needed": _needed(AZIMUTHS, errors[name]),
+            f"{name}_order": _slope(AZIMUTHS[-4:], errors[name][-4:]),
+        }
     worst = max(numbers[f"{name}_error_at_100"] for name, _ in CASES)
     needed = max(numbers[f"{name}_needed"] for name, _ in CASES)
+
+    from_on, orders = (
+        by_name({name: numbers[f"{name}_{key}"] for name, _ in CASES}, form)
+        for key, form in (("needed", "{:.0f}"), ("order", "{:.1f}"))
+    )
     return Report(
         number="3.9",
-        kind="figure",
         caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths, with linear inflow.",
         statement="At least 100 azimuthal positions are needed (p. 22).",
         ours=f"At 100 azimuths the power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS}; "
-        "within 0.1 % from "
-        + ", ".join(f"{numbers[f'{name}_needed']:.0f} ({name})" for name, _ in CASES)
-        + " on. From 100 to 360 azimuths the error falls with order "
-        + ", ".join(f"{numbers[f'{name}_order']:.1f} ({name})" for name, _ in CASES)
-        + ".",
+        f"within 0.1 % from {from_on} on. From 100 to 360 azimuths the error falls with order "
+        f"{orders}.",
         verdict=judged(worst < ENOUGH and needed >= 100),
         because="100 is enough"
         + ("" if needed >= 100 else ", but far fewer suffice for power")
         + ": the uniform sum of a smooth periodic load converges faster than any power; only the kinks of stall, of "
         "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance needs no more; "
         "integration in time, as in the thesis, may.",
-        tables=(table("power_kw", ("azimuths", *(name for name, _ in CASES)), rows),),
-        panels=(
-            PlotPanel(
-                "azimuths",
-                "main-rotor power [kW]",
-                (*powers_of, _mark("thesis: 100", 100, [y for one in powers_of for y in one.y])),
-            ),
-            PlotPanel(
-                "azimuths",
-                f"power, relative error to {FINEST_AZIMUTHS}",
-                (*curves, _mark("", 100, [y for one in curves for y in one.y])),
-                log="xy",
-            ),
-        ),
+        tables=(_power_table("azimuths", AZIMUTHS, powers),),
+        panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
         numbers=numbers,
     )
 
 
-def _elements(number: str, mu: float, azimuths: int) -> Report:
-    rows: list[list[float | str]] = [[n] for n in ELEMENTS]
-    curves: list[Curve] = []
-    powers_of: list[Curve] = []
+def elements_figure(number: str) -> Report:
+    """Power against the number of elements: 3.7 in hover, 3.8 in forward flight."""
+    mu, azimuths = (0.0, 8) if number == "3.7" else (FORWARD, 120)
+    powers: dict[str, list[float]] = {}
+    errors: dict[str, list[float]] = {}
     numbers: dict[str, float] = {}
-    for k, (name, twist) in enumerate(CASES):
-        powers = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
-        order = convergence_order(powers)
+    for name, twist in CASES:
+        found = powers[name] = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
+        order = convergence_order(found)
         # Richardson's limit with the order found.
-        limit = powers[-1] + (powers[-1] - powers[-2]) / (2.0**order - 1.0)
-        errors = [abs(power / limit - 1.0) for power in powers]
+        limit = found[-1] + (found[-1] - found[-2]) / (2.0**order - 1.0)
+        errors[name] = [abs(power / limit - 1.0) for power in found]
         numbers |= {
             f"{name}_order": order, f"{name}_limit_kw": limit,
-            f"{name}_error_at_40": errors[ELEMENTS.index(40)], f"{name}_needed": _needed(ELEMENTS, errors),
+            f"{name}_error_at_40": errors[name][ELEMENTS.index(40)], f"{name}_needed": _needed(ELEMENTS, errors[name]),
         }  # fmt: skip
-        for row, power in zip(rows, powers, strict=True):
-            row.append(power)
-        curves.append(curve(name, ELEMENTS, np.maximum(errors, 1e-9), "both", colour=k))
-        powers_of.append(curve(name, ELEMENTS, powers, "both", colour=k))
     worst = max(numbers[f"{name}_error_at_40"] for name, _ in CASES)
     where = "hover" if mu == 0.0 else f"forward flight, µ {mu:.2f}"
     return Report(
         number=number,
-        kind="figure",
         caption=f"Main-rotor power in {where} against the number of blade elements.",
         statement="Power settles as the number of elements grows, so that a smallest sufficient number can be read off "
         "(p. 21–22; the number is in the figure, which is not available).",
@@ -283,27 +255,34 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         verdict=judged(worst < 5e-3),
         because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
         "the tip, and the airfoils and twist table of the UH-60A have kinks, which makes the order irregular.",
-        tables=(table("power_kw", ("elements", *(name for name, _ in CASES)), rows),),
-        panels=(
-            PlotPanel(
-                "elements",
-                "power [kW]",
-                (*powers_of, _mark("40 elements: ours", 40, [y for one in powers_of for y in one.y])),
-            ),
-            PlotPanel(
-                "elements",
-                "relative error to the limit",
-                (*curves, _mark("", 40, [y for one in curves for y in one.y])),
-                log="xy",
-            ),
-        ),
+        tables=(_power_table("elements", ELEMENTS, powers),),
+        panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: ours"), "the limit"),
         numbers=numbers,
     )
 
 
-def _mark(label: str, x: float, values: Sequence[float]) -> Curve:
-    """A vertical dashed line over the range of the curves."""
-    return curve(label, (x, x), (min(values), max(values)), "dashed", colour=7)
+def _power_table(what: str, grid: Sequence[int], powers: dict[str, list[float]]) -> ReportTable:
+    return table("power_kw", (what, *powers), zip(grid, *powers.values(), strict=True))
+
+
+def _grid_panels(
+    what: str,
+    grid: Sequence[int],
+    powers: dict[str, list[float]],
+    errors: dict[str, list[float]],
+    mark: tuple[int, str],
+    reference: str,
+) -> tuple[PlotPanel, ...]:
+    """Power and its error over the grid, each with a dashed line at the marked one."""
+    panels: list[PlotPanel] = []
+    for label, rows, words in (("power [kW]", powers, mark[1]), (f"relative error to {reference}", errors, "")):
+        curves = [
+            curve(name, grid, np.maximum(row, 1e-9), "both", colour=k) for k, (name, row) in enumerate(rows.items())
+        ]
+        values = [y for one in curves for y in one.y]
+        line = curve(words, (mark[0], mark[0]), (min(values), max(values)), "dashed", colour=7)
+        panels.append(PlotPanel(what, label, (*curves, line), log="" if rows is powers else "xy"))
+    return tuple(panels)
 
 
 def _slope(grid: Sequence[int], errors: Sequence[float]) -> float:

@@ -9,9 +9,9 @@ import numpy as np
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.reproduce.actuated_blade import BLADES, fitted_blade
+from rotor.reproduce.actuation import BLADES, fitted_blade
 from rotor.reproduce.report import Agreement, Report, TableCell, table
-from rotor.reproduce.twist_effect import FAST_KMH, STRONG, WEAK
+from rotor.reproduce.twist_effect import STRONG, WEAK
 from rotor.trim.solve import solve
 
 SPEED = 0.3
@@ -103,12 +103,6 @@ def literature() -> Report:
             "not computed",
             "download is a fixed part of thrust here, the same for every twist, so our gain in hover is too large by "
             "about that",
-        ),
-        (
-            f"Keys et al.: −17.3° for −11.5° at {FAST_KMH:.0f} km/h (p. 28)",
-            "5 % more power",
-            "see Keys 1987",
-            "its own row, over speed",
         ),
     )
     return Report(

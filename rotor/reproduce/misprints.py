@@ -4,8 +4,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
-from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +14,7 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.airfoil.polynomial import polynomial_section, polynomial_table
 from rotor.airfoil.sections import load_section
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import typographic
+from rotor.reproduce.report import ReportTable, table
 from rotor.reproduce.runs import variant
 from rotor.trim.solve import solve
 
@@ -184,35 +182,18 @@ def _names() -> dict[str, Any]:
     return {"np": np, **{one.__name__: one for one in helpers}}
 
 
-def write_misprints(folder: Path) -> Path:
-    """Write `misprints.html` into `folder`; its path."""
-    rows: list[str] = []
+def misprint_table() -> ReportTable:
+    """Every misprint with its lines and what they give."""
+    rows: list[tuple[str, ...]] = []
     for one in MISPRINTS:
-        printed, ours = shown_values(one)
         unit = f" {one.unit}" if one.unit else ""
-        page = f"p. {one.page}" if one.page else ""
-        rows.append(
-            f"<tr><td><b>{escape(one.equation)}</b><br><small>{escape(page)}<br>{escape(one.kind)}</small></td>"
-            f"<td>{escape(one.printed)}</td><td>{escape(one.ours)}<pre>{escape(one.setting)}\n{escape(one.showing)}</pre>"
-            f"</td><td>{_short(printed)}{unit}</td><td>{_short(ours)}{unit}</td></tr>"
-        )
-    path = folder / "misprints.html"
-    path.write_text(
-        '<!doctype html><html lang="en"><meta charset="utf-8"><title>Omissions and misprints</title><style>'
-        "body{font:15px/1.5 system-ui,sans-serif;max-width:1080px;margin:24px auto;padding:0 20px;color:#1c2429}"
-        "td,th{vertical-align:top;text-align:left;padding:6px 10px;border-bottom:1px solid #dde2e6}"
-        "pre{white-space:pre-wrap;"
-        "background:#f3f5f6;padding:6px 8px;overflow-x:auto;font-size:12.5px;margin:6px 0 0}small{color:#5b6770}"
-        "table{border-collapse:collapse}</style><h1>What the thesis omits or misprints</h1>"
-        '<p><a href="index.html">Back</a>. Each with two lines that were run to make this page.</p><table><tr>'
-        "<th>Equation</th><th>As printed</th><th>Ours, and why</th><th>Printed</th><th>Ours</th></tr>"
-        f"{''.join(rows)}</table></html>\n",
-        encoding="utf-8",
-    )
-    return path
+        where = ", ".join(filter(None, (one.equation, f"p. {one.page}" if one.page else "", one.kind)))
+        values = (f"{_short(value)}{unit}" for value in shown_values(one))
+        rows.append((where, one.printed, one.ours, f"{one.setting}\n{one.showing}", *values))
+    return table("misprints", ("Equation", "As printed", "Ours, and why", "Python", "Printed", "Ours"), rows)
 
 
 def _short(value: float) -> str:
     if not math.isfinite(value):
         return "—"
-    return typographic(f"{value:.4g}") if abs(value) > ROUNDING else "0"
+    return f"{value:.4g}" if abs(value) > ROUNDING else "0"

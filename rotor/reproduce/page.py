@@ -8,6 +8,7 @@ import csv
 import importlib
 import importlib.util
 import math
+from collections import Counter
 from collections.abc import Sequence
 from html import escape as escape_html
 from itertools import groupby
@@ -17,13 +18,12 @@ from typing import Any
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.reproduce.catalogue import CatalogueEntry, find_entry
-from rotor.reproduce.misprints import write_misprints
+from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
+from rotor.reproduce.misprints import misprint_table
 from rotor.reproduce.report import (
     Agreement,
     AnyPanel,
     DiskPanel,
-    FieldPanel,
     PlotPanel,
     Report,
     ReportTable,
@@ -59,26 +59,11 @@ _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
 FEW = 3
 """Curves for whose names there is room in a panel."""
-MANY = 14
-"""Number of curves, bands included, from which the legend is drawn beside the panel."""
 
 
 def can_draw() -> bool:
     """Whether matplotlib is there."""
     return importlib.util.find_spec("matplotlib") is not None
-
-
-def draw(report: Report, folder: Path) -> None:
-    """Write `stem.svg` and `stem.png` for each picture of the report; nothing for a report without panels."""
-    for stem, panels in pictures_of(report):
-        below = report.legend_below or panels is report.companion or same_key(panels)
-        _draw_picture(stem, panels, folder, legend_below=below, stacked=report.stacked)
-
-
-def pictures_of(report: Report) -> tuple[tuple[str, tuple[AnyPanel, ...]], ...]:
-    """Stem and panels of each picture."""
-    both = ((report.stem, report.panels), (f"{report.stem}-inflow", report.companion))
-    return tuple((stem, panels) for stem, panels in both if panels)
 
 
 def same_key(panels: tuple[AnyPanel, ...]) -> bool:
@@ -87,16 +72,19 @@ def same_key(panels: tuple[AnyPanel, ...]) -> bool:
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
-def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, legend_below: bool, stacked: bool) -> None:
+def draw(report: Report, folder: Path) -> None:
+    """Write `stem.svg` and `stem.png`; nothing for a report without panels."""
+    panels = report.panels
+    if not panels:
+        return
+    legend_below = same_key(panels)
     matplotlib: Any = importlib.import_module("matplotlib")
     figure_module: Any = importlib.import_module("matplotlib.figure")
     count = len(panels)
-    across = 1 if stacked else count if count <= 3 else 3 if count % 3 == 0 else 2
+    across = count if count <= 3 else 3 if count % 3 == 0 else 2
     down = math.ceil(count / across)
-    # A single picture and stacked ones have the width of two panels, so that their text is not enlarged on the page.
-    width, height = (2 * _WIDTH, 0.55 * _HEIGHT) if stacked else (_WIDTH * across, _HEIGHT)
-    if count == 1:
-        width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT)
+    # A single picture is wider, so that its text is not enlarged on the page.
+    width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
@@ -104,22 +92,15 @@ def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, lege
             place = axes[k // across][k % across]
             if isinstance(panel, DiskPanel):
                 _draw_disk(figure, place, panel)
-            elif isinstance(panel, FieldPanel):
-                _draw_field(figure, place, panel)
             else:
                 _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
-            pairs = [pair for place in axes.flat for pair in zip(*place.get_legend_handles_labels(), strict=True)]
-            key = {label: handle for handle, label in pairs}
-            room = 0.6 + 0.065 * max(map(len, key))  # Inches that one name takes.
-            fit = max(1, min(len(key), int(width / room)))
-            lines = math.ceil(len(key) / fit)
-            figure.legend(key.values(), key.keys(), loc="outside lower center", ncols=math.ceil(len(key) / lines))
+            figure.legend(*axes[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         # Transparent: the page has a dark form.
-        figure.savefig(folder / f"{stem}.svg", metadata={"Date": None}, transparent=True)
-        figure.savefig(folder / f"{stem}.png", dpi=130)
+        figure.savefig(folder / f"{report.stem}.svg", metadata={"Date": None}, transparent=True)
+        figure.savefig(folder / f"{report.stem}.png", dpi=130)
 
 
 def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
@@ -134,27 +115,13 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
                 continue
             axes.fill_between(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
             continue
-        if one.style == "fill":
-            label = typographic(one.label) or None
-            axes.fill(one.x, one.y, facecolor=colour, edgecolor=colour, alpha=0.55, linewidth=0.8, label=label)
-            continue
         look: dict[str, Any] = {
             "line": {},
-            "thin": {"linewidth": 0.8},
             "points": {"linestyle": "none", "marker": "o", "markersize": 4},
             "dashed": {"linestyle": "--"},
             "both": {"marker": "o", "markersize": 3},
         }[one.style]
         axes.plot(one.x, one.y, color=colour, label=typographic(one.label) or None, **look)
-    for one in panel.arrows:
-        colour = PALETTE[one.colour % len(PALETTE)]
-        look = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", one.end, one.start, arrowprops=look)
-        axes.plot(*zip(one.start, one.end, strict=True), linestyle="none")  # Annotations do not widen the axes.
-    for one in panel.notes:
-        axes.text(one.x, one.y, typographic(one.text), ha=one.align, va="center", fontsize=8.5, color="#333333")
-    if panel.drawing:
-        axes.axis("off")
     axes.set_xlabel(panel.x_label)
     axes.set_ylabel(panel.y_label)
     if panel.title:
@@ -170,24 +137,7 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
     if legend and sum(bool(one.label) for one in panel.curves) > 1:
-        many = len(panel.curves) > MANY
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5)) if many else axes.legend()
-
-
-def _draw_field(figure: Any, axes: Any, panel: FieldPanel) -> None:
-    low, high = panel.limits or (None, None)
-    shade = axes.pcolormesh(
-        panel.x, panel.y, panel.values, cmap="viridis", vmin=low, vmax=high, shading="gouraud", rasterized=True
-    )
-    figure.colorbar(shade, ax=axes, label=panel.label, shrink=0.85)
-    if panel.lines:
-        axes.contour(panel.x, panel.y, panel.lines, levels=9, colors="white", linewidths=0.7)
-    for one in panel.marks:
-        axes.plot(one.x, one.y, color="#c0392b", linewidth=5, solid_capstyle="butt", clip_on=False)
-    axes.set_xlabel(panel.x_label)
-    axes.set_ylabel(panel.y_label)
-    axes.set_title(panel.title)
-    axes.grid(False)
+        axes.legend()
 
 
 def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
@@ -246,6 +196,7 @@ td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cur
 .shown{overflow-x:auto;margin:10px 0}.shown td,.shown th{text-align:left;padding:3px 8px;font-size:12.5px}
 .shown th{font-weight:600;color:var(--soft)}
 .yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
+.shown td.code{font-family:monospace;white-space:pre-wrap}
 .talk main{max-width:1240px;padding-bottom:20px}.talk details{display:none}
 .talk article{display:grid;grid-template-columns:7fr 5fr;column-gap:24px;align-items:start}
 .talk h3,.talk h3+div,.talk .files{grid-column:1/-1}.talk img{grid-column:1;grid-row:3/5}
@@ -272,18 +223,6 @@ article>details,.files,.talk p{display:none}
 """
 
 
-def write_page(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> Path:
-    """Write the page; pictures are read back from the folder and put inside."""
-    parts = [_head(made, pictures)]
-    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
-        parts.append(f"<h2>{escape(chapter)}</h2>")
-        parts += [_article(report, folder, pictures=pictures) for _, report in group]
-    parts.append("</main></html>\n")
-    path = folder / "index.html"
-    path.write_text("\n".join(parts), encoding="utf-8")
-    return path
-
-
 def escape(text: str) -> str:
     """Text for the page."""
     return escape_html(typographic(text))
@@ -291,18 +230,30 @@ def escape(text: str) -> str:
 
 TALK = "today.html"
 """One page to show in a lecture."""
+MISPRINTS_PAGE = "misprints.html"
 
 
 def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> None:
     """Write the last chapter as a page of its own, where it was made."""
     report = _talk_of(made)
     if report is not None:
-        parts = (
-            _opening("What the thesis would have found", "talk"),
-            '<p class=small><a href="index.html">The thesis, rebuilt</a></p><h1>What the thesis would have found</h1>',
-            f"{_article(report, folder, pictures=pictures)}</main></html>\n",
-        )
-        (folder / TALK).write_text("\n".join(parts), encoding="utf-8")
+        _write_beside(folder / TALK, "What the thesis would have found", _article(report, folder, pictures=pictures))
+
+
+def write_misprints(folder: Path) -> Path:
+    """Write the page of what the thesis omits or misprints into `folder`; its path."""
+    body = (
+        f'<p>Each with two lines that were run to make this page.</p><div class="shown text">{_rows(misprint_table())}'
+    )
+    return _write_beside(folder / MISPRINTS_PAGE, "What the thesis omits or misprints", f"{body}</div>")
+
+
+def _write_beside(path: Path, title: str, body: str) -> Path:
+    """Write a page that leads back to the index; its path."""
+    kind = "talk" if path.name == TALK else ""
+    back = '<p class=small><a href="index.html">The thesis, rebuilt</a></p>'
+    path.write_text(f"{_opening(title, kind)}{back}<h1>{title}</h1>{body}</main></html>\n", encoding="utf-8")
+    return path
 
 
 def _talk_of(made: Sequence[tuple[CatalogueEntry, Report]]) -> Report | None:
@@ -318,8 +269,10 @@ def _opening(title: str, kind: str = "") -> str:
 
 
 def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
-    counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Agreement}
-    summary = ", ".join(f"{verdict.value} {count}" for verdict, count in counts.items() if count)
+    counts = Counter(report.verdict for _, report in made)
+    summary = ", ".join(f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.ALONE)
+    checkable = sum(report.checkable for _, report in made)
+    drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
     rows = "".join(
         f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
         f"<td>{escape(report.statement)}</td></tr>"
@@ -333,23 +286,25 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
         "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
-        f'the captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">'
-        f"What the thesis omits or misprints</a>.{talk}</p>{without}"
-        f"<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
+        "the captions.</p>"
+        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {len(made) - checkable} "
+        f"ours under a caption or a picture without numbers; {len(DRAWINGS)} drawings of the thesis, not rebuilt. "
+        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>{without}'
+        f"<details open><summary>Contents</summary><table class=toc>{rows}</table>"
+        f"<p class=small>Drawings in the thesis, not rebuilt: figures {escape(drawings)}.</p></details>"
     )
 
 
 def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     image = ""
-    files = [_csv_link(report, one) for one in report.tables]
-    for stem, panels in pictures_of(report) if pictures else ():
-        data = base64.b64encode((folder / f"{stem}.svg").read_bytes()).decode("ascii")
+    files = [f'<a href="{csv_name(report, one)}">CSV {escape(one.name.replace("_", " "))}</a>' for one in report.tables]
+    if pictures and report.panels:
+        data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
         # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
-        field = any(not isinstance(panel, PlotPanel) for panel in panels)
-        kind = "field" if field else "tall" if len(panels) > 4 and len(panels) % 3 else "plot"
-        image += f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
-        which = " every inflow" if stem != report.stem else ""
-        files += [f'<a href="{stem}.{end}">{end.upper()}{which}</a>' for end in ("svg", "png")]
+        field = any(isinstance(panel, DiskPanel) for panel in report.panels)
+        kind = "field" if field else "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
+        image = f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+        files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables if not one.shown)
     result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
     return (
@@ -359,11 +314,6 @@ def _article(report: Report, folder: Path, *, pictures: bool) -> str:
         f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
         f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
     )
-
-
-def _csv_link(report: Report, one: ReportTable) -> str:
-    name = f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
-    return f'<a href="{name}">CSV {escape(one.name.replace("_", " "))}</a>'
 
 
 def _details(one: ReportTable) -> str:
@@ -384,6 +334,8 @@ def _rows(one: ReportTable) -> str:
 def _cell(cell: TableCell) -> str:
     if not isinstance(cell, str):
         return f"<td>{cell:.5g}</td>"
+    if "\n" in cell:
+        return f"<td class=code>{escape_html(cell)}</td>"  # To be copied: its hyphens stay.
     kind = " class=yes" if cell.startswith("yes ") else ""
     return f"<td{kind}>{escape(cell)}</td>"
 
@@ -425,16 +377,19 @@ def write_csv(path: Path, report: Report, one: ReportTable) -> None:
         file.write(f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(one.columns)
-        writer.writerows([shown(cell) for cell in row] for row in one.rows)
-
-
-def shown(cell: TableCell) -> str:
-    """A cell as text: numbers with six significant digits, more than the accuracy of any."""
-    return cell if isinstance(cell, str) else f"{cell:.6g}"
+        # Six significant digits are more than the accuracy of any.
+        writer.writerows([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in one.rows)
 
 
 def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
+    pictures = can_draw()
     write_misprints(folder)
-    write_talk(made, folder, pictures=can_draw())
-    return write_page(made, folder, pictures=can_draw())
+    write_talk(made, folder, pictures=pictures)
+    parts = [_head(made, pictures)]
+    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
+        parts.append(f"<h2>{escape(chapter)}</h2>")
+        parts += [_article(report, folder, pictures=pictures) for _, report in group]
+    path = folder / "index.html"
+    path.write_text("\n".join([*parts, "</main></html>\n"]), encoding="utf-8")
+    return path

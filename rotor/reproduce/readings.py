@@ -166,32 +166,16 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
         tables=(
             table(
                 "statements",
-                (
-                    "section data",
-                    "unit of twist",
-                    "optimum in hover [°]",
-                    *STATEMENTS,
-                    "−8° overtakes −12° at µ",
-                    "gives",
-                ),
-                rows,
-                shown=True,
+                ("section data", "unit of twist", "optimum in hover [°]", *STATEMENTS, "−8° overtakes −12° at µ",
+                 "gives"),
+                rows, shown=True,
             ),
             table(
                 "readings",
-                (
-                    "name",
-                    "unit",
-                    "optimum_deg",
-                    "cost_13_5",
-                    "cost_16",
-                    "excess_low",
-                    "cost_8",
-                    "cost_4",
-                    "overtakes_mu",
-                ),
+                ("name", "unit", "optimum_deg", "cost_13_5", "cost_16", "excess_low", "cost_8", "cost_4",
+                 "overtakes_mu"),
                 [(one.section, one.unit, one.optimum_deg, *one.excess, one.overtakes) for one in found],
             ),
         ),
         numbers={"most": float(most), **{f"{one.section} {one.unit}": float(sum(one.holds)) for one in found}},
-    )
+    )  # fmt: skip

@@ -3,14 +3,14 @@
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-CurveStyle = Literal["line", "thin", "points", "dashed", "both", "band", "fill"]
+CurveStyle = Literal["line", "points", "dashed", "both", "band"]
 TableCell = str | float | int
 TOLERANCE = 1e-3
 """Part of the power by which a twist that the thesis calls the best may exceed our least: the band of every optimum."""
@@ -23,19 +23,13 @@ _CAPTIONS = {
     "Figure 4.6": "Two sections with linear twist, 60 – 40",
     "Figure 4.7": "Two sections with linear twist, 70 – 30",
     "Figure 4.8": "Two sections, two airfoils and linear twist, 50 – 50",
-    "Figure 4.9": "Blade planform UH-60A",
     "Figure 4.10": "Three sections with linear twist",
     "Figure 4.12": "Comparison of flight test data and three linear segments",
     "Figure 4.13": "Twist behaviours compared",
     "Table 4.1": "Reduction of power between fixed linear twist and simulations",
-    "Figure 5.2": "Piezoelectric deformation",
-    "Figure 5.3": "Continuous and interdigitated electrode",
     "Figure 5.4": "Continuous and interdigitated electrode, electric field",
     "Figure 5.5": "Free strain compared",
-    "Figure 5.6": "Micro fibre composite actuator",
     "Figure 5.7": "Electric field compared",
-    "Figure 5.8": "Blade model with black box",
-    "Figure 5.9": "Airfoil with actuators",
     "Figure 5.10": "Torsion angle of the thermal analysis",
     "Table 5.1": "Actuator properties",
     "Table 5.2": "Actuators and concepts compared",
@@ -71,25 +65,6 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Arrow:
-    """An arrow of a drawing, in the units of its axes."""
-
-    start: tuple[float, float]
-    end: tuple[float, float]
-    colour: int
-
-
-@dataclass(frozen=True)
-class Note:
-    """Text in a drawing, vertically centred on its place."""
-
-    text: str
-    x: float
-    y: float
-    align: Literal["left", "center", "right"] = "center"
-
-
-@dataclass(frozen=True)
 class PlotPanel:
     """One pair of axes."""
 
@@ -102,10 +77,6 @@ class PlotPanel:
     equal: bool = False
     """Same scale on both axes, for outlines."""
     y_limits: tuple[float, float] | None = None
-    arrows: tuple[Arrow, ...] = ()
-    notes: tuple[Note, ...] = ()
-    drawing: bool = False
-    """Without axes."""
 
 
 @dataclass(frozen=True)
@@ -126,27 +97,7 @@ class DiskPanel:
     """Whether the line of zero is drawn (the border of reverse flow, in U_T)."""
 
 
-@dataclass(frozen=True)
-class FieldPanel:
-    """A field over a rectangle, with lines of equal value on top where a second field is given."""
-
-    x_label: str
-    y_label: str
-    label: str
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    values: tuple[tuple[float, ...], ...]
-    """(y, x)"""
-    lines: tuple[tuple[float, ...], ...] = ()
-    """(y, x): drawn as ten contours."""
-    title: str = ""
-    limits: tuple[float, float] | None = None
-    """Of the colours."""
-    marks: tuple[Curve, ...] = ()
-    """Thick red lines on top."""
-
-
-AnyPanel = PlotPanel | DiskPanel | FieldPanel
+AnyPanel = PlotPanel | DiskPanel
 
 
 @dataclass(frozen=True)
@@ -161,13 +112,13 @@ class ReportTable:
     """Whether the page shows it open, as the result itself."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Report:
     """One rebuilt figure or table of the thesis."""
 
     number: str
     """As the thesis numbers it, for example 3.11; or a word for what it does not number."""
-    kind: Literal["figure", "table", "claim"]
+    kind: Literal["figure", "table", "claim"] = "figure"
     caption: str
     """In our own words."""
     statement: str
@@ -179,19 +130,18 @@ class Report:
     """Reason for the difference, or basis of the agreement; one sentence."""
     tables: tuple[ReportTable, ...]
     panels: tuple[AnyPanel, ...] = ()
-    companion: tuple[AnyPanel, ...] = ()
-    """Panels of a second figure."""
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """Numbers that decide the verdict, by name."""
-    legend_below: bool = False
-    """Whether the names stand below the figure, where no corner of it is free."""
-    stacked: bool = False
-    """Whether the panels lie below each other, each over the whole width."""
 
     @property
     def title(self) -> str:
         """`Figure 3.11`, `Table 3.1`, or the word for what has no number."""
         return self.number if self.kind == "claim" else f"{self.kind.capitalize()} {self.number}"
+
+    @property
+    def checkable(self) -> bool:
+        """Whether anything of the thesis was compared or loaded."""
+        return self.verdict is not Agreement.ALONE
 
     @property
     def stem(self) -> str:
@@ -213,6 +163,19 @@ def curve(
     return Curve(label, floats(x), floats(y), style, top, colour)
 
 
+def with_gap(
+    label: str, mu: Sequence[float], y: Sequence[float], style: CurveStyle = "both", *, colour: int,
+    upper: Sequence[float] | None = None,
+) -> list[Curve]:  # fmt: skip
+    """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
+    parts: list[Curve] = []
+    for words, flying in ((label, True), ("", False)):
+        keep = [k for k, one in enumerate(mu) if (one > 0.0) is flying]
+        top = [upper[k] for k in keep] if upper else None
+        parts.append(curve(words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour))
+    return parts
+
+
 def floats(values: ArrayLike) -> tuple[float, ...]:
     """Plain floats of any array-like, flattened."""
     return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
@@ -230,14 +193,29 @@ def typographic(text: str) -> str:
     return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 
-def caption_only(title: str) -> str:
-    """The statement of a figure or table of which only the caption is known."""
-    return f"{_CAPTIONS[title]}. Only this caption is known; the numbers of the thesis are not."
+def card(
+    number: str,
+    caption: str,
+    ours: str,
+    because: str,
+    data: ReportTable,
+    panels: tuple[AnyPanel, ...] = (),
+    numbers: Mapping[str, float] | None = None,
+) -> Report:
+    """A figure, or with no panels a table, of which only the caption is known: a picture, a sentence and a table."""
+    kind = "figure" if panels else "table"
+    return Report(
+        number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
+        statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
+        "thesis are not.",
+        verdict=Agreement.ALONE, tables=(replace(data, shown=not panels),),
+    )  # fmt: skip
 
 
-def best_within_tolerance(costs: Iterable[float]) -> Agreement:
-    """Whether a twist that the thesis calls the best costs at most `TOLERANCE` of our least power, at every speed."""
-    return judged(max(costs) <= TOLERANCE)
+def by_name(values: Mapping[str, float], form: str = "{:.1f} %") -> str:
+    """`2.1 % (thesis), 9.9 % (flight)`: parts by name, shown in per cent, or as `form` says."""
+    factor = 100.0 if "%" in form else 1.0
+    return ", ".join(f"{form.format(factor * value)} ({name})" for name, value in values.items())
 
 
 def judged(agrees: bool) -> Agreement:

@@ -1,7 +1,7 @@
 """Solutions, searches and optima that several figures share, computed once.
 
-Chapter 4 needs the twist of least power for every concept, over speed, in both presets and with every inflow model.
-The thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its
+Chapter 4 needs the twist of least power for every concept, over speed, in four variants of the two presets. The
+thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its
 parameters, the band within 0.1 % of its power, the power, and the saving relative to the thesis' baseline, a fixed
 linear twist of −16°.
 """
@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
 
-from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.twist import parse_twist
@@ -82,7 +81,6 @@ def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[
         yield (function, args), function(*args)
 
 
-PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)
 """The linear twists of the thesis [degrees per radius] (thesis §3.3)."""
 
@@ -91,62 +89,31 @@ THESIS_WAKE = "thesis-wake"
 power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
-
 THESIS_TRIMMED = "thesis-trimmed"
 """The `thesis` preset's blade and section with the lifting line and the `flight` preset's trim: cyclic, and µ sin α
 in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
-"""Those that have a picture of their own: each preset with an inflow model that responds to loading, and with one that
-does not."""
+"""Each preset with an inflow model that responds to loading, and with one that does not."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the lifting line",
     "flight": "flight preset (lifting line)",
     FLIGHT_LINEAR: "flight preset with linear inflow",
 }
-_INFLOW = {
-    "thesis": "pitt-peters-15pi/23",
-    THESIS_WAKE: "lifting-line",
-    THESIS_TRIMMED: "lifting-line",
-    "flight": "lifting-line",
-    FLIGHT_LINEAR: "pitt-peters",
-}
-"""Inflow model of the variants that have a name."""
+_INFLOW = {THESIS_WAKE: "lifting-line", THESIS_TRIMMED: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
+"""Inflow model of the variants that do not have their preset's own."""
 
 
-def with_inflow(preset: str, inflow: str) -> str:
-    """The variant of a preset with any inflow model: its name where it has one, else `preset:inflow`."""
-    own = (name for name in VARIANTS if choices(name) == (preset, inflow))
-    return next(own, f"{preset}:{inflow}")
-
-
-def choices(name: str) -> tuple[str, str]:
-    """Preset and inflow model of a variant."""
-    preset, _, inflow = name.partition(":")
-    return preset.partition("-")[0], inflow or _INFLOW[name]
-
-
-REPRESENTATIVE = {"thesis": "thesis", "flight": FLIGHT_LINEAR}
-"""The variant of each preset that stands for all models which do not respond to loading; their optima coincide."""
-
-
-def linear_twin(name: str) -> str | None:
-    """The representative of a variant with linear inflow; None for itself and for models that respond to loading."""
-    preset, inflow = choices(name)
-    own = REPRESENTATIVE[preset]
-    return None if INFLOW_MODELS[inflow].load_dependent or name == own else own
-
-
-EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for inflow in INFLOW_MODELS)
-"""Both presets with every inflow model."""
+def preset_of(name: str) -> str:
+    """The preset of a variant."""
+    return name.partition("-")[0]
 
 
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
-    preset, inflow = choices(name)
-    design = make_design(preset=preset, twist=twist, mu=mu, mass_kg=mass)
-    models = replace(design.models, inflow=inflow)
+    design = make_design(preset=preset_of(name), twist=twist, mu=mu, mass_kg=mass)
+    models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
     if name == THESIS_TRIMMED:
         models = replace(models, trim="propulsive", disk_axial_flow=True)
     return replace(design, models=models)
@@ -187,8 +154,6 @@ QUICK = Scope((0.0, 0.15, 0.30), 2)
 class ConceptOptimum:
     """One optimum."""
 
-    variant: str
-    concept: str
     mu: float
     converged: bool
     message: str
@@ -205,8 +170,6 @@ class ConceptOptimum:
     """Total power."""
     baseline_kw: float
     """Total power of `BASELINE` on the preset's own airfoils."""
-    minima: int
-    """Local minima found."""
 
     @property
     def saving(self) -> float:
@@ -214,18 +177,18 @@ class ConceptOptimum:
         return 1.0 - self.power_kw / self.baseline_kw
 
 
-CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
-    "linear": ("one section, linear twist", lambda: find_concept("linear")),
-    "quadratic": ("quadratic twist", lambda: find_concept("quadratic")),
+CONCEPTS: dict[str, tuple[str, Concept]] = {
+    "linear": ("one section, linear twist", find_concept("linear")),
+    "quadratic": ("quadratic twist", find_concept("quadratic")),
     **{
         f"two {100 * d:.0f}-{100 * (1 - d):.0f}": (
             f"two sections, linear twist, divided {100 * d:.0f} – {100 * (1 - d):.0f}",
-            lambda d=d: find_concept("two-segment", (d,)),
+            find_concept("two-segment", (d,)),
         )
         for d in DIVISIONS
     },
-    "two airfoils": ("two sections, two airfoils, 50 – 50", lambda: find_concept("two-segment-two-airfoils", (0.5,))),
-    "three": ("three linear sections", lambda: find_concept("three-segment")),
+    "two airfoils": ("two sections, two airfoils, 50 – 50", find_concept("two-segment-two-airfoils", (0.5,))),
+    "three": ("three linear sections", find_concept("three-segment")),
 }
 """The thesis' concepts: title, and the concept."""
 SC1095_DECKS = "two 50-50, SC1095 deck"
@@ -233,15 +196,15 @@ SC1095_DECKS = "two 50-50, SC1095 deck"
 
 
 def _family(concept: str) -> Concept:
-    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]()
+    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
 
 
 @CachedFunction
 def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
-    preset = choices(name)[0]
+    preset = preset_of(name)
     if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
-        return replace(best(preset, concept, mu, scope), variant=name)
+        return best(preset, concept, mu, scope)
     family = _family(concept)
     design = variant(name, twist=BASELINE, mu=mu)
     if concept in ("two airfoils", SC1095_DECKS) and design.preset == "thesis":
@@ -253,17 +216,13 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     place = speeds.index(mu) if mu in speeds else 0
     neighbour = [speeds[place - 1]] if place > 0 else []
     near = [best(name, concept, slower, scope).twist for slower in neighbour]
-    twin = linear_twin(name)
-    if twin is not None:
-        # Its optimum lies within the band of the representative's, so the band is not measured again.
-        near = [best(twin, concept, mu, scope).twist, *near]
-    elif concept != "linear":
+    if concept != "linear":
         near.append(best(name, "linear", mu, scope).twist)
     guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
-    starts = max(2 if neighbour or twin else scope.starts, len(guesses))
-    found = run_search(Search(design, family, starts=starts, guesses=guesses, band=twin is None))
-    return _record(name, concept, mu, family, found)
+    starts = max(2 if neighbour else scope.starts, len(guesses))
+    found = run_search(Search(design, family, starts=starts, guesses=guesses))
+    return _record(name, mu, family, found)
 
 
 def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
@@ -273,7 +232,7 @@ def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
     power, is taken off the two-segment blade with the document's polynomials.
     """
     found = best(name, concept, mu, scope)
-    if concept != "two airfoils" or choices(name)[0] != "thesis":
+    if concept != "two airfoils" or preset_of(name) != "thesis":
         return found.power_kw
     decks, polynomials = best(name, SC1095_DECKS, mu, scope), best(name, "two 50-50", mu, scope)
     return polynomials.power_kw * found.power_kw / decks.power_kw
@@ -294,7 +253,7 @@ class FixedBlade:
 @CachedFunction
 def best_fixed(name: str, scope: Scope) -> FixedBlade:
     """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
-    family = CONCEPTS["linear"][1]()
+    family = CONCEPTS["linear"][1]
     design = variant(name, twist=BASELINE, mu=scope.speeds[0])
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
     middle = sum(best(name, "linear", mu, scope).values[0] for mu in scope.speeds) / len(scope.speeds)
@@ -308,12 +267,12 @@ def best_fixed(name: str, scope: Scope) -> FixedBlade:
 def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
     """The calls of `best` for these concepts, in the order that lets each start from its neighbours."""
     wanted = dict.fromkeys(("linear", *concepts))
-    if {"two airfoils", "two 50-50"} <= set(wanted) and choices(name)[0] == "thesis":
+    if {"two airfoils", "two 50-50"} <= set(wanted) and preset_of(name) == "thesis":
         wanted[SC1095_DECKS] = None
     return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 
 
-def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
+def _record(name: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
     assert found.baseline_power is not None, f"{name}, µ {mu:g}: the baseline blade does not trim"
     bands: dict[str, Band] = {one.parameter: one for one in found.band}
     parameters = family.parameters
@@ -323,8 +282,6 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
     found_band = {name: (one.low, one.high) for name, one in bands.items() if one.high > one.low}
     edges = [found_band.get(p.name, (math.nan, math.nan)) for p in parameters]
     return ConceptOptimum(
-        variant=name,
-        concept=concept,
         mu=mu,
         converged=found.status is SearchStatus.CONVERGED,
         message=found.message,
@@ -334,5 +291,4 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
         twist=least.twist if least is not None else found.design.twist.spec(),
         power_kw=(least.power if least is not None else found.baseline_power) / 1e3,
         baseline_kw=found.baseline_power / 1e3,
-        minima=len(found.minima),
     )

@@ -1,12 +1,12 @@
 """Figures 2.3, 2.4, 3.1–3.6: pressure and forces around sections from XFOIL; polynomial fits of lift and drag."""
 
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
-from rotor.airfoil.build.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure, run_pressure
-from rotor.airfoil.build.xfoil import XfoilError
+from rotor.airfoil.build.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure
 from rotor.airfoil.polars import read_polars
 from rotor.airfoil.polynomial import (
     DRAG_ORDER,
@@ -20,35 +20,27 @@ from rotor.airfoil.polynomial import (
 from rotor.assets import asset_path
 from rotor.reproduce.report import Agreement, PlotPanel, Report, ReportTable, curve, judged, table
 
-TITLES = {"naca23015": "NACA 23015", "sc1095": "SC1095", "sc1094r8": "SC1094 R8"}
-SHIFT = 0.02
-"""cl by which a rerun of XFOIL may differ from the shipped run: its convergence moves with version and machine."""
+Coefficient = Literal["lift", "drag"]
 ARROW = 0.25
 """Chords per unit of Cp in the arrows."""
 
 
-def forces(section: str) -> tuple[Pressure, str]:
-    """The result to show and where it comes from: rerun where XFOIL is installed, shipped otherwise."""
-    case = next(case for case in PRESSURE_CASES if case.section == section)
-    shipped = read_pressure(case)
-    try:
-        fresh = run_pressure(case)
-    except XfoilError:
-        return shipped, "Shipped XFOIL output; no XFOIL here to rerun it."
-    moved = fresh.cl - shipped.cl
-    if abs(moved) > SHIFT:
-        return shipped, f"Shipped XFOIL output; XFOIL here gives a cl {moved:+.3f} away from it, which is not used."
-    return fresh, f"Rerun with XFOIL here; its cl is {moved:+.4f} from the shipped run."
+FORCES = {
+    "2.3": ("naca23015", "NACA 23015", "XFOIL gives how the forces are distributed around a section (p. 9–10)."),
+    "3.1": ("sc1095", "SC1095", "The SC1095 of the UH-60A at 3° (p. 17)."),
+    "3.2": ("sc1094r8", "SC1094 R8", "The SC1094 R8 of the UH-60A at 3° (p. 18)."),
+}
+"""By number: the section, its name, and what the thesis says."""
 
 
-def figure_2_3() -> Report:
-    """Forces around NACA 23015."""
-    return _forces("2.3", "naca23015", "XFOIL gives how the forces are distributed around a section (p. 9–10).")
+def shipped(section: str) -> Pressure:
+    """The shipped XFOIL run of a section."""
+    return read_pressure(next(case for case in PRESSURE_CASES if case.section == section))
 
 
 def figure_2_4() -> Report:
     """Pressure on NACA 23015."""
-    pressure, origin = forces("naca23015")
+    pressure = shipped("naca23015")
     nose = int(np.argmin(pressure.x))
     upper, lower = slice(None, nose + 1), slice(nose, None)
     peak = int(np.argmin(pressure.cp))
@@ -57,9 +49,8 @@ def figure_2_4() -> Report:
     good = abs(stagnation / expected - 1.0) < 0.02 and peak < nose
     return Report(
         number="2.4",
-        kind="figure",
         caption="Pressure coefficient on the upper and lower side of NACA 23015. The thesis states neither angle nor "
-        f"flow; ours: {_flow(pressure.case)}. {origin}",
+        f"flow; ours: {_flow(pressure.case)}.",
         statement="XFOIL gives how the pressure coefficient changes over the top and the bottom of a section (p. 9).",
         ours=f"Least Cp {pressure.cp[peak]:.2f} at {100 * pressure.x[peak]:.0f} % chord on the upper side; largest "
         f"{stagnation:.3f}, where isentropic flow at rest has {expected:.3f}.",
@@ -82,31 +73,20 @@ def figure_2_4() -> Report:
     )
 
 
-def figure_3_1() -> Report:
-    """SC1095 at 3°."""
-    return _forces("3.1", "sc1095", "The SC1095 of the UH-60A at 3° (p. 17).")
-
-
-def figure_3_2() -> Report:
-    """SC1094 R8 at 3°."""
-    return _forces("3.2", "sc1094r8", "The SC1094 R8 of the UH-60A at 3° (p. 18).")
-
-
-def _forces(number: str, section: str, statement: str) -> Report:
-    pressure, origin = forces(section)
+def force_figure(number: str) -> Report:
+    """Pressure forces around a section; `number` is one of `FORCES`."""
+    section, title, statement = FORCES[number]
+    pressure = shipped(section)
     integrated = pressure.integrated_lift()
     gap = integrated / pressure.cl - 1.0
     beside = _beside_polar(pressure)
     return Report(
         number=number,
-        kind="figure",
-        caption=f"Pressure forces around {TITLES[section]}: arrows of −Cp normal to the surface; "
-        f"{_flow(pressure.case)}. "
-        f"Angle, Mach and Reynolds number are ours where the thesis is silent. {origin}",
+        caption=f"Pressure forces around {title}: arrows of −Cp normal to the surface; {_flow(pressure.case)}. "
+        "Angle, Mach and Reynolds number are ours where the thesis is silent.",
         statement=statement,
         ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
-        f"{integrated:.3f} "
-        f"({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
+        f"{integrated:.3f} ({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
         verdict=Agreement.ALONE if abs(gap) < 5e-3 else Agreement.DIFFERS,
         because="The arrows integrate to XFOIL's lift, which verifies order, sign and scale, not XFOIL; the thesis "
         "gives no number to compare.",
@@ -171,27 +151,18 @@ ATTACHED_DEG = (-4.0, 8.0)
 """Where a blade flies: drag there decides power."""
 
 
-def figure_3_3() -> Report:
-    """Error of the lift fit."""
-    return _error("3.3", "lift", LIFT_ORDER)
+FITS: dict[str, tuple[Coefficient, int]] = {
+    "3.3": ("lift", LIFT_ORDER),
+    "3.4": ("drag", DRAG_ORDER),
+    "3.5": ("lift", LIFT_ORDER),
+    "3.6": ("drag", DRAG_ORDER),
+}
+"""By number: the coefficient, and the order of the thesis."""
 
 
-def figure_3_4() -> Report:
-    """Error of the drag fit."""
-    return _error("3.4", "drag", DRAG_ORDER)
-
-
-def figure_3_5() -> Report:
-    """The lift fit."""
-    return _fit("3.5", "lift", LIFT_ORDER)
-
-
-def figure_3_6() -> Report:
-    """The drag fit."""
-    return _fit("3.6", "drag", DRAG_ORDER)
-
-
-def _error(number: str, which: str, chosen: int) -> Report:
+def error_figure(number: str) -> Report:
+    """Error of a fit against its order; `number` is 3.3 or 3.4."""
+    which, chosen = FITS[number]
     polar = thesis_polar()
     studies = {low_high: fit_error_study(polar, low_high) for low_high in RANGES}
     numbers: dict[str, float] = {}
@@ -227,15 +198,12 @@ def _error(number: str, which: str, chosen: int) -> Report:
     )
     return Report(
         number=number,
-        kind="figure",
         caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M "
         "0.3, Re 3.68 million, Ncrit 9 (our assumption; the thesis states range and flow nowhere).",
         statement=f"Order {chosen} is a good compromise between error and cost (p. 18).",
         ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
-        f"{symbol}; "
-        f"{numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order "
-        f"{chosen - 2} "
-        f"gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
+        f"{symbol}; {numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order "
+        f"{chosen - 2} gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
         f"{numbers['next_step_-10_20']:.2f}.",
         verdict=judged(knee == chosen),
         because=f"Our knee over −10…15° is at order {knee}, and the error is below {100 * GOOD:.0f} % of the spread "
@@ -254,23 +222,25 @@ def knee_of(points: Sequence[tuple[int, float]]) -> int:
     return int(order[int(np.argmax(line - error))])
 
 
-def _fit(number: str, which: str, order: int) -> Report:
+def fit_figure(number: str) -> Report:
+    """A fit beside its data; `number` is 3.5 or 3.6."""
+    which, order = FITS[number]
     polar = thesis_polar()
     fit = fit_polynomials(polar)
     low, high = FIT_RANGE_DEG
     keep = (polar.alpha_deg >= low) & (polar.alpha_deg <= high)
     alpha_deg = polar.alpha_deg[keep]
-    data = (polar.cl if which == "lift" else polar.cd)[keep]
-    made = fit(np.deg2rad(alpha_deg))[0 if which == "lift" else 1]
+    which_one, symbol = (0, "Cl") if which == "lift" else (1, "Cd")
+    data = (polar.cl, polar.cd)[which_one][keep]
+    made = fit(np.deg2rad(alpha_deg))[which_one]
     rms = float(np.sqrt(np.mean((made - data) ** 2)))
     attached = (alpha_deg >= ATTACHED_DEG[0]) & (alpha_deg <= ATTACHED_DEG[1])
     relative = made[attached] / data[attached] - 1.0 if which == "drag" else np.zeros(1)
     fine = np.linspace(low, high, 401)
-    smooth = fit(np.deg2rad(fine))[0 if which == "lift" else 1]
-    symbol = "Cl" if which == "lift" else "Cd"
+    smooth = fit(np.deg2rad(fine))[which_one]
     # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
     t = (2.0 * np.deg2rad(30.0) - sum(fit.fit_range)) / (fit.fit_range[1] - fit.fit_range[0])
-    series = fit.cl_series if which == "lift" else fit.cd_series
+    series = (fit.cl_series, fit.cd_series)[which_one]
     unheld = float(np.asarray(chebval(t, series), dtype=np.float64))
     words = f"rms {rms:.5f} over {low:g}…{high:g}°."
     if which == "drag":
@@ -279,7 +249,6 @@ def _fit(number: str, which: str, order: int) -> Report:
     words += f" Without holding the end values it would give {symbol} {unheld:.3g} at 30°."
     return Report(
         number=number,
-        kind="figure",
         caption=f"{'Lift' if which == 'lift' else 'Drag'} of SC1095 and its polynomial of order {order}.",
         statement="Polynomials of high order can also represent stall and the drag bucket, and so carry all the "
         "information of the section (p. 18).",
@@ -294,9 +263,7 @@ def _fit(number: str, which: str, order: int) -> Report:
         ),
         panels=(
             PlotPanel(
-                "α [°]",
-                symbol,
-                (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth)),
+                "α [°]", symbol, (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth))
             ),
         ),
         numbers={
@@ -308,11 +275,11 @@ def _fit(number: str, which: str, order: int) -> Report:
     )
 
 
-def _rms(error: FitError, which: str) -> float:
+def _rms(error: FitError, which: Coefficient) -> float:
     return error.cl_rms if which == "lift" else error.cd_rms
 
 
-def _spread(which: str) -> float:
+def _spread(which: Coefficient) -> float:
     """Largest less smallest coefficient over the range of the fit."""
     polar = thesis_polar()
     low, high = FIT_RANGE_DEG

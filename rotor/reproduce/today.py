@@ -4,34 +4,15 @@ Both halves are this program: the `thesis` preset is the document as printed, th
 drag rise, a wake that responds to loading, trim by cyclic and a blade that twists under load.
 """
 
-from functools import lru_cache
-
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, TableCell, curve, table
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    FULL,
-    Call,
-    Scope,
-    best,
-    best_fixed,
-    main_rotor_kw,
-    searches,
-    variant,
-)
+from rotor.reproduce.runs import FIVE_RATES, FULL, Call, Scope, best, best_fixed, main_rotor_kw, searches, solved
 from rotor.reproduce.twist_effect import best_of_five
-from rotor.trim.solve import solve
 
 TWO = ("thesis", "flight")
 NAMES = {"thesis": "as the thesis assumes", "flight": "with today's physics"}
 HOVER_RATES = tuple(float(rate) for rate in range(-28, -3, 2))
 SHOWN = (0.10, 0.20, 0.30, 0.35)
 """µ of the table of five twists."""
-
-
-@lru_cache(maxsize=64)
-def total_kw(name: str, rate: float, mu: float) -> float:
-    """Total power of a linear twist [kW]."""
-    return solve(variant(name, twist=f"linear:{rate:.9g}", mu=mu)).require().power.total / 1e3
 
 
 def needed(name: str) -> list[Call]:
@@ -45,7 +26,8 @@ def today(scope: Scope = FULL) -> Report:
     """Four pictures and one table."""
     hover = {name: [main_rotor_kw(name, rate, 0.0) for rate in HOVER_RATES] for name in TWO}
     over: list[Curve] = [
-        curve(NAMES[name], HOVER_RATES, _above_least(hover[name]), colour=k) for k, name in enumerate(TWO)
+        curve(NAMES[name], HOVER_RATES, [100.0 * (power / min(hover[name]) - 1.0) for power in hover[name]], colour=k)
+        for k, name in enumerate(TWO)
     ]
     fixed = {name: best_fixed(name, scope) for name in TWO}
     flying = [mu for mu in scope.speeds if mu > 0.0]
@@ -67,7 +49,7 @@ def today(scope: Scope = FULL) -> Report:
                 [100 * best(name, "three", mu, scope).saving for mu in flying], "dashed", colour=k,
             ),
         ]  # fmt: skip
-        cost = [100 * (1 - one.power_kw / total_kw(name, fixed[name].rate_deg, one.mu)) for one in found]
+        cost = [100 * (1 - one.power_kw / _total_kw(name, fixed[name].rate_deg, one.mu)) for one in found]
         beyond.append(curve(NAMES[name], flying, cost, "both", colour=k))
         every = [best(name, "linear", mu, scope) for mu in scope.speeds]
         moving = sum(one.power_kw for one in every) / len(every)
@@ -139,9 +121,8 @@ def today(scope: Scope = FULL) -> Report:
     )  # fmt: skip
 
 
-def _above_least(powers: list[float]) -> list[float]:
-    least = min(powers)
-    return [100.0 * (power / least - 1.0) for power in powers]
+def _total_kw(name: str, rate: float, mu: float) -> float:
+    return solved(name, f"linear:{rate:.9g}", mu).require().power.total / 1e3
 
 
 def _saves(part: float) -> str:

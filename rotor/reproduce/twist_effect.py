@@ -4,6 +4,7 @@ One file, because all of them compare the same five twists: the powers are solve
 cost of a twist and the crossings of two are used by every figure.
 """
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -17,19 +18,12 @@ from rotor.reproduce.report import (
     PlotPanel,
     Report,
     ReportTable,
-    best_within_tolerance,
+    by_name,
     curve,
     judged,
     table,
 )
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    THESIS_TRIMMED,
-    THESIS_WAKE,
-    VARIANT_TITLES,
-    main_rotor_kw,
-    solved,
-)
+from rotor.reproduce.runs import FIVE_RATES, THESIS_TRIMMED, THESIS_WAKE, VARIANT_TITLES, main_rotor_kw, solved
 
 MASSES = (4000.0, 5000.0, 6000.0, 7000.0, 8322.4, 9000.0)
 DOCUMENT_HOVER, DOCUMENT_STRONG = -13.5, -16.0
@@ -59,15 +53,16 @@ def figure_3_11() -> Report:
         sigma = make_design(preset=name).rotor.solidity
         powers = {rate: [solved(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES}
         loading = [one.ct / sigma for one in powers[0]]
-        curves = [curve(f"{rate}°", loading, [one.cp for one in powers[rate]]) for rate in FIVE_RATES]
-        panels.append(PlotPanel("C_T/σ", "C_P", tuple(curves), title=f"{name} preset"))
-        least = [min(powers[rate][k].cp for rate in FIVE_RATES) for k in range(len(MASSES))]
-        over = {
-            rate: [100.0 * (one.cp / low - 1.0) for one, low in zip(powers[rate], least, strict=True)]
-            for rate in FIVE_RATES
-        }
-        curves = [curve(f"{rate}°", loading, over[rate]) for rate in FIVE_RATES]
-        panels.append(PlotPanel("C_T/σ", "relative to the best of the five [%]", tuple(curves), title=f"{name} preset"))
+        least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
+        title = f"{name} preset"
+        panels += [
+            PlotPanel("C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp), title=title),
+            PlotPanel(
+                "C_T/σ", "relative to the best of the five [%]",
+                _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
+                title=title,
+            ),
+        ]  # fmt: skip
         rows = [
             (mass, loading[k], *(powers[rate][k].power.main_rotor / 1e3 for rate in FIVE_RATES))
             for k, mass in enumerate(MASSES)
@@ -96,23 +91,18 @@ def figure_3_11() -> Report:
         words: (main_rotor_kw("thesis", optimum, 0.0) / least - 1.0, main_rotor_kw("thesis", strong, 0.0) / least - 1.0)
         for words, (optimum, strong) in readings.items()
     }
+    (per_radius, per_radius_strong), (tip, tip_strong) = costs.values()
     numbers |= {
         "root_to_tip_optimum": best * span,
-        "cost_of_13_5_root_to_tip": costs["root to tip"][0],
-        "cost_of_16_root_to_tip": costs["root to tip"][1],
+        "cost_of_13_5_root_to_tip": tip,
+        "cost_of_16_root_to_tip": tip_strong,
     }
     sought = solved("thesis", "linear:-16", 0.0).require()
     largest_alpha, stalled = float(np.degrees(sought.disk.alpha.max())), 100.0 * sought.stalled_area
     rates = np.arange(-24.0, -7.9, 1.0)
     loss = [100.0 * (main_rotor_kw("thesis", float(rate), 0.0) / least - 1.0) for rate in rates]
     marks = [
-        curve(
-            f"−13.5° and −16° {words}",
-            readings[words],
-            [100.0 * cost for cost in costs[words]],
-            "points",
-            colour=k,
-        )
+        curve(f"−13.5° and −16° {words}", readings[words], [100.0 * cost for cost in costs[words]], "points", colour=k)
         for k, words in enumerate(readings, start=1)
     ]
     panels.append(
@@ -121,32 +111,21 @@ def figure_3_11() -> Report:
             title="Two readings of the unit of twist",
         )
     )  # fmt: skip
-    holds = max(costs["root to tip"][0], 0.0) <= TOLERANCE < costs["root to tip"][1]
     return Report(
         number="3.11",
-        kind="figure",
         caption="Power in hover against thrust for five linear twists.",
         statement="Power falls with more twist down to an optimum of −13.5°; −16° lies past it, because the inner "
         "blade stalls (p. 27). The unit of twist is not stated.",
         ours="; ".join(words) + ".",
-        verdict=judged(holds),
-        because=_both_readings(best, span, costs)
-        + f" The cause that the thesis gives is not reproduced: at −16° nothing stalls (largest angle of attack "
-        f"{largest_alpha:.1f}°, stalled area {stalled:.1f} %).",
+        verdict=judged(tip <= TOLERANCE < tip_strong),
+        because=f"Read as root to tip, as the thesis captions figure 4.3, our optimum {best:.1f}° per radius is "
+        f"{best * span:.1f}°: −13.5° costs {100 * tip:.2f} %, −16° {100 * tip_strong:.2f} % and lies past it. Read as "
+        f"degrees per radius, as figure 4.11 suggests, −13.5° costs {100 * per_radius:.2f} % and −16° "
+        f"{100 * per_radius_strong:.2f} %. The cause that the thesis gives is not reproduced: at −16° nothing stalls "
+        f"(largest angle of attack {largest_alpha:.1f}°, stalled area {stalled:.1f} %).",
         tables=tuple(tables),
         panels=tuple(panels),
         numbers=numbers,
-    )
-
-
-def _both_readings(best: float, span: float, costs: dict[str, tuple[float, float]]) -> str:
-    """What −13.5° and −16° cost as angles from root to tip and as degrees per radius."""
-    (tip, tip_strong), (rate, rate_strong) = costs["root to tip"], costs["per radius"]
-    return (
-        f"Read as root to tip, as the thesis captions figure 4.3, our optimum {best:.1f}° per radius is "
-        f"{best * span:.1f}°: −13.5° costs {100 * tip:.2f} %, −16° {100 * tip_strong:.2f} % and lies past it. Read as "
-        f"degrees per radius, as figure 4.11 suggests, −13.5° costs {100 * rate:.2f} % and −16° "
-        f"{100 * rate_strong:.2f} %."
     )
 
 
@@ -185,9 +164,9 @@ def figure_3_13() -> Report:
     return _speeds(
         "3.13", "medium", MEDIUM,
         "Beyond µ 0.18 the twist of −8° needs the least power (p. 28).",
-        best_within_tolerance(_cost("thesis", -8, mu) for mu in beyond),
-        f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {_cost_words(cost)}. With linear "
-        "inflow only profile power decides, on a flat curve"
+        judged(cost["thesis"] <= TOLERANCE),
+        f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {by_name(cost, '{:.2f} %')}. "
+        "With linear inflow only profile power decides, on a flat curve"
         + (
             "; with the wake instead, the same blade behaves as the thesis states."
             if set(after[THESIS_WAKE]) == {-8}
@@ -210,8 +189,8 @@ def figure_3_14() -> Report:
     return _speeds(
         "3.14", "high", HIGH,
         "At high speed −4° gives better results (p. 28).",
-        best_within_tolerance([anywhere]),
-        f"At µ {last:g} the best of the five is {_best_words(best)}; −4° costs {_cost_words(cost)}, and in "
+        judged(anywhere <= TOLERANCE),
+        f"At µ {last:g} the best of the five is {_best_words(best)}; −4° costs {by_name(cost, '{:.2f} %')}, and in "
         f"the thesis preset nowhere from µ {HIGH[0]:g} on more than {100 * anywhere:.2f} %. "
         "The thesis' blade and section with the wake and a trim by cyclic, with µ sin α in U_P, has its optimum at "
         f"{trimmed}°"
@@ -232,38 +211,45 @@ def figure_3_15() -> Report:
     """All five over speed."""
     speeds = (*LOW, *MEDIUM[1:], *HIGH[1:])
     tables = tuple(_power_table(name, speeds, f"{name}_kw") for name in FIVE_NAMES)
-    panels = tuple(
-        PlotPanel(
-            "advance ratio µ",
-            "power over that of −8° [%]",
-            tuple(
-                curve(
-                    f"{rate}°", speeds,
-                    [100.0 * (main_rotor_kw(name, rate, mu) / main_rotor_kw(name, -8, mu) - 1.0) for mu in speeds],
-                    colour=k,
-                )
-                for k, rate in enumerate(FIVE_RATES)
-            ),
-            title=VARIANT_TITLES[name],
-        )
-        for name in FIVE_NAMES
-    )  # fmt: skip
-    spread = {name: max(_spread(name, mu) for mu in speeds) for name in FIVE_NAMES}
+    panels = _over_speed(
+        speeds,
+        "power over that of −8° [%]",
+        lambda name, rate, mu: 100.0 * (main_rotor_kw(name, rate, mu) / main_rotor_kw(name, -8, mu) - 1.0),
+    )
+    spread = {name: max(max(_cost(name, rate, mu) for rate in FIVE_RATES) for mu in speeds) for name in FIVE_NAMES}
     return Report(
         number="3.15",
-        kind="figure",
         caption="Five linear twists over speed, as power over that of −8°. The thesis shows here a figure of Han et "
         "al. 2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this figure shows the "
         "same subject.",
         statement="A figure of another work, without numbers in the available text (p. 29).",
-        ours="Largest spread between the five: "
-        + ", ".join(f"{100 * spread[name]:.1f} % ({name})" for name in FIVE_NAMES)
-        + ".",
+        ours=f"Largest spread between the five: {by_name(spread)}.",
         verdict=Agreement.ALONE,
         because="The available text ends with this figure.",
         tables=tables,
         panels=panels,
         numbers={f"{name}_spread": value for name, value in spread.items()},
+    )
+
+
+def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Curve, ...]:
+    """A curve for each of the five twists; `value` of a twist at a place in x."""
+    places = range(len(x))
+    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
+
+
+def _over_speed(
+    speeds: Sequence[float], label: str, value: Callable[[str, int, float], float]
+) -> tuple[PlotPanel, ...]:
+    """A panel a variant; `value` of variant, twist and µ."""
+    return tuple(
+        PlotPanel(
+            "advance ratio µ",
+            label,
+            _five(speeds, lambda rate, k, name=name: value(name, rate, speeds[k])),
+            title=VARIANT_TITLES[name],
+        )
+        for name in FIVE_NAMES
     )
 
 
@@ -278,11 +264,9 @@ def _cost(name: str, rate: float, mu: float) -> float:
 
 
 def _best_words(best: dict[str, list[int]]) -> str:
-    return ", ".join(f"{_several(rates)} ({name})" for name, rates in best.items())
-
-
-def _cost_words(cost: dict[str, float]) -> str:
-    return ", ".join(f"{100 * value:.2f} % ({name})" for name, value in cost.items())
+    return ", ".join(
+        f"{' and '.join(f'{rate}°' for rate in dict.fromkeys(rates))} ({name})" for name, rates in best.items()
+    )
 
 
 def crossings(name: str, first: int, second: int, speeds: tuple[float, ...]) -> list[float]:
@@ -298,23 +282,10 @@ def _speeds(
     number: str, word: str, speeds: tuple[float, ...], statement: str, verdict: Agreement, because: str,
     extra: dict[str, float],
 ) -> Report:  # fmt: skip
-    panels: list[PlotPanel] = []
-    for name in FIVE_NAMES:
-        curves: list[Curve] = [
-            curve(f"{rate}°", speeds, [main_rotor_kw(name, rate, mu) for mu in speeds], colour=k)
-            for k, rate in enumerate(FIVE_RATES)
-        ]
-        panels.append(PlotPanel("advance ratio µ", "main-rotor power [kW]", tuple(curves), title=VARIANT_TITLES[name]))
-    panels += [
-        PlotPanel(
-            "advance ratio µ", "relative to the best of the five [%]",
-            tuple(
-                curve(f"{rate}°", speeds, [100.0 * _cost(name, rate, mu) for mu in speeds], colour=k)
-                for k, rate in enumerate(FIVE_RATES)
-            ),
-        )
-        for name in FIVE_NAMES
-    ]  # fmt: skip
+    panels = _over_speed(speeds, "main-rotor power [kW]", main_rotor_kw)
+    panels += _over_speed(
+        speeds, "relative to the best of the five [%]", lambda name, rate, mu: 100.0 * _cost(name, rate, mu)
+    )
     words = "; ".join(
         f"{name}: best of five " + _path([best_of_five(name, mu) for mu in speeds], speeds) for name in FIVE_NAMES
     )
@@ -325,7 +296,6 @@ def _speeds(
     met = [f"{first}° and {second}° at µ {mu:.3f}" for name, first, second, mu in crossed if name == "thesis"]
     return Report(
         number=number,
-        kind="figure",
         caption=f"Main-rotor power of five linear twists at {word} speed.",
         statement=statement,
         ours=words + ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis)."),
@@ -335,7 +305,7 @@ def _speeds(
             *(_power_table(name, speeds, f"{name}_kw") for name in FIVE_NAMES),
             table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed),
         ),
-        panels=tuple(panels),
+        panels=panels,
         numbers={**{f"{name}_best_last": float(best_of_five(name, speeds[-1])) for name in FIVE_NAMES}, **extra},
     )
 
@@ -345,17 +315,8 @@ def _power_table(name: str, speeds: tuple[float, ...], title: str) -> ReportTabl
     return table(title, ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"), rows)
 
 
-def _spread(name: str, mu: float) -> float:
-    powers = [main_rotor_kw(name, rate, mu) for rate in FIVE_RATES]
-    return max(powers) / min(powers) - 1.0
-
-
-def _several(values: list[int]) -> str:
-    return " and ".join(f"{value}°" for value in dict.fromkeys(values))
-
-
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
-    """`−12° to µ 0.09, then −8°`."""
+    """`−12°, −8° from µ 0.09`."""
     parts: list[str] = [f"{values[0]}°"]
     for before, value, mu in zip(values, values[1:], speeds[1:], strict=False):
         if value != before:
@@ -366,58 +327,41 @@ def _path(values: list[int], speeds: tuple[float, ...]) -> str:
 STRONG, WEAK = -17.3, -11.5
 HOVER, FAST, FAST_KMH = -0.024, 0.05, 330.0
 """Published: power of −17.3° over −11.5° in hover and at 330 km/h."""
-KEYS_NAMES = ("thesis", THESIS_WAKE, "flight")
-SPEEDS_KMH = (0.0, 80.0, 120.0, 160.0, 200.0, 240.0, 260.0, 280.0, 290.0, 300.0)
+SPEEDS_KMH = (0.0, 80.0, 120.0, 160.0, 200.0, 240.0, 260.0, 280.0, 290.0, 300.0, FAST_KMH)
 
 
 def keys_1987() -> Report:
     """Two twists, hover to fast flight."""
     tip_speed = make_design().rotor.tip_speed
-    ratios: dict[str, list[float]] = {}
-    fastest: dict[str, float] = {}
-    for name in KEYS_NAMES:
-        ratios[name] = []
-        for speed in (*SPEEDS_KMH, FAST_KMH):
-            mu = speed / 3.6 / tip_speed
-            try:
-                ratio = main_rotor_kw(name, STRONG, mu) / main_rotor_kw(name, WEAK, mu) - 1.0
-                fastest[name] = speed
-            except RuntimeError:  # Neither rotor need trim this fast; the place stays empty.
-                ratio = float("nan")
-            ratios[name].append(ratio)
-    speeds = (*SPEEDS_KMH, FAST_KMH)
-    last = {name: ratios[name][speeds.index(fastest[name])] for name in KEYS_NAMES}
-    hover = {name: ratios[name][0] for name in KEYS_NAMES}
-    slower = {name: _equal_power_kmh(name, fastest[name]) for name in KEYS_NAMES}
-    helps = [name for name in KEYS_NAMES if hover[name] < 0.0]
-    costs = [name for name in KEYS_NAMES if last[name] > 0.0]
-    percent = {name: [100.0 * value for value in ratios[name]] for name in KEYS_NAMES}
+    speeds = [kmh / 3.6 / tip_speed for kmh in SPEEDS_KMH]
+    ratios = {
+        name: [main_rotor_kw(name, STRONG, mu) / main_rotor_kw(name, WEAK, mu) - 1.0 for mu in speeds]
+        for name in FIVE_NAMES
+    }
+    hover, last = ({name: row[place] for name, row in ratios.items()} for place in (0, -1))
+    slower = {name: _equal_power_kmh(name, FAST_KMH) for name in FIVE_NAMES}
+    helps = [name for name in FIVE_NAMES if hover[name] < 0.0]
+    costs = [name for name in FIVE_NAMES if last[name] > 0.0]
+    percent = {name: [100.0 * value for value in row] for name, row in ratios.items()}
+    published: dict[float, float | str] = {0.0: 100.0 * HOVER, FAST_KMH: 100.0 * FAST}
     return Report(
         number="Keys 1987",
         kind="claim",
         caption="Power of linear twist −17.3° over that of −11.5°, beside the published wind-tunnel result of another "
         "rotor (quoted by the thesis).",
         statement="Keys et al.: −2.4 % in hover, +5 % at 330 km/h; 7.5 km/h slower for the same power (p. 26, 28).",
-        ours="Hover: "
-        + ", ".join(f"{100 * hover[name]:+.1f} % ({name})" for name in KEYS_NAMES)
-        + ". Fast: "
-        + ", ".join(f"{100 * last[name]:+.1f} % at {fastest[name]:.0f} km/h ({name})" for name in KEYS_NAMES)
-        + ". Speed for equal power: "
-        + ", ".join(f"{slower[name]:+.1f} km/h ({name})" for name in KEYS_NAMES)
-        + ".",
+        ours=f"Hover: {by_name(hover, '{:+.1f} %')}. "
+        f"Fast: {by_name(last, f'{{:+.1f}} % at {FAST_KMH:.0f} km/h')}. "
+        f"Speed for equal power: {by_name(slower, '{:+.1f} km/h')}.",
         verdict=Agreement.INDICATIVE,
         because=f"The sign in hover agrees in {_among(helps)}, the sign at speed in {_among(costs)}. It is another "
-        "rotor "
-        "(Mach-scaled, other sections and loading), so the numbers need not agree.",
+        "rotor (Mach-scaled, other sections and loading), so the numbers need not agree.",
         tables=(
             table(
-                "strong_over_weak_percent", ("speed_kmh", "mu", *KEYS_NAMES, "published"),
+                "strong_over_weak_percent", ("speed_kmh", "mu", *FIVE_NAMES, "published"),
                 [
-                    (
-                        speed, speed / 3.6 / tip_speed, *(percent[name][k] for name in KEYS_NAMES),
-                        100.0 * HOVER if speed == 0.0 else 100.0 * FAST if speed == FAST_KMH else "",
-                    )
-                    for k, speed in enumerate(speeds)
+                    (kmh, mu, *ours, published.get(kmh, ""))
+                    for kmh, mu, *ours in zip(SPEEDS_KMH, speeds, *percent.values(), strict=True)
                 ],
             ),
         ),
@@ -425,7 +369,7 @@ def keys_1987() -> Report:
             PlotPanel(
                 "speed [km/h]", "power of −17.3° over −11.5° [%]",
                 (
-                    *(curve(name, speeds, percent[name], "both", colour=k) for k, name in enumerate(KEYS_NAMES)),
+                    *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
                     curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
                 ),
             ),
@@ -433,9 +377,7 @@ def keys_1987() -> Report:
         numbers={
             **{f"{name}_hover": value for name, value in hover.items()},
             **{f"{name}_fast": value for name, value in last.items()},
-            **{f"{name}_fastest_kmh": value for name, value in fastest.items()},
             **{f"{name}_slower_kmh": value for name, value in slower.items()},
-            "finite": float(np.isfinite(ratios["flight"]).sum()),
         },
     )  # fmt: skip
 
@@ -451,4 +393,4 @@ def _equal_power_kmh(name: str, speed_kmh: float) -> float:
 
 
 def _among(names: list[str]) -> str:
-    return f"{len(names)} of {len(KEYS_NAMES)}" + (f" ({', '.join(names)})" if names else "")
+    return f"{len(names)} of {len(FIVE_NAMES)}" + (f" ({', '.join(names)})" if names else "")

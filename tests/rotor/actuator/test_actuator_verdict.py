@@ -15,7 +15,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, best_fixed, twisted
-from rotor.actuator.pictures import section_picture, twist_comparison, twist_under_voltage
+from rotor.actuator.pictures import electronics_station, section_picture, twist_comparison, twist_under_voltage
 from rotor.actuator.section import Host, default_placement
 from rotor.actuator.tables import table_5_1, verdict_table
 from rotor.actuator.verdict import Verdict, change_limit, headline, judge, verdict_sentence
@@ -248,6 +248,8 @@ def test_limit_for_the_optimiser():
 
 def test_pictures():
     judged = verdict()
+    inner, outer = electronics_station(judged.installed)
+    assert inner < outer < judged.installed.placement.span[0]
     picture = section_picture(judged.installed)
     assert {part.role for part in picture.parts} == {"outline", "skin", "web", "ply"}
     assert all(np.isfinite(part.points).all() and part.points.shape[1] == 2 for part in picture.parts)

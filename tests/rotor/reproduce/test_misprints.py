@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.reproduce.misprints import MISPRINTS, Misprint, shown_values, write_misprints
+from rotor.reproduce.misprints import MISPRINTS, Misprint, shown_values
+from rotor.reproduce.page import write_misprints
 
 BY_EQUATION = {one.equation: one for one in MISPRINTS}
 

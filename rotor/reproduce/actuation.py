@@ -1,0 +1,201 @@
+"""Chapter 5: field and free strain of piezoelectric sheets, how far plies twist the blade, and whether it pays.
+
+Only the captions of the thesis are known; what is here is ours.
+"""
+
+import math
+
+import numpy as np
+
+from rotor.actuator import tables as actuator_tables
+from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
+from rotor.actuator.electrical import field_map, strain_curve
+from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pictures import twist_under_voltage
+from rotor.actuator.section import Host, default_placement
+from rotor.files.make_design import uh60a_rotor
+from rotor.reproduce.report import Curve, PlotPanel, Report, card, curve, table
+from rotor.reproduce.runs import CachedFunction, variant
+
+SPEEDS = (0.0, 0.3)
+"""The two flight conditions of Table 5.2."""
+BLADES: dict[str, tuple[int, Host]] = {
+    "flown blade, 1 ply": (1, Host()),
+    "flown blade, 2 plies": (2, Host()),
+    "flown blade, 4 plies": (4, Host()),
+    "new blade, GJ/2, 2 plies": (2, Host("new", 0.5)),
+}
+PAIR = ("MFC_P1", "MFC_P2")
+"""The same fibres with interdigitated (d33) and with continuous electrodes (d31)."""
+SOURCE = "Properties and sources: assets/actuators.toml; recalled or assumed values are marked in Table 5.1."
+FINGER = 0.2
+"""Part of the gap that an electrode finger covers (assumed)."""
+MM, PPM, KV_MM = 1e3, 1e6, 1e-6
+"""From metres, strains and volts per metre."""
+
+
+def sheet(id: str) -> PiezoPly:
+    """A ply of the catalogue."""
+    found = find_actuator(id)
+    assert isinstance(found, PiezoPly)
+    return found
+
+
+def sheets() -> tuple[PiezoPly, ...]:
+    """One of every kind: variants for heat or cut into strips strain as their own kind does."""
+    known = [one for one in actuators().values() if isinstance(one, PiezoPly)]
+    return tuple(one for one in known if one.id not in ("MFC_P1_HT", "PZT5H_strips"))
+
+
+def fitted_blade(plies: int, host: Host) -> InstalledActuator:
+    """MFC P1 as the worked example places it."""
+    return install(sheet("MFC_P1"), default_placement(plies), host, uh60a_rotor("flight"))
+
+
+def figure_5_4() -> Report:
+    """The field of both kinds of electrode."""
+    curves: list[Curve] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    for id in PAIR:
+        one = sheet(id)
+        found = field_map(one, FINGER)
+        mean = one.voltage_range[1] / one.electrode_gap * KV_MM
+        j, k = len(found.z) // 2, len(found.x) // 2
+        strength = mean * found.strength[j]
+        numbers |= {f"{id}_mean": mean, f"{id}_middle": float(strength[k])}
+        curves.append(curve(f"{id.replace('_', ' ')}, {one.electrodes}", found.x, strength))
+        rows += [(id, x, value) for x, value in zip(found.x, strength, strict=True)]
+    return card(
+        "5.4",
+        "Field at mid-depth of a sheet at the highest voltage allowed, along the fibre: from finger to finger of "
+        "interdigitated electrodes, and between continuous ones.",
+        f"MFC P1: mean over the gap {numbers['MFC_P1_mean']:.1f} kV/mm, {numbers['MFC_P1_middle']:.1f} halfway between "
+        f"the fingers; MFC P2: {numbers['MFC_P2_mean']:.1f} kV/mm everywhere.",
+        f"Laplace's equation for one dielectric, fingers {100 * FINGER:.0f} % of the gap wide (assumed).",
+        table("field", ("actuator", "x_over_gap", "field_kv_mm"), rows),
+        (PlotPanel("along the fibre, over the electrode gap", "field [kV/mm]", tuple(curves), y_limits=(0.0, 4.0)),),
+        numbers,
+    )
+
+
+def figure_5_5() -> Report:
+    """Free strain."""
+    curves: list[Curve] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    for one in sheets():
+        found = strain_curve(one, 2)
+        curves.append(curve(found.label, KV_MM * found.field, PPM * found.along))
+        rows.append((one.id, *one.voltage_range, *PPM * found.along, *PPM * found.across))
+        numbers[one.id] = float(np.ptp(found.along))
+    return card(
+        "5.5",
+        "Free strain along the fibres over the whole voltage range, against the field: interdigitated (d33) and "
+        "continuous electrodes (d31).",
+        "Peak to peak: "
+        + ", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items())
+        + f". The same fibres strain {numbers['MFC_P1'] / numbers['MFC_P2']:.1f} times as much with interdigitated "
+        "electrodes.",
+        f"d33 is about twice d31, and the range of field is wider. {SOURCE}",
+        table(
+            "strain",
+            ("actuator", "lowest_v", "highest_v", "along_low_ppm", "along_high_ppm", "across_low_ppm",
+             "across_high_ppm"),
+            rows,
+        ),
+        (PlotPanel("field [kV/mm]", "free strain along [µε]", tuple(curves)),),
+        numbers,
+    )  # fmt: skip
+
+
+def figure_5_7() -> Report:
+    """Field against voltage."""
+    curves: list[Curve] = []
+    rows: list[tuple[str, float, float, float, float, float]] = []
+    numbers: dict[str, float] = {}
+    for one in sheets():
+        found = strain_curve(one, 2)
+        curves.append(curve(found.label, found.voltage, KV_MM * found.field, "both"))
+        low, high = KV_MM * found.field
+        rows.append((one.id, *one.voltage_range, MM * one.electrode_gap, float(low), float(high)))
+        numbers |= {f"{one.id}_low": float(low), f"{one.id}_high": float(high)}
+    return card(
+        "5.7",
+        "Field between the electrodes, V/ΔES, over the voltage range of each sheet.",
+        "; ".join(
+            f"{id.replace('_', ' ')} {low:.2f}…{high:.2f} kV/mm over {gap:.2g} mm" for id, *_, gap, low, high in rows
+        )
+        + ".",
+        "Against the poling direction the field must stay below the coercive field of the ceramic (1.2 to 1.5 kV/mm "
+        f"for PZT-5A); that sets the low end of the voltage. {SOURCE}",
+        table("field", ("actuator", "lowest_v", "highest_v", "gap_mm", "lowest_kv_mm", "highest_kv_mm"), rows),
+        (PlotPanel("voltage [V]", "field [kV/mm]", tuple(curves)),),
+        numbers,
+    )
+
+
+def figure_5_10() -> Report:
+    """Torsion angle along the blade."""
+    curves: list[Curve] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    low, high = sheet("MFC_P1").voltage_range
+    for k, (name, (plies, host)) in enumerate(BLADES.items()):
+        installed = fitted_blade(plies, host)
+        up, down = (twist_under_voltage(installed, [volts]) for volts in (high, low))
+        curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
+        curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
+        rows.append((name, math.degrees(up.twist[-1]), math.degrees(down.twist[-1])))
+        numbers[name] = math.degrees(installed.attainable)
+    return card(
+        "5.10",
+        f"Twist of the rotating blade with every ply at {high:.0f} V (full) and at {low:.0f} V (dashed), zero at 0 V: "
+        "a volt acts on the plies like a kelvin of the thermal analogy.",
+        "Root to tip over the whole range: "
+        + "; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items())
+        + ".",
+        "Thin-walled laminate section (Bredt–Batho) on a rotating beam in torsion; finite elements of the section "
+        "agree within 2 % (tests/rotor/actuator/test_actuator_fem.py). With the low end of the maker's strain and what "
+        f"one tested blade relative to its model, use {100 * derating(sheet('MFC_P1')):.0f} %.",
+        table("tip_twist", ("blade", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),
+        (PlotPanel("r/R", "twist [°]", tuple(curves)),),
+        numbers,
+    )
+
+
+def table_5_1() -> Report:
+    """Properties of actuators."""
+    made = actuator_tables.table_5_1()
+    return card(
+        "5.1",
+        "Properties of the actuators in this package; columns and choice are ours.",
+        f"{len(made.rows)} actuators. " + " ".join(made.notes),
+        "Each number carries its source and grade in assets/actuators.toml.",
+        table("properties", made.columns, made.rows),
+    )
+
+
+@CachedFunction
+def compared(name: str) -> actuator_tables.ActuatorTable:
+    """Table 5.2 of one variant: four optima a concept, and the reach of six actuators."""
+    return actuator_tables.table_5_2(ConditionPair(variant(name, mu=SPEEDS[0]), SPEEDS))
+
+
+def table_5_2() -> Report:
+    """Actuators and concepts compared."""
+    made = compared("flight")
+    net = made.columns.index("net kW")
+    best = made.rows[0]
+    gains = [float(row[net]) for row in made.rows]
+    return card(
+        "5.2",
+        f"Actuators and twist concepts compared between hover and µ {SPEEDS[1]:g}, half the time each, on the flown "
+        "blade (flight preset); best net saving first.",
+        f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} have a net benefit. The best is {best[0]} with the "
+        f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
+        made.notes[0],
+        table("verdicts", made.columns, made.rows),
+        numbers={"largest_net_kw": max(gains), "rows": float(len(gains))},
+    )
