@@ -83,7 +83,7 @@ def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.until(lambda: "FC2" in measured.inner_text() and "correlation" in measured.inner_text())
     assert measured.get_by_role("button").count() == 0
     watched.page.locator(".rxf-rotor").select_option(label="HART II")
-    watched.until(lambda: measured.locator("svg").count() == 3)
+    watched.until(lambda: measured.locator("svg").count() == 4)
     until(watched, "() => document.querySelector('[data-explorer=validated]')?.innerText === 'airloads measured'")
 
 

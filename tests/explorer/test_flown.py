@@ -160,7 +160,7 @@ class TestAirloads:
         for r, measured in radii.items():
             there = beside_measured(fast, r)
             assert there is not None
-            assert [curve.r for curve, _, _ in there.curves] == [measured]
+            assert {curve.quantity: curve.r for curve, _, _ in there.curves} == {"cl": measured, "cl_u2": measured}
         assert 'data-do="flown" data-value="FC2"' in measured_panel(beside, 1.0)
 
     @pytest.mark.parametrize("case", ["BL", "MN"])
@@ -169,9 +169,9 @@ class TestAirloads:
         beside = beside_measured(solution, 0.87)
         assert beside is not None
         assert (beside.case.name, beside.at_test, beside.blade) == (case, True, True)
-        assert [curve.quantity for curve, _, _ in beside.curves] == ["cn_m2", "cm_m2", "tip_twist_deg"]
+        assert [curve.quantity for curve, _, _ in beside.curves] == ["cn_m2", "cm_m2", "tip_twist_deg", "tip_flap"]
         html = measured_panel(beside, 1.0)
-        assert html.count('data-explorer="correlation">correlation') == 3
+        assert html.count('data-explorer="correlation">correlation') == 4
         assert "<button" not in html
         assert "nan" not in html
 

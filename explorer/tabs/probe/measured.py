@@ -37,8 +37,11 @@ _TITLES = {
     "cn_m2": ("C<sub>n</sub>M²", "normal force coefficient times Mach number squared"),
     "cm_m2": ("C<sub>m</sub>M²", "moment coefficient times Mach number squared, nose up"),
     "cl_u2": ("C<sub>l</sub>(r + µ sin ψ)²", "lift coefficient times the square of the speed over tip speed"),
+    "cl": ("C<sub>l</sub>", "lift coefficient of the section"),
     "tip_twist_deg": ("Tip twist [°]", "elastic twist of the tip, nose up"),
+    "tip_flap": ("Tip flapping/R", "deflection of the tip up from the precone"),
 }
+"""Symbol and meaning of what is drawn."""
 
 
 def lift_curve(probe: Probe) -> str:
@@ -145,7 +148,7 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
     case = None if design.hovering else nearest_case(design)
     if case is None:
         return None
-    curves = [one for one in airload_curves(case.rotor) if one.case == case]
+    curves = [one for one in airload_curves(case.rotor) if one.case == case and one.quantity in _TITLES]
     if solution.elastic is None:
         curves = [one for one in curves if one.quantity != "tip_twist_deg"]
     nearest = [
@@ -192,7 +195,7 @@ def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
 
 def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> str:
     title, meaning = _TITLES[measured.quantity]
-    where = "" if measured.quantity == "tip_twist_deg" else f" at {number(measured.r, 2)} R"
+    where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
     low = float(min(measured.values.min(), ours.min()))
     high = float(max(measured.values.max(), ours.max()))
     margin = 0.05 * (high - low)
