@@ -95,7 +95,9 @@ def draw(report: Report, folder: Path) -> None:
             else:
                 _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
-            figure.legend(*axes[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+            handles, labels = axes[0][0].get_legend_handles_labels()
+            columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))
+            figure.legend(handles, labels, loc="outside lower center", ncols=columns)
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         # Transparent: the page has a dark form.
