@@ -294,7 +294,7 @@ def gazelle_set() -> TrustSet:
     return TrustSet(
         name=AIRLOADS,
         title="SA349/2 Gazelle, section lift",
-        compared="c_l over azimuth, three radii, µ 0.14 and 0.36",
+        compared="section c_l over azimuth, three radii, µ 0.14 and 0.36",
         error=f"correlation {min(lift):.2f} to {max(lift):.2f}",
         source=f"{REPORTS[AIRLOADS]}; flights FC1 and FC2, for no other are airloads at hand",
         rows=tuple(

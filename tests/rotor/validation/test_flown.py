@@ -22,6 +22,8 @@ from rotor.validation.airloads import (
     our_curve,
 )
 from rotor.validation.flown import LEAST, flown_angles, flown_powers, gazelle_set, shape_errors, tail_pitch
+from rotor.validation.page import SETS
+from tests.shipped_rows import still_true
 
 
 def test_harmonics_of_a_known_curve_at_uneven_points():
@@ -157,6 +159,12 @@ def test_pitch_of_the_tail_rotor_in_hover():
     assert_allclose(0.5 * solidity * 5.7 * (pitch * r**2 - inflow * r).mean(), ct, rtol=1e-3)
     with pytest.raises(ValueError, match="no tail rotor"):
         tail_pitch(replace(solution, design=replace(solution.design, tail_rotor=None)))
+
+
+@pytest.mark.parametrize("name", ["hart2-airloads", "gazelle-airloads", "flown-power"])
+def test_rows_of_the_trust_page(name: str):
+    for row in SETS[name]().rows:
+        still_true(row)
 
 
 def test_validate_shows_them(capsys: pytest.CaptureFixture[str]):
