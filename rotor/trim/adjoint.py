@@ -175,12 +175,11 @@ class _Linear:
         return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
     def _by_iteration(self, slopes: Array) -> Array:
-        """J⁻ᵀ times slopes, from factors nearby; where there are none, or too far ones, from those of the point."""
+        """J⁻ᵀ times slopes, from factors nearby; where there are none, or too far ones, solved directly."""
         near = self._near
-        if near is None or not near.usable or (found := solve_transposed(self.point, slopes, near)) is None:
-            self._near = near = Factors.of(self.point)
-            found = solve_transposed(self.point, slopes, near)
-        assert found is not None
+        found = solve_transposed(self.point, slopes, near) if near is not None and near.usable else None
+        if found is None:
+            found = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
         return found
 
     def flight_measure(self, weights: Weights) -> Measure:
