@@ -186,9 +186,9 @@ def flown_set() -> TrustSet:
 
 def _by_own_means(powers: Sequence[FlownPower], rotor: str) -> float:
     """The error of the shape where each curve is measured by its own mean."""
-    mine = _trimmed(powers, rotor)
-    ours, measured = np.array(mine[0]), np.array(mine[1])
-    return float(np.sqrt(np.mean((ours / ours.mean() / (measured / measured.mean()) - 1.0) ** 2)))
+    ours, measured = _trimmed(powers, rotor)
+    quotient = np.divide(ours, measured) * (sum(measured) / sum(ours))
+    return float(np.sqrt(np.mean((quotient - 1.0) ** 2)))
 
 
 def _shape(powers: Sequence[FlownPower], rotor: str) -> tuple[float, float]:
