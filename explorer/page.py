@@ -5,6 +5,7 @@ The panels themselves are in `explorer/tabs`, the scene in `explorer/scene`.
 """
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -368,6 +369,7 @@ class Page:
     def _took(self, held: bool) -> None:
         """A slider, the blade or a handle of its twist curve was taken, or let go."""
         tracker = self.results.card.tracker
+        self.controls.pauses.hold(held, time.monotonic())
         if held:
             tracker.grab()
             if (state := self.context.state()) is not None:

@@ -19,15 +19,22 @@ class Pauses:
     """
 
     def __init__(self) -> None:
-        self._last, self._longest = -math.inf, 0.0
+        self._last, self._longest, self._held = -math.inf, 0.0, False
 
     def moved(self, now: float) -> None:
         """Something moved at this time [s]."""
         self._longest, self._last = max(self._longest, now - self._last), now
 
+    def hold(self, held: bool, now: float) -> None:
+        """A pointer went down or up at this time [s]. Rests in between are no pauses.
+
+        The widget's last movements may arrive after the pointer went up: they still belong to the drag.
+        """
+        self._held, self._last, self._longest = held, now, 0.0
+
     def longest(self) -> float:
         """[s]"""
-        longest, self._longest = self._longest, 0.0
+        longest, self._longest = 0.0 if self._held else self._longest, 0.0
         return longest
 
 
@@ -50,8 +57,8 @@ class History:
         self._held, self._moving = True, frozenset()
 
     def release(self) -> None:
-        """It was let go: what moves next is another step."""
-        self._held, self._moving = False, frozenset()
+        """It was let go: what moves next is another step, except the last movements of the drag."""
+        self._held = False
 
     def note(self, inputs: Inputs, pause: float) -> bool:
         """Take the inputs of an update and the longest pause [s] in moving them; whether they begin a new step."""

@@ -54,6 +54,20 @@ class TestHistory:
         pauses.moved(16.0)
         assert pauses.longest() > PAUSE
 
+    def test_a_rest_in_the_hand_is_no_pause_and_the_last_movement_may_come_after_the_release(self):
+        pauses, history = Pauses(), History(START)
+        pauses.hold(True, 10.0)
+        history.hold()
+        for time in (10.1, 14.0):
+            pauses.moved(time)
+            history.note(replace(START, two_inner=-time), pauses.longest())
+        pauses.moved(17.0)
+        pauses.hold(False, 17.1)
+        history.release()
+        pauses.moved(17.2)
+        assert not history.note(replace(START, two_inner=-16.0), pauses.longest())
+        assert history.undo() == START
+
     def test_redo_until_something_else_is_moved(self):
         history = History(START)
         drag(history, "two_inner", [-15.0], LONG)
