@@ -17,7 +17,10 @@ from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import PageFacts, set_query
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionState, SharedServices, Tab, TabContext
 from explorer.overlay.bridge import Bridge
+from explorer.picture import disk_image
 from explorer.picture.camera_views import View
+from explorer.picture.fields import shown_field
+from explorer.picture.plan import plan
 from explorer.pinned import Pinned
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
@@ -61,6 +64,8 @@ _BRAND = (37, 99, 235)
 _UNTOLD = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
 """Views of the buttons over the scene, and their titles."""
+PLAN_PIXELS = 720
+"""Along each edge of the plan's picture once nothing moves."""
 
 
 class Page:
@@ -96,6 +101,8 @@ class Page:
             self.controls.stand.state = callbacks.state
         self._start, self._touched, self._held, self._pause = start, False, False, 0.0
         self._view: View = "3d"
+        self._planned: tuple[object, ...] | None = None
+        """What the page's plan of the disk shows at rest."""
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
         self.scene = SceneController(client, rotor, self.display, facts.dark)
@@ -212,12 +219,30 @@ class Page:
         self._radius = solution.design.rotor.radius
         self.camera.resize(self._radius)
         self.scene.draw(solution, reading.view, ghost, frame.pinned)
+        if not frame.only_azimuth:
+            self._show_plan(solution, reading.view, disk_image.MOVING)
         self.bridge.set(arc=None if reading.previewed else self.grab.arc(solution, reading.view))
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
         turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
         if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
+
+    def _show_plan(self, solution: Solution, view: ViewState, pixels: int) -> None:
+        """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
+        answer = self.top.answer
+        pinned = answer if answer is not None and answer.converged else None
+        if self._view != "disk" or (view.beside and pinned is not None) or self.actuator.shown.value:
+            self._planned = None
+            self.bridge.set(plan=None)
+            return
+        field = shown_field(view, pinned)
+        colour_range = self.scene.held_range(field)
+        wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned
+        if pixels != PLAN_PIXELS and self._planned == wanted:
+            return  # It stands there already, finer.
+        self._planned = wanted if pixels == PLAN_PIXELS else None
+        self.bridge.set(plan=plan(solution, view, field, colour_range, pixels, pixels == PLAN_PIXELS, pinned))
 
     def _fly_measured(self, case: str) -> None:
         """Set a measured flight or test of this rotor, by its name."""
@@ -264,6 +289,7 @@ class Page:
         It comes before the power curve: an early reload must find it.
         """
         self.scene.settle()
+        self._show_plan(state.solution, state.view, PLAN_PIXELS)
         self.file.follow(state)
         self.file.keep()
         self.history.store()
@@ -332,6 +358,7 @@ class Page:
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("colours", self._colour)
         bridge.on("play", lambda _: self.probe.toggle())
+        bridge.on("probe_at", lambda place: self.probe.point(float(place[0]), float(place[1])))
         controls.touched = self.results.card.tracker.touch
         bridge.on("hold", lambda held: None if self._held else self._took(bool(held)), at_once=True)
         by_hand = replace(context, set_inputs=self._pull)
@@ -466,6 +493,9 @@ class Page:
     def _look(self, view: View) -> None:
         self.actuator.leave_cut()
         self._view = view
+        if view != "disk":
+            self._planned = None
+            self.bridge.set(plan=None)
         self.scene.look(view)
         self._show_views()
         self._callbacks.wake()

@@ -115,6 +115,27 @@ def _power(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(disk.r[:, None] * disk.dcq) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
 
 
+def _induced_power(solution: Solution, grid: PolarGrid) -> Array:
+    """λ_i dF_z, as `rotor.trim.power` sums it; without the swirl of hover."""
+    rotor, disk = solution.design.rotor, solution.disk
+    return grid.refine(disk.induced * disk.dct) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
+
+
+def _profile_power(solution: Solution, grid: PolarGrid) -> Array:
+    """U dD = U_T dF_x − U_P dF_z; without the friction of the flow along the blade."""
+    rotor, disk = solution.design.rotor, solution.disk
+    dissipation = disk.u_t * disk.dcq - disk.u_p * disk.dct
+    return grid.refine(dissipation) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
+
+
+def _drag(solution: Solution, grid: PolarGrid) -> Array:
+    """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
+    rotor, disk = solution.design.rotor, solution.disk
+    speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3))
+    force = grid.refine(disk.u_t * disk.dcq - disk.u_p * disk.dct) / speed
+    return np.maximum(force, 0.0) * (solution.design.thrust_unit / (rotor.blades * rotor.radius))
+
+
 def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
     return np.degrees(refined(solution, grid).margin).astype(np.float64)
 
@@ -141,7 +162,10 @@ FIELDS: dict[str, Field] = {
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
         Field("Circulation", "m²/s", -5.0, 30.0, "sequential", _circulation, void_in_reverse_flow=True),
+        Field("Drag dD/dr", "N/m per blade", 0.0, 300.0, "sequential", _drag),
         Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
+        Field("Induced power dP/dr", "kW/m per blade", -10.0, 40.0, "sequential", _induced_power),
+        Field("Profile power dP/dr", "kW/m per blade", 0.0, 60.0, "sequential", _profile_power),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
         Field("Elastic twist", "°", -5.0, 5.0, "diverging", _elastic_deg, absent=_rigid),
     )

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.polar import PolarGrid, polar_grid, stall_margin
+from explorer.picture.polar import PolarGrid, polar_grid, refined, stall_margin
 from explorer.picture.regions import divergence_margin
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
@@ -36,6 +36,20 @@ def stall_segments(solution: Solution) -> Array:
     """Where the stall margin is zero, the reverse-flow region left out; shape (n, 2, 2), in radii."""
     grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
     return _outside_reverse_flow(contour(grid, stall_margin(solution, grid), 0.0), solution, 0.0)
+
+
+def positive_stall_segments(solution: Solution) -> Array:
+    """Where the angle of attack is the positive stall angle, as `stall_segments`."""
+    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    flow = refined(solution, grid)
+    return _outside_reverse_flow(contour(grid, (flow.upper - flow.alpha).astype(np.float64), 0.0), solution, 0.0)
+
+
+def negative_stall_segments(solution: Solution) -> Array:
+    """Where the angle of attack is the negative stall angle, as `stall_segments`."""
+    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    flow = refined(solution, grid)
+    return _outside_reverse_flow(contour(grid, (flow.alpha - flow.lower).astype(np.float64), 0.0), solution, 0.0)
 
 
 def drag_divergence_segments(solution: Solution) -> Array:

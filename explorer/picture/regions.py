@@ -172,17 +172,30 @@ def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_wid
                     codes[i, j] = code
 
 
+def region_masks(solution: Solution, grid: PolarGrid, slowest: float = 0.0) -> dict[str, Booleans]:
+    """Where each region lies on the polar grid, shape (radii, azimuths), by name; none of them in reverse flow but
+    that itself. Stall and drag divergence count where U_T/ΩR is above `slowest`.
+    """
+    flow = refined(solution, grid)
+    clear = flow.u_t > slowest
+    return {
+        "stall": (flow.alpha > flow.upper) & clear,
+        "negative_stall": (flow.alpha < flow.lower) & clear,
+        "reverse_flow": flow.u_t < 0.0,
+        "drag_divergence": (divergence_margin(solution, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
+    }
+
+
 def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
     """The words for the regions large enough to name, each near the widest place of its region, none over another."""
     grid = polar_grid(solution.disk, _LABEL_RADII, _LABEL_AZIMUTHS)
-    flow = refined(solution, grid)
-    clear = flow.u_t > _CLEAR_OF_REVERSE
+    clear = refined(solution, grid).u_t > _CLEAR_OF_REVERSE
+    masks = region_masks(solution, grid, _CLEAR_OF_REVERSE)
     regions: list[tuple[str, Booleans]] = []
     if marks.reverse_flow:
-        regions.append(("REVERSE FLOW", flow.u_t < 0.0))
+        regions.append(("REVERSE FLOW", masks["reverse_flow"]))
     if marks.stall:
-        regions.append(("STALL", (flow.alpha > flow.upper) & clear))
-        regions.append(("NEGATIVE STALL", (flow.alpha < flow.lower) & clear))
+        regions += [("STALL", masks["stall"]), ("NEGATIVE STALL", masks["negative_stall"])]
     labels: list[RegionLabel] = []
     for text, inside in regions:
         label = _widest(text, _on_plane(grid, inside), float(grid.r[0]), labels)

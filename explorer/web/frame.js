@@ -19,6 +19,8 @@
     text: value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]),
     // Draw `state[name]` with this function, once a frame at most.
     paint(name, draw) { painters[name] = draw; },
+    // And after it this.
+    also(name, draw) { const first = painters[name]; painters[name] = value => { first?.(value); draw(value); }; },
     again(...names) {
       for (const name of names) later.add(name);
       frame ||= requestAnimationFrame(() => {

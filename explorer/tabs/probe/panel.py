@@ -230,6 +230,10 @@ class ProbePanel:
         """Whether the disk is in the scene, to be clicked."""
         self._seen = seen
 
+    def point(self, r: float, psi_deg: float) -> None:
+        """Probe this point of the disk; the drawer opens only if it is asked for."""
+        self._set(r, float(round(psi_deg) % 360))
+
     def toggle(self) -> None:
         """Play, or pause."""
         if self._player.playing or self._context.state() is None:

@@ -1,0 +1,74 @@
+"""The plan of the disk: read under the pointer, pinned, around the circle, and by key."""
+
+import math
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import MEDIUM, WAIT, Watched, opened
+
+from explorer.app import App
+from explorer.state import OPENING
+from rotor.trim.solve import solve
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+_READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
+
+
+def _point(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
+    box = watched.page.locator(".rxf-plan").bounding_box()
+    assert box is not None
+    x, y, radius = watched.page.evaluate(
+        "() => ['cx', 'cy', 'r'].map(name => +document.querySelector('.rxf-plan svg circle').getAttribute(name))"
+    )
+    psi = math.radians(psi_deg)
+    return box["x"] + x + r * radius * math.sin(psi), box["y"] + y + r * radius * math.cos(psi)
+
+
+def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
+    watched = opened(browser, app.address, size=MEDIUM)
+    page = watched.page
+    page.get_by_role("button", name="Disk").click()
+    page.wait_for_function(_READY, timeout=WAIT)
+    solution = solve(OPENING.design())
+    disk = solution.disk
+    row, column = len(disk.r) - 4, len(disk.psi) // 6
+    r, psi = float(disk.r[row]), math.degrees(float(disk.psi[column]))
+    page.mouse.move(*_point(watched, r, psi))
+    reading = page.locator("[data-reading]")
+    reading.wait_for(state="visible")
+    shown = dict(zip(reading.locator("dt").all_inner_texts(), reading.locator("dd").all_inner_texts(), strict=True))
+    assert float(shown["α"].rstrip("°").replace("−", "-")) == pytest.approx(
+        math.degrees(disk.alpha[row, column]), abs=0.2
+    )
+    assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
+    assert float(shown["c_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
+    assert f"{r:.2f} R" in page.locator("[data-explorer=around]").inner_text()
+    # A pinned card stays when a drawer moves the stage, and goes by its own button.
+    page.mouse.down()
+    page.mouse.up()
+    page.locator("[data-pin]").wait_for(state="visible")
+    place = page.locator("[data-pin] b").inner_text()
+    page.get_by_role("button", name="Open", exact=True).click()
+    page.wait_for_function(_READY, timeout=WAIT)
+    assert page.locator("[data-pin] b").inner_text() == place
+    page.get_by_role("button", name="Unpin this reading").click()
+    assert page.locator("[data-pin]").count() == 0
+    # By key, and spoken.
+    page.locator(".rxf-plan").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    page.locator("[data-pin]").wait_for(state="visible")
+    assert "R · ψ" in page.locator(".rxf-said").inner_text()
+    # Another design's values follow; and the scene comes back.
+    before = page.evaluate("() => RX.state.plan.values.alpha.data")
+    watched.press("Mass [t]", "ArrowRight", 5)
+    page.wait_for_function(
+        f"before => ({_READY})() && RX.state.plan.values.alpha.data !== before", arg=before, timeout=WAIT
+    )
+    page.get_by_role("button", name="Aircraft").click()
+    page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')", timeout=WAIT)
+    assert watched.complaints == []
+    watched.close()

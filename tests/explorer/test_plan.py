@@ -1,0 +1,82 @@
+"""The plan of the disk: values under the pointer, shares of the regions, and fields whose sum is known."""
+
+import base64
+from typing import Any
+
+import numpy as np
+import pytest
+
+from explorer.picture.disk_image import MOVING
+from explorer.picture.fields import FIELDS
+from explorer.picture.plan import plan, region_shares
+from explorer.picture.polar import polar_grid
+from explorer.state import ViewState
+from rotor.arrays import Array
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+ALPHA = FIELDS["Angle of attack"]
+
+
+@pytest.fixture(scope="module", params=[(0.2, 8322.0), (0.4, 10000.0)], ids=["mu 0.2", "mu 0.4, heavy"])
+def solution(request: pytest.FixtureRequest) -> Solution:
+    mu, mass = request.param
+    return solve(make_design(mu=mu, mass_kg=mass))
+
+
+def table(packed: dict[str, Any]) -> Array:
+    steps = np.frombuffer(base64.b64decode(packed["data"]), "<u2").reshape(40, 120)
+    return packed["low"] + packed["step"] * steps
+
+
+def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
+    shares = region_shares(solution)
+    stalled = shares["stall"][0] + shares["negative_stall"][0]
+    assert stalled == pytest.approx(solution.stalled_area, abs=0.003)
+    assert shares["reverse_flow"][0] == pytest.approx(solution.reverse_flow_area, abs=0.001)
+    assert shares["stall"][1] < 1.0
+    assert shares["reverse_flow"][1] < 0.0  # Air from behind presses the blade down there.
+
+
+def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
+    shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), MOVING, at_rest=True)
+    grid = polar_grid(solution.disk, 40, 120)
+    for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
+        packed = shown["values"][name]
+        assert np.abs(table(packed) - field.sample(solution, grid)).max() <= 0.51 * packed["step"] + 1e-9
+    margin = np.minimum(
+        *(
+            sign * (table(shown["values"][end]) - table(shown["values"]["alpha"]))
+            for end, sign in (("upper", 1), ("lower", -1))
+        )
+    )
+    expected = FIELDS["Stall margin"].sample(solution, grid)
+    assert np.abs(margin - expected).max() < 0.02
+
+
+def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
+    moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), MOVING, at_rest=False)
+    assert "values" not in moving
+    assert not {"stall", "negative_stall"} & {one["name"] for one in moving["regions"]}
+
+
+def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
+    other = solve(make_design(mu=0.3))
+    shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), MOVING, True, other)
+    reverse = next(one for one in shown["regions"] if one["name"] == "reverse_flow")
+    own, before = (max(np.abs(np.concatenate(reverse[name])[:, 0])) for name in ("lines", "before"))
+    tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
+    assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
+    assert table(shown["values_a"]["alpha"]).shape == (40, 120)
+
+
+@pytest.mark.parametrize(
+    ("title", "part", "within"), [("Induced power dP/dr", "induced", 0.01), ("Profile power dP/dr", "profile", 0.05)]
+)
+def test_power_fields_sum_to_the_power_by_parts(solution: Solution, title: str, part: str, within: float):
+    """Profile power has the friction of the flow along the blade besides, up to 4 % at high speed."""
+    grid, rotor = polar_grid(solution.disk, 120, 480), solution.design.rotor
+    per_metre = FIELDS[title].sample(solution, grid).mean(axis=1)
+    total = 1e3 * per_metre.sum() * (grid.r[1] - grid.r[0]) * rotor.radius * rotor.blades
+    assert total == pytest.approx(getattr(solution.power, part), rel=within)
