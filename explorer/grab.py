@@ -10,21 +10,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from explorer.sliders import limits, slider
 from explorer.state import LAWS, Inputs
 from explorer.text.units import SI
-from rotor.arrays import Array
 
-DEGREES_PER_RADIUS = 12.0
-"""How far a station turns [°] when the pointer moves by the rotor's radius across the blade."""
-_DECIDED = 0.015
-"""Movement, in radii, after which a drag is either a turn or a slide."""
-_ALONG = 1.7
-"""A drag slides a division when it goes this many times as far along the blade as across it."""
-_NEAR = 0.12
-"""A drag along the blade moves the nearest division within this distance [R]."""
 _GAP = 0.02
 """Least distance of two divisions [R]."""
 DETENT = 0.35
@@ -51,16 +41,6 @@ class Station:
     title: str
     division: str | None = None
     """Field of `Inputs` that sliding it changes."""
-
-
-@dataclass(frozen=True)
-class Movement:
-    """A drag seen by the viewer, in radii."""
-
-    along: float
-    """Outward along the blade."""
-    across: float
-    """Square to it on the screen, upward."""
 
 
 def grabbed_inputs(inputs: Inputs) -> Inputs:
@@ -148,52 +128,16 @@ def slid(inputs: Inputs, station: Station, r: float) -> Inputs:
     return replace(inputs, **{station.division: _onto(station.division, value)})  # pyright: ignore[reportArgumentType]
 
 
-def movement(start: ArrayLike, end: ArrayLike, outward: ArrayLike, sight: ArrayLike, radius: float) -> Movement:
-    """A drag from `start` to `end` [m] over a blade that points `outward`, seen along `sight`.
-
-    The points lie in a plane square to the line of sight. Upward is with the world's z; for a blade that stands upright
-    on the screen it is to the viewer's left.
-    """
-    sight = np.asarray(sight, dtype=np.float64) / np.linalg.norm(sight)
-    outward = np.asarray(outward, dtype=np.float64) / np.linalg.norm(outward)
-    seen = outward - (outward @ sight) * sight
-    length = max(float(np.linalg.norm(seen)), 0.15)  # A blade that points at the viewer is not stretched without end.
-    seen = seen / max(float(np.linalg.norm(seen)), 1e-9)
-    across = np.cross(seen, sight)
-    if across[2] < 0.0:
-        across = -across
-    moved: Array = np.asarray(end, dtype=np.float64) - np.asarray(start, dtype=np.float64)
-    return Movement(float(moved @ seen) / (length * radius), float(moved @ across) / radius)
-
-
 @dataclass(frozen=True)
 class Grab:
-    """One drag, from the press to the release: where it began, and on what."""
+    """One drag of a station, from the press to the release."""
 
-    before: Inputs
-    """On the sliders when it began."""
     inputs: Inputs
-    """The same with a law that can be grabbed."""
-    r: float
-    """r/R of the point that was pressed."""
+    """When it began, with a law that can be grabbed."""
     station: Station
-    slides: bool | None = None
-    """Whether it moves a division; None while it is not decided."""
 
-    def decided(self, move: Movement, shift: bool = False) -> "Grab":
-        """The same once the drag has gone far enough to tell what it is; `shift` asks for a slide."""
-        if self.slides is not None or (math.hypot(move.along, move.across) < _DECIDED and not shift):
-            return self
-        near = self.station.division is not None and (shift or abs(self.station.r - self.r) < _NEAR)
-        return replace(self, slides=near and (shift or abs(move.along) > _ALONG * abs(move.across)))
-
-    def moved(self, move: Movement, best: float | None = None) -> Inputs:
-        """The inputs that the drag has led to; `best`: a turn [°] at which the station is held for a while."""
-        if self.slides is None:
-            return self.before
-        if self.slides:
-            return slid(self.inputs, self.station, self.station.r + move.along)
-        degrees = DEGREES_PER_RADIUS * move.across
+    def turned(self, degrees: float, best: float | None = None) -> Inputs:
+        """The inputs with the station turned so far; `best`: a turn [°] at which it is held for a while."""
         held = best is not None and abs(degrees - best) < DETENT
         return turned(self.inputs, self.station, best if best is not None and held else degrees)
 
@@ -210,12 +154,6 @@ class Grab:
         if not slopes.keys() <= by_input.keys():
             return None
         return sum(slope * by_input[name] for name, slope in slopes.items())
-
-    def place(self, inputs: Inputs) -> str:
-        """Where the hand is, in words: the station and its twist, or the division's place."""
-        if self.slides and self.station.division is not None:
-            return f"break point {getattr(inputs, self.station.division):.2f} R"
-        return place_of(inputs, self.station)
 
 
 @dataclass(frozen=True)
@@ -251,13 +189,11 @@ class BestTurn:
         return best if abs(best - now) < _FARTHEST else None
 
 
-def begin(inputs: Inputs, r: float, shift: bool = False) -> Grab | None:
-    """A press on the blade at r/R; `shift` takes the nearest division. None where there is nothing to grab."""
+def begin(inputs: Inputs, r: float) -> Grab | None:
+    """A press on the blade at r/R takes the nearest station. None where there is nothing to grab."""
     ready = grabbed_inputs(inputs)
-    choice = [one for one in stations(ready) if one.division is not None] if shift else list(stations(ready))
-    if not choice:
-        return None
-    return Grab(inputs, ready, r, min(choice, key=lambda station: abs(station.r - r)))
+    choice = stations(ready)
+    return Grab(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
 
 
 def _onto(name: str, value: float) -> float:

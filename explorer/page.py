@@ -221,7 +221,6 @@ class Page:
         self.scene.draw(solution, reading.view, ghost, frame.pinned)
         if not frame.only_azimuth:
             self._show_plan(solution, reading.view, disk_image.MOVING)
-        self.bridge.set(arc=None if reading.previewed else self.grab.arc(solution, reading.view))
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
         turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
@@ -362,9 +361,12 @@ class Page:
         controls.touched = self.results.card.tracker.touch
         bridge.on("hold", lambda held: None if self._held else self._took(bool(held)), at_once=True)
         by_hand = replace(context, set_inputs=self._pull)
-        self.results.curve.bind(by_hand, lambda: not self._held, self._took)
-        blade = self.scene.scene.rotor.reference_blade
-        self.grab = BladeGrab(blade, by_hand, lambda: not self._held, self._grabbed)
+        curve = self.results.curve
+        curve.bind(by_hand, lambda: not self._held, self._grabbed)
+        BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self._radius, curve.take)
+        bridge.on("grab_at", lambda r: curve.take(float(r)))
+        bridge.on("twist_by_hand", lambda r: curve.take(float(r), by_key=True))
+        context.bind_command("twist", partial(curve.take, 1.0, by_key=True))
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(context, Actions(self._look, self._colour, self._reset, self.optimise.toggle))
@@ -389,29 +391,30 @@ class Page:
         self.controls.set_inputs(inputs)
 
     def _grabbed(self, held: bool) -> None:
-        """The reference blade was taken by the hand, or let go."""
+        """The blade or a handle of its twist curve was taken by the hand, or let go."""
         self.camera.hold(held)
         self._took(held)
 
     def _took(self, held: bool) -> None:
-        """A slider, the blade or a handle of its twist curve was taken, or let go."""
+        """A slider, a station of the blade or nothing is held now."""
         tracker = self.results.card.tracker
         self.controls.pauses.hold(held, time.monotonic())
         if held:
             tracker.grab()
             if (state := self.context.state()) is not None:
-                self.grab.learn(state.inputs, self.results.worth.slopes)
+                self.results.curve.learn(state.inputs, self.results.worth.slopes)
         else:
             tracker.release()
-            self.bridge.set(hand=None, arc=None)
+            self.bridge.set(hand=None)
         self.history.grab(held)
         self._callbacks.wake()
 
     def _show_hand(self, state: SessionState) -> None:
         """Power and its change beside the pointer, while the blade or its twist curve is held."""
-        self.grab.learn(state.inputs, self.results.worth.slopes)
-        hand, place = self.results.card.hand(UNITS[state.view.units]), self.grab.place or self.results.curve.place
-        self.bridge.set(hand={**hand, "place": place} if hand is not None and place else None)
+        curve, hand = self.results.curve, self.results.card.hand(UNITS[state.view.units])
+        curve.learn(state.inputs, self.results.worth.slopes)
+        place, best = curve.place, curve.best
+        self.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""

@@ -52,6 +52,7 @@ KEYS: dict[str, Key] = {
     "undo": Key(_DESIGN, "Undo", "Z", CTRL),
     "redo": Key(_DESIGN, "Redo", "Z", CTRL_SHIFT),
     "keep": Key(_DESIGN, "Keep this design (bookmark)", "M"),
+    "twist": Key(_DESIGN, "Twist the blade by hand", "G"),
     "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
     "pin": Key(_DESIGN, "Pin as A, or unpin", "P"),
     "swap": Key(_DESIGN, "Swap A and B"),

@@ -1,13 +1,13 @@
 """The twist curves of the rail, jig and flown: handles on the jig curve, and what dragging one does to the inputs."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from explorer.charts.strip import StripChart, StripLine
-from explorer.grab import place_of, slid, stations, turned
+from explorer.grab import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations
 from explorer.interface import SessionState, TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.state import Inputs
@@ -19,56 +19,122 @@ from rotor.trim.solution import Solution
 _POINTS = 70
 _LEAST_RESPONSE = 0.15
 """Below it [°] a station at the end of its slider does not answer to a degree."""
+_AT = 0.08
+"""A turn this close [°] to the best one is held there: sliders move in steps of 0.1°/R."""
 _LEAST_SPAN = 14.0
 """Degrees that the axis shows at least."""
 
 
 class TwistCurveEditor:
-    """One session's."""
+    """One session's: the handles of the curve, and the blade that is twisted by hand, move the same stations."""
 
     def __init__(self, bridge: Bridge) -> None:
         self._bridge = bridge
-        self._held: Inputs | None = None
-        """The inputs when a handle was taken."""
+        self._grab: Grab | None = None
+        """While a station is held."""
+        self._best = BestTurn()
         self._place = ""
         self._range: tuple[float, float] | None = None
+        self._bound: tuple[TabContext, Callable[[], bool], Callable[[bool], None]] | None = None
+        self._presses = 0
 
     def bind(self, context: TabContext, free: Callable[[], bool], changed: Callable[[bool], None]) -> None:
-        """Let handles move the design; `free`: whether the design is the user's to move. `changed`: a handle was taken
+        """Let handles move the design; `free`: whether the design is the user's to move. `changed`: a station was taken
         (True) or let go."""
-
-        def act(value: list[Any]) -> None:
-            name, change = value
-            if change == "start":
-                self._held, self._place = context.inputs(), ""
-                changed(True)
-            elif change == "end":
-                self._held = None
-                changed(False)
-            elif free():
-                self._move(context, name, float(change[0]), float(change[1]))
-
-        self._bridge.on("knot", act)
+        self._bound = context, free, changed
+        self._bridge.on("knot", self._act)
 
     @property
     def place(self) -> str:
-        """The handle that is held, in words; empty while none is."""
-        return self._place if self._held is not None else ""
+        """The station that is held, in words; empty while none is."""
+        return self._place if self._grab is not None else ""
 
-    def _move(self, context: TabContext, name: str, r: float, theta: float) -> None:
-        start = self._held or context.inputs()
+    def take(self, r: float, by_key: bool = False) -> None:
+        """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
+        if self._bound is None:
+            return
+        context, free, changed = self._bound
+        grab = begin(context.inputs(), r) if free() else None
+        if grab is None:
+            return
+        self._begin(grab, changed)
+        self._presses += 1
+        places = stations(grab.inputs)
+        self._bridge.set(
+            rubber={
+                "press": self._presses,
+                "knot": str(grab.station.index),
+                "by_key": by_key,
+                "stations": [one.r for one in places],
+                "titles": [one.title for one in places],
+            }
+        )
+
+    def learn(self, inputs: Inputs, by_input: Mapping[str, float]) -> None:
+        """Power [W] of these inputs changes by so much for a unit of each: tells where the station is best."""
+        if self._grab is None:
+            return
+        turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
+        if turn is not None and slope is not None:
+            self._best = self._best.with_slope(turn, slope)
+
+    @property
+    def best(self) -> dict[str, Any] | None:
+        """Twist [°] of least power of the held station, and whether it is held there; None while it is not known."""
+        grab, turn = self._grab, self._best.turn
+        if grab is None or turn is None or self._bound is None:
+            return None
+        now = grab.turn_to(self._bound[0].inputs())
+        before, response = self._response(grab)
+        return {"theta": round(before + turn * response, 2), "held": now is not None and abs(now - turn) < _AT}
+
+    def _act(self, value: list[Any]) -> None:
+        assert self._bound is not None
+        context, free, changed = self._bound
+        name, change = value
+        if change == "start":
+            start = grabbed_inputs(context.inputs())
+            station = next((one for one in stations(start) if str(one.index) == name), None)
+            if station is not None and free():
+                self._begin(Grab(start, station), changed)
+        elif change == "end":
+            if self._grab is not None:
+                self._grab, self._place = None, ""
+                self._bridge.set(rubber=None)
+                changed(False)
+        elif free():
+            self._move(context, name, change)
+
+    def _begin(self, grab: Grab, changed: Callable[[bool], None]) -> None:
+        self._grab, self._best, self._place = grab, BestTurn(), place_of(grab.inputs, grab.station)
+        changed(True)
+
+    def _move(self, context: TabContext, name: str, place: list[float | None]) -> None:
+        """Move a station to r/R and to a twist [°] less that at 0.75 R, or to a twist alone."""
+        start = self._grab.inputs if self._grab is not None else context.inputs()
         station = next((one for one in stations(start) if str(one.index) == name), None)
         if station is None:
             return
-        at = np.array([station.r])
-        before, after = (float(shown_twist(one.design())(at)[0]) for one in (start, turned(start, station, 1.0)))
-        # The curve is drawn about 0.75 R, which may turn as well: so much more that the handle meets the pointer.
-        response = after - before if abs(after - before) > _LEAST_RESPONSE else 1.0
-        inputs = turned(start, station, (theta - before) / response)
-        moved = inputs if station.division is None else slid(inputs, station, r)
-        if self._held is not None:
+        grab, (r, theta) = Grab(start, station), place
+        before, response = self._response(grab)
+        turn = 0.0 if theta is None else (theta - before) / response
+        moved = grab.turned(turn, self._best.turn if r is None and self._grab is not None else None)
+        if r is not None and station.division is not None:
+            moved = slid(moved, station, r)
+        if self._grab is not None:
             self._place = place_of(moved, stations(moved)[station.index])
-        context.set_inputs(moved)
+        if moved != context.inputs():
+            context.set_inputs(moved)
+
+    @staticmethod
+    def _response(grab: Grab) -> tuple[float, float]:
+        """Twist [°] of the station less that at 0.75 R when it was taken, and its change with a degree of turn.
+
+        The curve is drawn about 0.75 R, which may turn as well: so much more that the handle meets the pointer.
+        """
+        at = np.array([grab.station.r])
+        before, after = (float(shown_twist(one.design())(at)[0]) for one in (grab.inputs, grab.turned(1.0)))
+        return before, after - before if abs(after - before) > _LEAST_RESPONSE else 1.0
 
     def show(self, state: SessionState) -> None:
         """Draw the jig twist over what it is compared with, as the pitch less that at 0.75 R, and the flown twist."""

@@ -184,8 +184,12 @@
   // The power at the hand, while something is dragged in the scene.
   const tag = part('tag');
   let x = 0, y = 0;
-  const follow = () => { tag.style.transform = `translate(${Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - 66, 4)}px)`; };
+  const follow = () => {
+    const away = page.hasAttribute('data-rubber') && x > tag.offsetWidth + 150;  // Clear of the trailing edge and its arc.
+    tag.style.transform = `translate(${away ? x - tag.offsetWidth - 140 : Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - (away ? 24 : 66), 4)}px)`;
+  };
   addEventListener('pointermove', event => { x = event.clientX; y = event.clientY; if (tag.hasAttribute('data-on')) follow(); }, true);
+  RX.follow = (left, top) => { x = left; y = top; follow(); };
   RX.paint('hand', hand => {
     tag.toggleAttribute('data-on', Boolean(hand));
     if (!hand) return;
@@ -209,36 +213,6 @@
     }, 120);
   }
   for (const name of ['.rxf-inset', '.rxf-field', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
-
-  // The arc at the station in the hand: from where it was, past where it would be best, to where it is.
-  let drawn = '';
-  function arc(client, box) {
-    const now = state.arc, place = part('arc'), node = now && client.nodeRefFromName?.[now.node];
-    if (!node || !client.camera) {
-      if (drawn) place.innerHTML = drawn = '';
-      return;
-    }
-    const pixel = (degrees, times = 1) => {
-      const angle = degrees * Math.PI / 180, r = times * now.radius;
-      const at = node.position.clone().set(now.x, r * Math.cos(angle), r * Math.sin(angle)).applyMatrix4(node.matrixWorld).project(client.camera);
-      return [((at.x + 1) / 2 * box.width).toFixed(1), ((1 - at.y) / 2 * box.height).toFixed(1)];
-    };
-    const path = (from, to) => 'M' + Array.from({length: 25}, (_, k) => pixel(from + (to - from) * k / 24).join(' ')).join('L');
-    const ray = (degrees, inner, outer) => `M${pixel(degrees, inner).join(' ')}L${pixel(degrees, outer).join(' ')}`;
-    const reach = Math.max(26, 1.35 * Math.abs(now.to - now.from), now.best === null ? 0 : Math.abs(now.best - now.from) + 6);
-    // A tick for each degree of the real blade.
-    const count = Math.floor(reach / now.times), ticks = Array.from({length: 2 * count + 1}, (_, k) => ray(now.from + (k - count) * now.times, 1, (k - count) % 5 ? 1.05 : 1.1)).join('');
-    const line = (d, colour, width, more = '') => `<path d="${d}" fill="none" stroke="var(--rx-paper)" stroke-width="${width + 3}" opacity=".7"/><path d="${d}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linecap="round" ${more}/>`;
-    const best = now.best === null ? '' : line(ray(now.best, .9, 1.12), 'var(--rx-good)', now.held ? 5 : 3);
-    const [hx, hy] = pixel(now.to, 1.24), [bx, by] = now.best === null ? [0, 0] : pixel(now.best, 1.24);
-    const words = (left, top, content, colour) => `<text x="${left}" y="${top}" text-anchor="middle" style="fill:${colour};font-size:13px;font-weight:650;paint-order:stroke;stroke:var(--rx-paper);stroke-width:4px">${RX.text(content)}</text>`;
-    const apart = now.best !== null && Math.hypot(hx - bx, hy - by) > 34;
-    const html = line(path(now.from - reach, now.from + reach), 'var(--rx-faint)', 1.5, 'stroke-dasharray="1 5"')
-      + line(ticks, 'var(--rx-faint)', 1.2) + line(ray(now.from, .2, 1.04), 'var(--rx-ghost)', 1.6)
-      + line(path(now.from, now.to), 'var(--rx-blade)', 4) + line(ray(now.to, .2, 1.04), 'var(--rx-blade)', 2) + best
-      + words(hx, hy, now.words, 'var(--rx-blade)') + (now.held ? words(hx, +hy + 15, 'least power', 'var(--rx-good)') : apart ? words(bx, by, 'best', 'var(--rx-good)') : '');
-    if (html !== drawn) place.innerHTML = drawn = html;
-  }
 
   // Words at points of the scene; each of these parts of the state is a list of them.
   const LABELS = ['cut_labels', 'probe_label', 'beside_labels'];
@@ -276,7 +250,6 @@
       RX.again('inset', 'strip', 'twist');
       tellCover();
     }
-    arc(client, box);
     if (labels.length) placeLabels(client, box);
     const words = state.prompt, node = words && client.nodeRefFromName?.[words.node];
     if (!node || !client.camera) return;

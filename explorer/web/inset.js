@@ -6,6 +6,7 @@
     const k = Math.min(2, Math.floor(3 * t)), f = 3 * t - k;
     return `rgb(${STOPS[k].map((v, j) => Math.round(v + f * (STOPS[k + 1][j] - v)))})`;
   };
+  RX.along = along;
   const signed = value => {
     const digits = Math.abs(value).toFixed(1);  // What rounds to zero has no sign.
     return (digits === '0.0' ? '' : value < 0 ? '−' : '+') + digits + '°';
@@ -46,7 +47,7 @@
       if (sparse && k % 2 === 1 && k < now.cuts.length - 1) return;
       const o = at(cut.r), shade = along(share(cut.r)), shape = (angle, kind, datum) => `<path d="M${cut.outline.map(p => turned(o, angle, p, datum)).join('L')}Z" ${kind}/>`;
       if (changed(cut)) inside += shape(cut.ghost, 'class="rxf-ghost-cut"', now.ghost_datum);
-      inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}"`);
+      inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${cut.r}"`);
       if (width < (changed(cut) ? 900 : 700) && k === now.cuts.length - 2) return;  // Its numbers would meet those of the tip.
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
         <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-blade);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;

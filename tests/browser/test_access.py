@@ -190,7 +190,7 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
     assert -20.0 <= by_curve < by_slider - 2.0
     camera: Any = watched.at_rest(lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     x, y = page.evaluate(ON_SCREEN, 7.2)
-    swipe(session, watched, (x, y), (0.0, -30.0))
+    swipe(session, watched, (x, y), (0.0, 30.0))  # Seen from the tip, the trailing edge goes down: nose up.
     watched.until_changed(outer, by_curve)
     by_blade = watched.at_rest(outer)
     assert by_blade > by_curve + 1.0  # The tip was turned up.

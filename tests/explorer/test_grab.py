@@ -1,6 +1,5 @@
 """Twisting the blade by hand: geometry of the drag, what it does to the sliders, limits, and one step of undo."""
 
-import math
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -9,15 +8,12 @@ import numpy as np
 import pytest
 
 from explorer.grab import (
-    DEGREES_PER_RADIUS,
     DETENT,
     PIECES,
     BestTurn,
     Grab,
-    Movement,
     begin,
     grabbed_inputs,
-    movement,
     place_of,
     slid,
     stations,
@@ -127,82 +123,27 @@ class TestSliding:
         assert slid(TWO, stations(TWO)[-1], 0.7) == TWO
 
 
-class TestMovement:
-    """A blade that points to starboard, seen from behind: along is to the right, across is up."""
-
-    SIGHT = (-1.0, 0.0, 0.0)
-
-    def test_right_is_along_and_up_is_across(self):
-        right = movement((0, 4, 0), (0, 6, 0), (0, 4, 0), self.SIGHT, 8.0)
-        assert (right.along, right.across) == pytest.approx((0.25, 0.0))
-        up = movement((0, 4, 0), (0, 4, 1), (0, 4, 0), self.SIGHT, 8.0)
-        assert (up.along, up.across) == pytest.approx((0.0, 0.125))
-
-    def test_a_foreshortened_blade_still_goes_with_the_pointer(self):
-        """Seen at 60° to its length it is half as long: half the movement means the whole."""
-        outward = (math.sin(math.radians(60.0)), math.cos(math.radians(60.0)), 0.0)
-        move = movement((0, 0, 0), (0, 1, 0), outward, self.SIGHT, 8.0)
-        assert move.along == pytest.approx(2.0 / 8.0)
-
-    def test_up_is_up_from_either_side(self):
-        for sight in (self.SIGHT, (1.0, 0.0, 0.0)):
-            assert movement((0, 4, 0), (0, 4, 1), (0, 1, 0), sight, 8.0).across > 0.0
-
-    def test_a_blade_towards_the_viewer_stays_finite(self):
-        move = movement((0, 0, 0), (0, 0.5, 0.5), (1.0, 0.0, 0.0), self.SIGHT, 8.0)
-        assert math.isfinite(move.along)
-        assert math.isfinite(move.across)
-
-
-def grab_at(r: float, shift: bool = False) -> Grab:
-    grab = begin(TWO, r, shift)
+def grab_at(r: float) -> Grab:
+    grab = begin(TWO, r)
     assert grab is not None
     return grab
 
 
 class TestGrab:
-    def test_a_small_movement_is_nothing_yet(self):
-        grab = grab_at(0.95).decided(Movement(0.004, 0.004))
-        assert grab.slides is None
-        assert grab.moved(Movement(0.004, 0.004)) == TWO
+    def test_the_nearest_station_is_taken(self):
+        assert [grab_at(r).station.title for r in (0.2, 0.4, 0.7, 0.9)] == ["root", "break point", "break point", "tip"]
 
-    def test_across_at_the_tip_turns_it_in_proportion(self):
-        move = Movement(0.0, 0.25)
-        grab = grab_at(0.95).decided(move)
-        after = grab.moved(move)
+    def test_the_tip_turns_against_the_break_point(self):
+        after = grab_at(0.95).turned(3.0)
         change = angles(after, 1.0, 0.5) - angles(TWO, 1.0, 0.5)
-        assert change[0] - change[1] == pytest.approx(0.25 * DEGREES_PER_RADIUS, abs=0.05)
+        assert change[0] - change[1] == pytest.approx(3.0, abs=0.05)
         assert after.two_inner == TWO.two_inner
 
-    def test_along_at_a_division_slides_it_by_as_much(self):
-        move = Movement(0.1, 0.02)
-        after = grab_at(0.52).decided(move).moved(move)
-        assert after.two_division == pytest.approx(0.6)
-        assert (after.two_inner, after.two_outer) == (TWO.two_inner, TWO.two_outer)
-
-    def test_along_the_tip_does_not_slide(self):
-        move = Movement(0.1, 0.02)
-        assert grab_at(0.97).decided(move).slides is False
-
-    def test_what_a_drag_is_stays_decided(self):
-        grab = grab_at(0.52).decided(Movement(0.0, 0.1))
-        assert grab.slides is False
-        assert grab.decided(Movement(0.4, 0.1)).slides is False
-
-    def test_shift_takes_the_nearest_division_from_anywhere(self):
-        move = Movement(0.0, 0.05)
-        grab = grab_at(0.95, shift=True).decided(move, shift=True)
-        assert grab.slides is True
-        assert grab.station.title == "break point"
-
     def test_back_at_the_start_the_blade_is_as_it_was(self):
-        grab = grab_at(0.95).decided(Movement(0.0, 0.2))
-        assert grab.moved(Movement(0.0, 0.0)) == TWO
+        assert grab_at(0.95).turned(0.0) == TWO
 
     def test_the_place_is_said_with_a_true_minus(self):
-        grab = grab_at(0.95).decided(Movement(0.0, 0.2))
-        assert grab.place(TWO) == "tip 1.00 R · θ −2.0°"
-        assert replace(grab_at(0.5), slides=True).place(TWO) == "break point 0.50 R"
+        assert place_of(TWO, grab_at(0.95).station) == "tip 1.00 R · θ −2.0°"
 
 
 class TestBestTurn:
@@ -222,18 +163,17 @@ class TestBestTurn:
         assert BestTurn().with_slope(0.0, -100.0).with_slope(1.0, -99.0).turn is None
 
     def test_the_station_is_held_about_the_best_turn_and_goes_on_beyond(self):
-        grab = grab_at(0.97).decided(Movement(0.0, 0.3))
-        best = 2.0
-        near = [grab.moved(Movement(0.0, (best + off) / DEGREES_PER_RADIUS), best) for off in (-0.3, 0.0, 0.3)]
+        grab, best = grab_at(0.97), 2.0
+        near = [grab.turned(best + off, best) for off in (-0.3, 0.0, 0.3)]
         assert near[0] == near[1] == near[2]
-        beyond = grab.moved(Movement(0.0, (best + 1.1 * DETENT) / DEGREES_PER_RADIUS), best)
+        beyond = grab.turned(best + 1.1 * DETENT, best)
         assert beyond != near[0]
-        assert beyond == grab.moved(Movement(0.0, (best + 1.1 * DETENT) / DEGREES_PER_RADIUS))
+        assert beyond == grab.turned(best + 1.1 * DETENT)
 
     @pytest.mark.parametrize("r", [0.2, 0.55, 0.97])
     def test_the_foreseen_turn_is_the_least_power_of_all_turns(self, r: float):
         """Slopes are the exact ones of the sliders; the minimum is looked for by trims on both sides of it."""
-        grab = grab_at(r).decided(Movement(0.0, 0.3))
+        grab = grab_at(r)
 
         def power_and_slope(turn: float) -> tuple[float, float, float]:
             inputs = turned(grab.inputs, grab.station, turn)
@@ -293,16 +233,47 @@ class _Bridge:
         self.state |= parts
 
 
+def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, _Bridge, list[Inputs], list[bool]]:
+    """With the present inputs, and what was taken (True) or let go."""
+    bridge, now, took = _Bridge(), [inputs], list[bool]()
+    page: Any = SimpleNamespace(inputs=lambda: now[0], set_inputs=lambda new: now.__setitem__(0, new), wake=int)
+    frame: Any = bridge
+    editor = TwistCurveEditor(frame)
+    editor.bind(page, lambda: True, took.append)
+    return editor, bridge, now, took
+
+
 class TestTwistCurve:
-    """Handles of the twist curve in the rail."""
+    """Handles of the twist curve in the rail, and the blade twisted by hand."""
+
+    def test_a_pressed_blade_is_shown_from_the_tip_and_its_station_held_at_the_best_angle(self):
+        editor, bridge, now, took = editor_of(TWO)
+        editor.take(0.9)
+        assert bridge.state["rubber"]["knot"] == "2"
+        assert bridge.state["rubber"]["stations"] == pytest.approx([ROOT, 0.5, 1.0])
+        start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
+        for turn, slope in ((0.0, -300.0), (0.5, -200.0)):
+            editor.learn(turned(TWO, stations(TWO)[2], turn), {"two_outer": slope * 0.5})
+        best = editor.best
+        assert best is not None
+        assert best["theta"] == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
+        assert not best["held"]
+        bridge.actions["knot"](["2", [None, best["theta"] + 0.1]])
+        assert now[0] == turned(TWO, stations(TWO)[2], 1.5)
+        assert editor.best is not None
+        assert editor.best["held"]
+        bridge.actions["knot"](["2", "end"])
+        assert bridge.state["rubber"] is None
+        assert took == [True, False]
+
+    def test_a_blade_without_stations_is_pressed_as_the_nearest_two_segments(self):
+        editor, bridge, now, _ = editor_of(replace(TWO, law="ideal"))
+        editor.take(1.0)
+        bridge.actions["knot"](["2", [None, 5.0]])
+        assert now[0].law == "two"
 
     def test_a_held_handle_has_a_place_that_ends_with_the_drag(self):
-        bridge, now = _Bridge(), [Inputs(law="two")]
-        page: Any = SimpleNamespace(inputs=lambda: now[0], set_inputs=lambda new: now.__setitem__(0, new), wake=int)
-        frame: Any = bridge
-        took: list[bool] = []
-        editor = TwistCurveEditor(frame)
-        editor.bind(page, lambda: True, took.append)
+        editor, bridge, now, took = editor_of(Inputs(law="two"))
         drag = bridge.actions["knot"]
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
         assert editor.place == ""

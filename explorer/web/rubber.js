@@ -1,0 +1,211 @@
+// The blade twisted by hand: while a station is held the blade is seen from the tip, and the trailing edge that was
+// pressed stays under the pointer. Jig twist, drawn four times; the server moves the sliders and answers with power.
+(() => {
+  const {text, part} = RX, place = part('rubber'), page = document.documentElement, DEGREE = Math.PI / 180;
+  const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75;
+  const calm = matchMedia('(prefers-reduced-motion: reduce)');
+  const lerp = (a, b, t) => a + (b - a) * t, ease = t => t * t * (3 - 2 * t), clamp = (v, low, high) => Math.min(Math.max(v, low), Math.max(low, high));
+  const signed = (v, digits = 1) => (Math.abs(v) < .5 * 10 ** -digits ? '' : v < 0 ? '−' : '+') + Math.abs(v).toFixed(digits) + '°';
+  let held = null, shown = 0, towards = 0, before = 0, running = false, pointer = {x: 0, y: 0, down: false}, sent = 0, waiting = null;
+
+  for (const [name, down] of [['pointerdown', true], ['pointermove', null], ['pointerup', false], ['pointercancel', false]])
+    addEventListener(name, event => {
+      if (!event.isPrimary) return;
+      pointer = {x: event.clientX, y: event.clientY, down: down ?? pointer.down};
+      if (!held || held.by_key) return;
+      if (name === 'pointermove') turn();
+      else if (down === false) release();
+    }, true);
+
+  // Twist less that at 0.75 R [°] of a line of the twist chart.
+  const line = role => RX.state.twist?.lines.find(one => one.role === role);
+  const twist = (curve, r) => {
+    const {x, y} = curve, k = clamp(x.findIndex(one => one >= r), 1, x.length - 1);
+    return lerp(y[k - 1], y[k], clamp((r - x[k - 1]) / (x[k] - x[k - 1]), 0, 1));
+  };
+  // What a turn of the held station does to the blade: straight to its neighbours, until the server's answer comes.
+  const hat = r => {
+    const {stations, at} = held, own = stations[at];
+    if (r === own) return 1;
+    const next = stations[r < own ? at - 1 : at + 1];
+    return next === undefined ? 0 : Math.max(0, 1 - Math.abs(r - own) / Math.abs(next - own));
+  };
+  const theta = r => twist(line('this'), r) + (held.wanted - twist(line('this'), held.r)) * hat(r);
+
+  // Where sections stand once the blade is seen from the tip: the pressed trailing edge under the pointer, where the
+  // stage has room for the rest.
+  function arrange() {
+    const stage = place.getBoundingClientRect(), width = stage.width, height = stage.height, wide = width > 640, share = held.share, angle = TIMES * held.start * DEGREE;
+    const px = held.by_key ? .3 * width : pointer.x - stage.left, py = held.by_key ? .62 * height : pointer.y - stage.top;
+    // Numbers stand where the blade leaves room.
+    const left = wide && px > .5 * width, most = Math.min(wide ? 560 : 420, .85 * height), room = width - px - (wide && !left ? 210 : 16);
+    const chord = clamp(room / ((.58 + .42 * share) * TRAIL + .25), 220, most), size = t => chord * (.58 + .42 * t);
+    const x = Math.min(px + TRAIL * size(share) * Math.cos(angle), width - .25 * chord - 12), y = clamp(py - TRAIL * size(share) * Math.sin(angle), wide ? 160 : 120, height - 60);
+    const up = Math.max(60, Math.min(.4 * height, (y - (wide ? 150 : 110)) / Math.max(share, .05), (height - 70 - y) / Math.max(1 - share, .05)));
+    const away = [-.08 * chord, -up], tip = [x - (1 - share) * away[0], y - (1 - share) * away[1]];
+    return {width, height, wide, left, size, stage, at: t => [tip[0] + (1 - t) * away[0], tip[1] + (1 - t) * away[1]], ...scene(stage)};
+  }
+  // Root and tip of the blade in the scene, from where the sections come and to where they go back.
+  function scene(stage) {
+    const client = window.__viserMutable, node = client?.nodeRefFromName?.['/rotor/blade_0'], canvas = client?.canvas?.getBoundingClientRect();
+    const pixel = x => { const at = node.position.clone().set(x, 0, 0).applyMatrix4(node.matrixWorld).project(client.camera); return [(at.x + 1) / 2 * canvas.width + canvas.left - stage.left, (1 - at.y) / 2 * canvas.height + canvas.top - stage.top]; };
+    if (!node || !client.camera || !canvas) return {from: [[stage.width / 2, stage.height / 2], [stage.width / 2, stage.height / 2]]};
+    const length = node.geometry?.boundingBox?.max.x ?? 7.8;
+    return {from: [pixel(.12 * length), pixel(length)]};
+  }
+
+  RX.paint('rubber', now => {
+    if (!now) { if (held) fly(0); held = null; return; }
+    if (held?.press === now.press) return;
+    const at = Number(now.knot), root = now.stations[0];
+    held = {...now, at, r: now.stations[at], share: (now.stations[at] - root) / (1 - root), root};
+    if (!line('this') || !RX.state.inset || (!now.by_key && !pointer.down)) {  // Let go before the answer came: nothing moves.
+      RX.send('knot', [now.knot, 'end']);
+      held = null;
+      return;
+    }
+    held.first = held.start = held.wanted = twist(line('this'), held.r);
+    held.layout = arrange();
+    held.press_angle = angleOf();
+    if (now.by_key) place.focus({preventScroll: true});
+    fly(1);
+  });
+  for (const name of ['twist', 'hand']) RX.also(name, () => { if (held && !running) draw(); });
+
+  // The angle of the pointer about the held station's pitch axis, in degrees of real twist; near the axis, its height.
+  function angleOf() {
+    const {stage, size, at} = held.layout, [ox, oy] = at(held.share), x = pointer.x - stage.left - ox, y = pointer.y - stage.top - oy, reach = TRAIL * size(held.share);
+    const drawn = x > -.35 * reach ? y / reach / DEGREE : Math.atan2(y, -x) / DEGREE;
+    return drawn / TIMES;
+  }
+  function turn() {
+    held.wanted = clamp(held.start + angleOf() - held.press_angle, held.start - 25, held.start + 25);
+    tell();
+    if (!running) draw();
+  }
+  function tell() {
+    waiting = held.wanted;
+    setTimeout(() => { if (waiting !== null && held) { sent = performance.now(); RX.send('knot', [held.knot, [null, waiting]]); waiting = null; } }, Math.max(0, 50 - (performance.now() - sent)));
+  }
+  function release(undo = false) {
+    const {knot, first} = held, last = undo ? first : waiting;
+    waiting = null;
+    if (undo || last !== null) RX.send('knot', [knot, [null, last]]);
+    setTimeout(() => RX.send('knot', [knot, 'end']), 70);
+    ended = held;
+    fly(0);
+    held = null;
+  }
+  let ended = null;
+  function fly(to) {
+    towards = to;
+    if (to) page.toggleAttribute('data-rubber', true);
+    else if (held) ended = held;
+    if (running) return;
+    running = true;
+    before = performance.now();
+    requestAnimationFrame(step);
+  }
+  function step(now) {
+    const passed = (now - before) / MORPH;
+    before = now;
+    shown = calm.matches ? towards : clamp(shown + (towards ? passed : -passed), 0, 1);
+    draw();
+    running = shown !== towards;
+    if (running) requestAnimationFrame(step);
+    else if (!towards) { page.removeAttribute('data-rubber'); place.querySelector('svg').innerHTML = ''; ended = null; }
+  }
+
+  function draw() {
+    const now = held, one = held ?? ended, jig = line('this'), cuts = RX.state.inset?.cuts;
+    if (!one || !jig || !cuts) return;
+    held = one;  // The helpers above draw what is held, or was.
+    const {layout, root} = one, e = ease(shown), best = RX.state.hand?.best, reference = line('reference');
+    const free = one.wanted;
+    if (best?.held) one.wanted = best.theta;  // Held softly at the best angle.
+    const share = r => clamp((r - root) / (1 - root), 0, 1);
+    const small = Math.hypot(layout.from[1][0] - layout.from[0][0], layout.from[1][1] - layout.from[0][1]) * .07;
+    const spot = t => { const [x, y] = layout.at(t); return [lerp(lerp(layout.from[0][0], layout.from[1][0], t), x, e), lerp(lerp(layout.from[0][1], layout.from[1][1], t), y, e)]; };
+    const point = (t, angle, [x, z], out = 1) => {
+      const [ox, oy] = spot(t), c = Math.cos(TIMES * angle * DEGREE), s = Math.sin(TIMES * angle * DEGREE), k = out * lerp(small, layout.size(t), e);
+      return `${(ox + k * (x * c - z * s)).toFixed(1)} ${(oy - k * (x * s + z * c)).toFixed(1)}`;
+    };
+    const outline = r => {
+      const k = clamp(cuts.findIndex(cut => cut.r >= r), 1, cuts.length - 1), u = clamp((r - cuts[k - 1].r) / (cuts[k].r - cuts[k - 1].r), 0, 1);
+      return cuts[k - 1].outline.map(([x, z], i) => [lerp(x, cuts[k].outline[i][0], u), lerp(z, cuts[k].outline[i][1], u)]);
+    };
+    const shape = (r, angle) => 'M' + outline(r).map(p => point(share(r), angle, p)).join('L') + 'Z';
+    let inside = '';
+    // From the root to the tip, each section over those behind it.
+    const places = Array.from({length: SECTIONS}, (_, k) => ({r: root + (1 - root) * k / SECTIONS})).concat(cuts.map(cut => ({r: cut.r, cut}))).sort((a, b) => a.r - b.r);
+    for (const {r, cut} of places) {
+      const t = share(r), shade = `color-mix(in oklab, ${RX.along(t)} ${Math.round(74 + 26 * t)}%, var(--rx-paper))`;
+      inside += `<path d="${shape(r, theta(r))}" fill="${cut ? RX.along(t) : shade}" stroke="var(--rx-paper)" stroke-width="${cut ? 1.3 : .5}" stroke-opacity="${cut ? .95 : .35}"/>`;
+    }
+    if (reference) {
+      const edge = x => 'M' + Array.from({length: 25}, (_, k) => root + (1 - root) * k / 24).map(r => point(share(r), twist(reference, r), [x, 0])).join('L');
+      inside += [edge(.25), edge(-TRAIL), shape(one.r, twist(reference, one.r))].map(d => `<path d="${d}" class="rxf-ghost-line"/>`).join('');
+    }
+    if (e > .6) {
+      // The arc at the trailing edge: from where it was, past where it would be best, to where it is.
+      const t = one.share, arc = (from, to, out) => 'M' + Array.from({length: 21}, (_, k) => point(t, lerp(from, to, k / 20), [-TRAIL * out, 0])).join('L');
+      const ray = (angle, a, b) => `M${point(t, angle, [-TRAIL * a, 0])}L${point(t, angle, [-TRAIL * b, 0])}`;
+      const reach = Math.max(4, Math.abs(one.wanted - one.first) + 2, best ? Math.abs(best.theta - one.first) + 1 : 0);
+      const ticks = Array.from({length: 2 * Math.floor(reach) + 1}, (_, k) => k - Math.floor(reach)).map(d => ray(one.first + d, 1.05, d % 5 ? 1.075 : 1.1)).join('');
+      const words = (angle, out, content, colour) => { const [x, y] = point(t, angle, [-TRAIL * out, 0]).split(' '); return `<text x="${x}" y="${+y + 4}" text-anchor="end" class="rxf-halo" style="fill:${colour}">${text(content)}</text>`; };
+      inside += `<path d="${arc(one.first - reach, one.first + reach, 1.05)}" fill="none" stroke="var(--rx-faint)"/><path d="${ticks}" stroke="var(--rx-faint)"/>
+        <path d="${arc(one.first, one.wanted, 1.05)}" fill="none" stroke="var(--rx-accent)" stroke-width="4"/>`
+        + (best ? `<path d="${ray(best.theta, .99, 1.13)}" stroke="var(--rx-good)" stroke-width="${best.held ? 6 : 4}" stroke-linecap="round"/>` + words(best.theta, 1.16, best.held ? 'least power' : `best ${signed(best.theta - one.first)}`, 'var(--rx-good)') : '')
+        + (best && Math.abs(best.theta - one.wanted) < 1 ? '' : words(one.wanted, 1.16, signed(one.wanted - one.first), 'var(--rx-accent)'));
+      if (layout.wide) inside += numbers(layout, cuts, share, point, reference);
+    }
+    const svg = place.querySelector('svg');
+    svg.setAttribute('viewBox', `0 0 ${layout.width} ${layout.height}`);
+    svg.innerHTML = inside;
+    if (one.by_key) RX.follow?.(layout.stage.left + spot(one.share)[0], layout.stage.top + spot(one.share)[1] + 150);
+    place.style.opacity = Math.min(1, 1.6 * e);
+    place.querySelector('p').innerHTML = one.by_key ? `<b>${text(one.titles[one.at])} ${one.r.toFixed(2)} R</b> ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter: done · Esc: as before` : `Jig twist from the tip, drawn ×${TIMES} · release: back to the aircraft · Esc: as before`;
+    one.wanted = free;
+    held = now;
+  }
+  // r/R, twist and its change beside the leading edges, none over another.
+  function numbers(layout, cuts, share, point, reference) {
+    const x = layout.left ? 24 : layout.width - 178;
+    const top = layout.left ? 172 : 62;
+    let last = top, out = `<text x="${x}" y="${top}">r/R</text><text x="${x + 84}" y="${top}" text-anchor="end">twist</text><text x="${x + 150}" y="${top}" text-anchor="end">Δ</text>`;
+    for (const cut of cuts) {
+      const angle = theta(cut.r), [lx, ly] = point(share(cut.r), angle, [.25, 0]).split(' ').map(Number), y = Math.max(last + 20, layout.left ? 0 : Math.min(ly, layout.height - 30)), change = reference ? angle - twist(reference, cut.r) : 0;
+      last = y;
+      out += `${layout.left ? '' : `<path d="M${lx + 4} ${ly}L${x - 8} ${y - 4}" stroke="var(--rx-faint)"/>`}<text x="${x}" y="${y}">${cut.r.toFixed(2)}</text>
+        <text x="${x + 84}" y="${y}" text-anchor="end" style="fill:${RX.along(share(cut.r))};font-weight:650">${signed(angle)}</text>` + (Math.abs(change) >= .05 ? `<text x="${x + 150}" y="${y}" text-anchor="end">${signed(change)}</text>` : '');
+    }
+    return out;
+  }
+
+  // By key.
+  addEventListener('keydown', event => {
+    if (!held) return;
+    const own = held.by_key && {ArrowUp: 1, ArrowDown: -1, ArrowLeft: 0, ArrowRight: 0, Enter: 0}[event.key] !== undefined;
+    if (event.key !== 'Escape' && !own) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.key === 'Escape') release(true);
+    else if (event.key === 'Enter') release();
+    else if (event.key === 'ArrowUp' || event.key === 'ArrowDown') {
+      held.wanted = clamp(held.wanted + (event.key === 'ArrowUp' ? 1 : -1) * (event.shiftKey ? 1 : .1), held.first - 25, held.first + 25);
+      tell();
+      draw();
+      RX.say(`${held.titles[held.at]} ${signed(held.wanted - held.first)}`);
+    } else {
+      const next = clamp(held.at + (event.key === 'ArrowRight' ? 1 : -1), 0, held.stations.length - 1);
+      if (next !== held.at) { const r = held.stations[next]; release(); setTimeout(() => RX.send('twist_by_hand', r), 160); }
+    }
+  }, true);
+  // A section of the blade in the card below is pressed as the blade is.
+  document.addEventListener('pointerdown', event => {
+    const cut = event.target instanceof Element && event.target.closest('[data-grab]');
+    if (!cut || event.button) return;
+    event.preventDefault();
+    RX.send('grab_at', Number(cut.dataset.grab));
+  });
+})();
