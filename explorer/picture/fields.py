@@ -11,6 +11,8 @@ from explorer.picture.polar import PolarGrid, polar_grid, refined
 from explorer.state import ViewState
 from explorer.theme.colours import Scheme
 from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import DiskFields, Solution
 
 
@@ -32,6 +34,8 @@ class Field:
     """Where else the quantity is not defined, on the polar grid."""
     note: str = ""
     """What follows the unit in the label."""
+    speeds: int | None = None
+    """Its size goes with chord × tip speed to this power, and so does its range; None: one for all rotors."""
 
     @property
     def two_sided(self) -> bool:
@@ -154,20 +158,20 @@ def _rigid(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
-        Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
+        Field("Angle of attack", "°", -4.0, 14.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
         Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
-        Field("Total inflow λ", "", 0.0, 0.12, "sequential", _inflow),
+        Field("Total inflow λ", "", -0.02, 0.12, "sequential", _inflow),
         Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
-        Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
-        Field("Circulation", "m²/s", -5.0, 30.0, "sequential", _circulation, void_in_reverse_flow=True),
-        Field("Drag dD/dr", "N/m per blade", 0.0, 300.0, "sequential", _drag),
-        Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
-        Field("Induced power dP/dr", "kW/m per blade", -10.0, 40.0, "sequential", _induced_power),
-        Field("Profile power dP/dr", "kW/m per blade", 0.0, 60.0, "sequential", _profile_power),
+        Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust, speeds=2),
+        Field("Circulation", "m²/s", -5.0, 35.0, "sequential", _circulation, void_in_reverse_flow=True, speeds=1),
+        Field("Drag dD/dr", "N/m per blade", 0.0, 300.0, "sequential", _drag, speeds=2),
+        Field("Power dP/dr", "kW/m per blade", -20.0, 150.0, "sequential", _power, speeds=3),
+        Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
+        Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
-        Field("Elastic twist", "°", -5.0, 5.0, "diverging", _elastic_deg, absent=_rigid),
+        Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_rigid),
     )
 }
 """By title, in the order of the menu."""
@@ -199,6 +203,17 @@ def keeps_range(field: Field, values: Array, held: tuple[float, float]) -> bool:
     beyond = np.count_nonzero(values < low) + np.count_nonzero(values > high)
     fitted = fitted_range(field, values, trim=TRIM)
     return bool(beyond <= 3.0 * TRIM * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
+
+
+def usual_range(field: Field, rotor: Rotor) -> tuple[float, float]:
+    """The range in which a field of this rotor is shown, whatever the design: that of the UH-60A, in proportion."""
+    if field.speeds is None:
+        return field.low, field.high
+    usual = shipped_aircraft("uh60a").rotor_for("flight")
+    ratio, of = rotor.reference_chord / usual.reference_chord, rotor.tip_speed / usual.tip_speed
+    factor = ratio * of**field.speeds
+    step = round_up(factor * (field.high - field.low) / 10.0)
+    return step * math.floor(factor * field.low / step + 1e-9), step * math.ceil(factor * field.high / step - 1e-9)
 
 
 def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:

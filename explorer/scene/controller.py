@@ -10,7 +10,7 @@ import viser
 from explorer.interface import RangeDisplay
 from explorer.picture.camera_views import View, apart, reader
 from explorer.picture.disk_image import AT_REST, MOVING
-from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field
+from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.camera import FittedCamera
@@ -109,7 +109,7 @@ class SceneController:
     def settle(self) -> None:
         """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A beside B.
 
-        A colour range that no longer fits is fitted now.
+        The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """
         drawn = self._drawn
         if drawn is None or self._settled:
@@ -117,7 +117,7 @@ class SceneController:
         solution, view = drawn.solution, drawn.view
         field = _field(view, drawn.pinned)
         values = field_values(solution, field)
-        if field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
+        if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
             fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
         self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
@@ -180,14 +180,20 @@ class SceneController:
         self._order = order
 
     def _range(self, solution: Solution, field: Field) -> Range:
-        """The colour range: fitted when a field is first shown, held while anything moves."""
+        """The field's usual range, or the one fitted to all values on request; that of B − A when it is first shown."""
         order, self._order = self._order, None
         if order == "Rescale":
             self._ranges[field.title] = fitted_range(field, field_values(solution, field))
             self._chosen.add(field.title)
-        elif order == "Default" or field.title not in self._ranges:
-            self._ranges[field.title] = fitted_range(field, field_values(solution, field), trim=TRIM)
+        elif order == "Default":
+            self._ranges.pop(field.title, None)
             self._chosen.discard(field.title)
+        if field.title in self._chosen or (field.note and field.title in self._ranges):
+            return self._ranges[field.title]
+        usual = usual_range(field, solution.design.rotor)
+        self._ranges[field.title] = (
+            fitted_range(field, field_values(solution, field), trim=TRIM) if field.note else usual
+        )
         return self._ranges[field.title]
 
     def _set_theme(self, view: ViewState) -> None:

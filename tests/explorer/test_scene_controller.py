@@ -15,7 +15,8 @@ from explorer.hosting import viser_compat
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
 from explorer.picture.camera_views import apart
 from explorer.picture.disk_image import AT_REST, MOVING
-from explorer.picture.fields import FIELDS, Field
+from explorer.picture.fields import FIELDS, Field, usual_range
+from explorer.picture.picture import field_values
 from explorer.picture.poses import flown_twist
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
@@ -176,24 +177,36 @@ class TestGhost:
 
 
 class TestRanges:
-    def test_a_range_fits_the_field_when_it_is_first_shown(self, page: Page, built: Solution):
-        for title in FIELDS:
-            page.controller.draw(built, replace(VIEW, field=title), None)
-        ranges = {title: held for title, held, _, _ in page.shown.calls}
-        assert set(ranges) == set(FIELDS)
-        assert ranges["Mach number"][1] <= 1.0
-        assert ranges["Angle of attack"] != (FIELDS["Angle of attack"].low, FIELDS["Angle of attack"].high)
-
-    def test_it_is_held_while_moving_and_fitted_at_rest(self, page: Page):
+    def test_a_range_holds_across_designs_until_a_fit_is_asked_for(self, page: Page):
         view = replace(VIEW, field="Thrust dT/dr")
         light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
-        page.controller.draw(light, view, None)
-        page.controller.settle()
-        first = page.shown.calls[-1][1]
-        page.controller.draw(heavy, view, None)
-        assert page.shown.calls[-1][1] == first
-        page.controller.settle()
-        assert page.shown.calls[-1][1][1] > first[1]
+        for solution in (light, heavy):
+            page.controller.draw(solution, view, None)
+            page.controller.settle()
+        assert {held for _, held, _, _ in page.shown.calls} == {usual_range(FIELDS["Thrust dT/dr"], ROTOR)}
+        for order, fits in (("Rescale", True), ("Default", False)):
+            page.controller.order_range(order)
+            page.controller.draw(heavy, replace(view, azimuth_deg=30.0 + 10.0 * fits), None)
+            assert (page.shown.calls[-1][1] != usual_range(FIELDS["Thrust dT/dr"], ROTOR)) == fits
+
+    @pytest.mark.parametrize("rotor", ["uh60a", "r22", "bo105"])
+    def test_usual_ranges_show_the_field_of_any_rotor(self, rotor: str):
+        """Hardly anything beyond, and not all of it in a few colours: also for rotors of other size and speed."""
+        for mu in (0.1, 0.2, 0.3):
+            solution = solve(make_design(rotor=rotor, mu=mu)).require()
+            for field in FIELDS.values():
+                values = field_values(solution, field)
+                if values.size:
+                    low, high = usual_range(field, solution.design.rotor)
+                    seen = np.quantile(values, (0.02, 0.98))
+                    assert np.mean((values < low) | (values > high)) < 0.12, (field.title, mu, low, high, seen)
+                    assert field.two_sided or seen[1] - seen[0] > 0.18 * (high - low), (
+                        field.title,
+                        mu,
+                        low,
+                        high,
+                        seen,
+                    )
 
     def test_a_range_that_was_asked_for_stays(self, page: Page):
         view = replace(VIEW, field="Thrust dT/dr")
