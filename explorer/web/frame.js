@@ -185,8 +185,8 @@
   const tag = part('tag');
   let x = 0, y = 0;
   const follow = () => {
-    const away = page.hasAttribute('data-rubber') && x > tag.offsetWidth + 150;  // Clear of the trailing edge and its arc.
-    tag.style.transform = `translate(${away ? x - tag.offsetWidth - 140 : Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - (away ? 24 : 66), 4)}px)`;
+    const rubber = page.hasAttribute('data-rubber'), away = rubber && x > tag.offsetWidth + 150;  // Clear of the trailing edge and its arc.
+    tag.style.transform = `translate(${away ? x - tag.offsetWidth - 140 : Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - (away ? 24 : rubber ? -60 : 66), 4)}px)`;
   };
   addEventListener('pointermove', event => { x = event.clientX; y = event.clientY; if (tag.hasAttribute('data-on')) follow(); }, true);
   RX.follow = (left, top) => { x = left; y = top; follow(); };

@@ -162,7 +162,7 @@
     const svg = place.querySelector('svg');
     svg.setAttribute('viewBox', `0 0 ${layout.width} ${layout.height}`);
     svg.innerHTML = inside;
-    if (one.by_key) RX.follow?.(layout.stage.left + spot(one.share)[0], layout.stage.top + spot(one.share)[1] + 150);
+    if (one.by_key) RX.follow?.(layout.stage.left + 6, layout.stage.top + (layout.wide ? 230 : 150));
     place.style.opacity = Math.min(1, 1.6 * e);
     place.querySelector('p').innerHTML = one.by_key ? `<b>${text(one.titles[one.at])} ${one.r.toFixed(2)} R</b> ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter: done · Esc: as before` : `Jig twist from the tip, drawn ×${TIMES} · release: back to the aircraft · Esc: as before`;
     one.wanted = free;
