@@ -150,7 +150,7 @@ class Page:
             RotorUpload(gui, context)
         with layout.in_drawer("share"):
             self.file = FilePanel(client, context, address, facts.kept, opened["Files"])
-            sources = ExportSources(lambda: self.camera, lambda: self.history.kept, self.scene.held_range)
+            sources = ExportSources(lambda: self.history.kept, self.scene.held_range)
             export = ExportPanel(client, context, sources, lambda: self._open("share"))
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(gui, bridge, context, self._presence, self._set_stage)

@@ -14,6 +14,7 @@ import numpy as np
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.text.units import KILOWATT, SI, Units, number
 from rotor.arrays import Array
+from rotor.line_chart import round_ticks
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 
@@ -145,15 +146,6 @@ class StripChart:
             "value": self.value,
             "note": self.note,
         }
-
-
-def round_ticks(low: float, high: float, count: int) -> list[float]:
-    """At most `count` + 1 round numbers within an axis, zero among them where it is inside."""
-    span = high - low
-    step = 10.0 ** math.floor(math.log10(span / count))
-    step = next(factor * step for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if factor * step * count >= span * (1.0 - 1e-9))
-    first = math.ceil(low / step - 1e-9)
-    return [round(k * step, 12) for k in range(first, math.floor(high / step + 1e-9) + 1)]
 
 
 def power_change_chart(

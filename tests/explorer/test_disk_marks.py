@@ -15,7 +15,7 @@ from explorer.picture.airframe import airframe
 from explorer.picture.blade_inset import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
-from explorer.picture.polar import angle_of_attack, polar_grid, refined, stall_margin
+from explorer.picture.polar import polar_grid, refined, stall_angles
 from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, RegionLabel, region_codes, region_labels
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
@@ -61,7 +61,7 @@ class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
         codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
-        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (stall_margin(fast, grid) < 0.0)
+        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (refined(fast, grid).margin < 0.0)
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
         assert share == pytest.approx(fast.stalled_area, abs=0.02)
@@ -107,8 +107,12 @@ class TestRegions:
         grid = polar_grid(fast.disk, 112, 384)
         flow = refined(fast, grid)
         ahead = flow.u_t > 0.05
-        assert np.abs(flow.alpha - angle_of_attack(fast, grid))[ahead].max() < 1e-4
-        assert np.abs(flow.margin - stall_margin(fast, grid))[ahead].max() < 1e-4
+        theta, u_t, u_p, lower, upper = map(
+            grid.refine, (fast.disk.theta, fast.disk.u_t, fast.disk.u_p, *stall_angles(fast))
+        )
+        alpha = theta - np.arctan2(u_p, u_t)
+        assert np.abs(flow.alpha - alpha)[ahead].max() < 1e-4
+        assert np.abs(flow.margin - np.minimum(upper - alpha, alpha - lower))[ahead].max() < 1e-4
 
 
 class TestLabels:
@@ -175,7 +179,7 @@ class TestHatch:
         regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
         plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = stall_margin(fast, grid) < math.radians(-0.6)
+        stalled = refined(fast, grid).margin < math.radians(-0.6)
         row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
         x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
         y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)

@@ -1,11 +1,11 @@
 """The session's designs as one HTML file that needs no server and no network: power, trim, 3D, disks, charts."""
 
+import json
 from dataclasses import asdict
 from html import escape
 
 from explorer import web
 from explorer.charts.power_curve import PowerCurves
-from explorer.export.as_code import as_command_line, as_python
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
 from explorer.export.report.contents import DesignReport, colours_of
@@ -15,6 +15,7 @@ from explorer.text.design_words import flight_words, model_words, title_words, w
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
+from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
 
@@ -108,21 +109,14 @@ def _section(report: DesignReport, k: int) -> str:
         f"{_caveats(solution)}"
         f'<div class="tables">{tables.conditions(solution)}{tables.parts(report, entry)}'
         f"{tables.trim(solution)}</div>{tables.blade(solution.design)}"
-        f"{figures.disks(report, entry, k)}{figures.along(solution)}{_again(solution)}</section>"
+        f"{figures.disks(report, entry, k)}{figures.along(solution)}{_design_file(solution.design)}</section>"
     )
 
 
-def _again(solution: Solution) -> str:
-    """How to reproduce it: command line and script."""
-    texts = {"Python": as_python, "Command line": lambda design: as_command_line(design).text}
-    parts = []
-    for title, write in texts.items():
-        try:
-            text = write(solution.design)
-        except ValueError as error:
-            text = str(error)
-        parts.append(f"<details><summary>{title}</summary><pre>{escape(text)}</pre></details>")
-    return f"<h3>To reproduce it</h3>{''.join(parts)}"
+def _design_file(design: Design) -> str:
+    """The design as its file, which the page, the command line and Python open."""
+    text = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)
+    return f"<details><summary>Design file</summary><pre>{escape(text)}</pre></details>"
 
 
 def _caveats(solution: Solution) -> str:

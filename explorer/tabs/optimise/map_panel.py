@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
 from explorer.interface import TabContext
-from explorer.picture.fields import tick_text, ticks
 from explorer.picture.png import encode_png
 from explorer.state import with_optimum
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
@@ -25,6 +24,7 @@ from explorer.workers.tasks import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.line_chart import round_ticks, tick_text
 from rotor.optimisation.concepts import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND as _BAND
 
@@ -138,7 +138,7 @@ def _star(x: float, y: float) -> str:
 def _axis(parameter: Parameter, along: bool) -> str:
     low, high = parameter.shown(parameter.low), parameter.shown(parameter.high)
     out = []
-    for value in ticks(low, high):
+    for value in round_ticks(low, high, 5):
         part = (value - low) / (high - low)
         if along:
             at = _LEFT + part * _W
