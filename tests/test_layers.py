@@ -18,8 +18,8 @@ KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/", "explore
 ORDER = {
     "rotor": (
         "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "blas_threads", "plots", "assets",
-        "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation", "analysis", "validation", "actuator",
-        "study", "reproduce", "command",
+        "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation", "analysis",
+        "validation", "actuator", "study", "reproduce", "command",
     ),
     "explorer": (
         "web", "theme", "workers", "hosting", "stand", "state", "text", "undo", "power_tracker",

@@ -19,7 +19,7 @@ _lock = threading.Lock()
 _due: threading.Timer | None = None
 
 
-def settle() -> None:
+def exclude_from_collection() -> None:
     """Exclude what is loaded by now from garbage collection: each pass over it took 90 ms, without a frame."""
     gc.collect()
     gc.freeze()
@@ -58,10 +58,8 @@ def give_back() -> None:
 
 SESSIONS = 24
 """Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
-SLEEP_AFTER = 1800.0
-"""[s]; the break of a lecture."""
 _SPARE = 40
-"""Connections beyond the pages at work: pages that wait, sleep, or have only just connected."""
+"""Connections beyond the pages at work: pages that wait, or have only just connected."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +68,6 @@ class ServerLimits:
 
     sessions: int = SESSIONS
     """Pages at work at once."""
-    sleep_after: float = SLEEP_AFTER
-    """[s] without a change after which a page sleeps: its caches are freed, another page may take its place."""
     allow_hosts: tuple[str, ...] = ()
     """Further names by which the server is reached."""
     studies: Path = Path()

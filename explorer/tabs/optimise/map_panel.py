@@ -18,8 +18,7 @@ from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.text.units import SI, UNITS, Units, number
 from explorer.theme.colours import NOW, colour_map, css
-from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Pool
 from explorer.workers.tasks import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -246,7 +245,7 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, search: OptimisePanel) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Pool, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the Optimise tab asks for."""
         self._pool, self._context, self._search, self._request = pool, context, search, search.request
         self._job: Job | None = None

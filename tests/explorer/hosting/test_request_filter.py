@@ -271,23 +271,6 @@ class TestPlaces:
         finally:
             viser_compat.quiet_stop(server)
 
-    @pytest.mark.slow
-    def test_a_sleeping_page_makes_room_and_wakes_when_touched(self):
-        app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1, sleep_after=0.3))
-        try:
-
-            async def work() -> None:
-                sleeper, other = await arrive(app), Visitor()
-                await other.open(app.address)
-                await other.until(lambda: other.text("status") == "converged")
-                await still_served(sleeper)
-                await other.close()
-                await sleeper.close()
-
-            alone(work)
-        finally:
-            app.stop()
-
 
 async def still_served(visitor: Visitor) -> None:
     """A slider moved by this visitor still moves its blade."""
@@ -334,7 +317,7 @@ def words(visitor: Visitor) -> str:
 def settle(app: App) -> None:
     """Until the server has noticed that all have left."""
     for _ in range(3000):
-        if not app._connections and not [t for t in threading.enumerate() if t.name.startswith("session-")]:
+        if not app._connections and not app._seated:
             return
         time.sleep(0.02)
     raise AssertionError("sessions stay behind")
