@@ -85,7 +85,7 @@ def test_every_widget_that_is_made_anywhere_has_its_hint_from_the_glossary():
             given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
             where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
             assert given or label == "Close" or _never_seen(node), (
-                f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.py"
+                f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.toml"
             )
             assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
 
