@@ -17,7 +17,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `demo` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["report"]:
-        from explorer.export.report.command import main as report
+        from explorer.export.report.document import main as report
 
         return report(given[1:])
     if given[:1] == ["blade"]:
@@ -42,8 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.allowed_hosts import is_loopback, warning
-    from explorer.hosting.limits import ServerLimits, few_pools
-    from explorer.hosting.log_limit import limit_log
+    from explorer.hosting.limits import ServerLimits, few_pools, limit_log
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import load_design

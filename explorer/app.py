@@ -15,8 +15,7 @@ from explorer.hosting import viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.limits import ServerLimits
-from explorer.hosting.request_filter import RequestFilter
-from explorer.hosting.served_page import with_loading_screen
+from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 from explorer.interface import SharedServices
 from explorer.picture import picture
 from explorer.session import Session

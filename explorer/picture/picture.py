@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture import disk_image
+from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.lettering import label_masks
@@ -22,7 +23,6 @@ from explorer.picture.poses import (
     tip_path_pose,
 )
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
-from explorer.picture.rotor_head import size
 from explorer.picture.scene_theme import DiskInk, scene_theme
 from explorer.state import ViewState
 from rotor.arrays import Array

@@ -12,7 +12,7 @@ from PIL import Image
 
 from explorer.picture import disk_image, lettering
 from explorer.picture.airframe import airframe
-from explorer.picture.blade_inset import inset
+from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid, refined, stall_angles

@@ -13,7 +13,6 @@ import viser
 from explorer.sliders import SLIDERS
 from explorer.state import Inputs
 from explorer.tabs.controls import DesignControls
-from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
 from explorer.text.status import status_panel
@@ -98,8 +97,8 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
     page = [
         readout.power_panel(solution, other),
         readout.trim_panel(solution),
-        ab_readout.power_panel(solution, other),
-        ab_readout.trim_panel(solution, other),
+        readout.compared_power_panel(solution, other),
+        readout.compared_trim_panel(solution, other),
         status_panel(solution),
     ]
     for html in page:

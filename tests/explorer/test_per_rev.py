@@ -24,7 +24,7 @@ from explorer.tabs.actuator.state import ActuatorInputs
 from explorer.tabs.controls import DesignControls, PerRevControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import twist_name, wave_words
-from explorer.text.validated import validated
+from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.undo import History
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics

@@ -20,7 +20,7 @@ from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.disk_drawing import disk_svg, key_entries
 from explorer.export.provenance import versions
-from explorer.export.report import command as report_command
+from explorer.export.report import document
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.picture import disk_image
@@ -207,7 +207,7 @@ class TestCommand:
     def test_design_files_become_one_report(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ):
-        monkeypatch.setattr(report_command, "report_html", lambda report, stage: report_html(report, stage, Swept()))
+        monkeypatch.setattr(document, "report_html", lambda report, stage: report_html(report, stage, Swept()))
         for name, solution in (("now", NOW), ("fast", FAST)):
             solution.design.save(tmp_path / f"{name}.json")
         out = tmp_path / "out.html"

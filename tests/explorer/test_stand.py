@@ -15,7 +15,7 @@ from explorer.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measu
 from explorer.state import OPENING, Inputs, with_rotor
 from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
-from explorer.text.validated import row_of, validated
+from explorer.text.status import row_of, validated
 from explorer.undo import History
 from rotor.assets import MEASURED_ROTORS
 from rotor.trim.solve import solve
