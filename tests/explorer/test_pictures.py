@@ -217,17 +217,6 @@ class TestColours:
     def test_greyed_has_no_hue(self):
         assert np.ptp(greyed(colour_map("diverging", 40)), axis=1).max() == 0
 
-    def test_label_has_its_unit(self):
-        assert FIELDS["Angle of attack"].label == "Angle of attack [°]"
-
-
-class TestReverseFlow:
-    def test_reverse_flow_is_where_the_solver_has_it(self, forward: Solution):
-        disk = forward.disk
-        mu = 0.3 * math.cos(forward.controls.shaft_tilt)
-        inside = disk.r[:, None] < -mu * np.sin(disk.psi)[None, :]
-        assert np.mean(inside != (disk.u_t < 0.0)) < 0.002
-
 
 class TestPoses:
     def test_quaternions_turn_and_compose(self):
