@@ -33,7 +33,7 @@ import pictures  # noqa: E402
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import demo  # noqa: E402
-from explorer.export.report import command as report_command  # noqa: E402
+from explorer.export.report import document  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
 from rotor.command.parser import build_parser  # noqa: E402
 
@@ -129,7 +129,7 @@ class Commands(SphinxDirective):
         for parser in (
             *rotor_commands.choices.values(),
             page_command._parser(),
-            report_command._parser(),
+            document._parser(),
             demo._parser(),
         ):
             text = parser.format_help()

@@ -5,10 +5,11 @@ from html import escape
 import numpy as np
 
 import rotor
-from explorer.charts.line_chart import Trace, line_chart
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
+from explorer.export.report.figures import figure
 from explorer.picture.fields import FIELDS
 from explorer.theme.colours import PARTS
+from rotor.line_chart import LineChart, Mark, Series
 
 _COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5")
 
@@ -21,17 +22,18 @@ def power_of_twist() -> str:
         design = rotor.make_design(mu=speed)
         powers = [rotor.solve(design.with_twist(f"linear:{rate:g}")).power for rate in rates]
         total = np.array([power.total for power in powers])
-        traces = [Trace("total", "currentColor", rates, 100.0 * (total / total.min() - 1.0), width=2.6)]
+        series = [_series("total", rates, 100.0 * (total / total.min() - 1.0), "currentColor")]
         for part in ("induced", "profile"):
             values = np.array([getattr(power, part) for power in powers])
-            traces.append(Trace(part, PARTS[part], rates, 100.0 * (values - values[-1]) / total.min(), "5 3"))
+            change = 100.0 * (values - values[-1]) / total.min()
+            series.append(_series(part, rates, change, PARTS[part], "dashed"))
         labels = "linear twist [°]", "change [% of the least power]"
-        charts.append(line_chart(title, *labels, traces, (-20.0, 0.0)))
+        charts.append(figure(LineChart(title, *labels, tuple(series), x_range=(-20.0, 0.0))))
     return "".join(charts)
 
 
 def disk_in_fast_flight() -> str:
-    """Angle of attack and induced inflow at µ = 0.35, with the outlines of reverse flow and stall."""
+    """Angle of attack and induced inflow at µ = 0.35, with reverse flow and stall marked."""
     solution = rotor.solve(rotor.make_design(mu=0.35))
     return _disk(solution, "Angle of attack") + _disk(solution, "Induced inflow λi")
 
@@ -47,15 +49,20 @@ def twist_and_stall() -> str:
 
 def shipped_rotors() -> str:
     """Power over advance ratio of the shipped rotors, per weight."""
-    traces = []
+    series = []
     for name, colour in zip(("uh60a", "r22", "s61"), _COLOURS, strict=False):
         table = [
             one for one in rotor.sweep(rotor.make_design(rotor=name), np.arange(0.08, 0.321, 0.04)) if one.converged
         ]
         speeds = np.array([one.design.condition.advance_ratio for one in table])
         loading = np.array([one.power.total / one.design.condition.weight for one in table])
-        traces.append(Trace(table[0].design.rotor.name, colour, speeds, loading))
-    return line_chart("Power over weight", "advance ratio µ", "power over weight [W/N]", traces, (0.05, 0.35))
+        series.append(_series(table[0].design.rotor.name, speeds, loading, colour))
+    labels = "advance ratio µ", "power over weight [W/N]"
+    return figure(LineChart("Power over weight", *labels, tuple(series), x_range=(0.05, 0.35)))
+
+
+def _series(label: str, x: np.ndarray, y: np.ndarray, colour: str, mark: Mark = "line") -> Series:
+    return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
 
 
 def _disk(solution: rotor.Solution, field: str, title: str = "") -> str:

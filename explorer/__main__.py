@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from explorer.hosting.allowed_hosts import host_name
-from explorer.hosting.limits import SESSIONS, SLEEP_AFTER
+from explorer.hosting.limits import SESSIONS
 from rotor import __version__
 from rotor.terminal import OneLineParser, StopSignal, run_command
 
@@ -17,7 +17,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `demo` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["report"]:
-        from explorer.export.report.command import main as report
+        from explorer.export.report.document import main as report
 
         return report(given[1:])
     if given[:1] == ["blade"]:
@@ -42,8 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.allowed_hosts import is_loopback, warning
-    from explorer.hosting.limits import ServerLimits, few_pools
-    from explorer.hosting.log_limit import limit_log
+    from explorer.hosting.limits import ServerLimits, few_pools, limit_log
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import load_design
@@ -55,7 +54,6 @@ def _run(options: argparse.Namespace) -> int:
         start = inputs_of(load_design(options.design)) if options.design is not None else OPENING
         limits = ServerLimits(
             sessions=options.max_sessions,
-            sleep_after=60.0 * options.sleep_after,
             allow_hosts=tuple(options.allow_host),
             studies=Path(options.studies),
         )
@@ -71,7 +69,7 @@ def _run(options: argparse.Namespace) -> int:
         # A browser may leave in the middle of an update.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         stop = StopSignal()
-        app.settle()
+        app.wait_until_warm()
         stop.wait()
     finally:
         app.stop()
@@ -108,13 +106,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--studies", metavar="DIR", default=".", help="folder with results of studies (default: this one)"
     )
-    parser.add_argument(
-        "--sleep-after",
-        metavar="MINUTES",
-        type=_minutes,
-        default=SLEEP_AFTER / 60.0,
-        help=f"idle time after which a page gives its place to others (default {SLEEP_AFTER / 60.0:g})",
-    )
     return parser
 
 
@@ -135,16 +126,6 @@ def _sessions(text: str) -> int:
     if not text.isdigit() or not 1 <= int(text) <= 1000:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of pages: give 1…1000")
     return int(text)
-
-
-def _minutes(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.01 <= value <= 1e5:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a time in minutes: give 0.01…100000")
-    return value
 
 
 def _open_browser(address: str) -> None:

@@ -15,16 +15,13 @@ from explorer.hosting import viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.limits import ServerLimits
-from explorer.hosting.request_filter import RequestFilter
-from explorer.hosting.seats import SeatQueue
-from explorer.hosting.served_page import with_loading_screen
+from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 from explorer.interface import SharedServices
 from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
 from explorer.state import OPENING, Inputs
 from explorer.workers import solver
-from explorer.workers.newest_wins import IdleTimeout
 from explorer.workers.pool import Pool
 
 _log = logging.getLogger(__name__)
@@ -45,7 +42,10 @@ class App:
         self._start = start or OPENING
         self._limits = limits or ServerLimits()
         self._connections: dict[int, ClientConnection] = {}
-        self._seats: SeatQueue[ClientConnection] = SeatQueue(self._limits.sessions)
+        self._lock = threading.Lock()
+        self._seated: set[ClientConnection] = set()
+        self._waiting: list[ClientConnection] = []
+        """For a place, in order of arrival."""
         self.pool = Pool()
         self._warmed = threading.Event()
         self.presentations = Presentations()
@@ -67,11 +67,11 @@ class App:
         shown = "127.0.0.1" if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
         return f"http://{shown}:{self.server.get_port()}"
 
-    def settle(self) -> None:
+    def wait_until_warm(self) -> None:
         """Wait until everything is loaded and keep it from garbage collection: for a process that only serves."""
         self._warmed.wait()
         if not self._connections:  # What a page holds must be collected with it.
-            memory.settle()
+            memory.exclude_from_collection()
 
     @property
     def sessions(self) -> tuple[Session, ...]:
@@ -97,41 +97,34 @@ class App:
 
     def _welcome(self, connection: ClientConnection) -> None:
         connection.ask()
-        if self._seats.arrive(connection):
-            connection.begin(partial(self._session, connection))
-        else:
-            self._show_positions()
+        self._give_places(arrived=connection)
         if connection.client.client_id not in self._connections:  # It left before it had a place.
             self._leave(connection)
 
     def _leave(self, connection: ClientConnection) -> None:
         connection.leave()
-        self._seat(self._seats.leave(connection))
+        self._give_places(left=connection)
         memory.give_back_soon()
 
-    def _session(self, connection: ClientConnection, client: viser.ClientHandle, facts: PageFacts) -> Session:
-        idle = IdleTimeout(
-            self._limits.sleep_after,
-            lambda: self._sleep(connection),
-            lambda: self._seats.wake(connection),
-        )
-        shared = SharedServices(self.pool.share(), self.presentations, self._limits.studies)
-        return Session(client, self._start, facts, shared, idle)
-
-    def _sleep(self, connection: ClientConnection) -> None:
-        self._seat(self._seats.sleep(connection))
-        memory.give_back_soon()
-
-    def _seat(self, coming: list[ClientConnection]) -> None:
-        """Begin the sessions of those whose turn it is."""
+    def _give_places(self, arrived: ClientConnection | None = None, left: ClientConnection | None = None) -> None:
+        """Begin the sessions of those for whom there is a place now, and tell the others their position."""
+        with self._lock:
+            self._waiting = [one for one in (*self._waiting, arrived) if one is not None and one is not left]
+            if left is not None:
+                self._seated.discard(left)
+            free = max(self._limits.sessions - len(self._seated), 0)
+            coming, self._waiting = self._waiting[:free], self._waiting[free:]
+            self._seated.update(coming)
+            waiting = tuple(self._waiting)
         for connection in coming:
-            begin = partial(connection.begin, partial(self._session, connection))
-            _in_thread(f"seat-{connection.client.client_id}", begin)
-        self._show_positions()
-
-    def _show_positions(self) -> None:
-        for ahead, connection in enumerate(self._seats.waiting):
+            begin = partial(connection.begin, self._session)
+            begin() if connection is arrived else _in_thread(f"seat-{connection.client.client_id}", begin)
+        for ahead, connection in enumerate(waiting):
             connection.wait(self._limits.sessions, ahead)
+
+    def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
+        shared = SharedServices(self.pool, self.presentations, self._limits.studies)
+        return Session(client, self._start, facts, shared)
 
     def _warm(self) -> None:
         try:

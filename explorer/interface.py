@@ -14,7 +14,7 @@ from explorer.picture.fields import Field
 from explorer.pinned import Pinned
 from explorer.sharing.presentation import Presentations
 from explorer.state import Inputs, ViewState
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Pool
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
@@ -231,7 +231,7 @@ class SessionCallbacks:
 class SharedServices:
     """What the pages of one server share."""
 
-    pool: PoolClient
+    pool: Pool
     """This page's access to the worker processes."""
     presentations: Presentations
     studies: Path = Path()

@@ -158,7 +158,7 @@ class Page:
             RotorUpload(gui, context)
         with layout.in_drawer("share"):
             self.file = FilePanel(client, context, address, facts.kept, opened["Files"])
-            sources = ExportSources(lambda: self.camera, lambda: self.history.kept, self.scene.held_range)
+            sources = ExportSources(lambda: self.history.kept, self.scene.held_range)
             export = ExportPanel(client, context, sources, lambda: self._open("share"))
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(gui, bridge, context, self._presence, self._set_stage)
@@ -174,7 +174,6 @@ class Page:
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
-        self.actuator.start()
         self._refresh(Reading(self.controls.inputs(), self.display.view()))
 
     def stop(self) -> None:

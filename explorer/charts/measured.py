@@ -10,8 +10,8 @@ import numpy as np
 from explorer.charts.plots import Range, held_range
 from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
 from explorer.stand import POWER_REPORTS, MeasuredPower, as_measured, measured_powers
+from explorer.text.status import validated
 from explorer.text.units import Units, number
-from explorer.text.validated import validated
 from rotor.analysis.series import between_drag_areas
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from explorer.picture.polar import stall_angles
+from explorer.picture.poses import at_azimuth
 from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
@@ -74,21 +75,12 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, Array]:
     """Negative and positive stall angle, and α [°], at the elements of one azimuth; NaN in reverse flow."""
     disk = solution.disk
-    theta, u_t, u_p = (_at_azimuth(solution, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
-    lower, upper = (_at_azimuth(solution, limit, azimuth_deg) for limit in stall_angles(solution))
+    fields = (disk.theta, disk.u_t, disk.u_p, *stall_angles(solution))
+    theta, u_t, u_p, lower, upper = (at_azimuth(solution, values, math.radians(azimuth_deg)) for values in fields)
     outside, alpha = np.where(u_t > 0.0, 1.0, np.nan), theta - np.arctan2(u_p, u_t)
     return outside * np.degrees(lower), outside * np.degrees(upper), outside * np.degrees(alpha)
 
 
 def lift_along(solution: Solution, azimuth_deg: float) -> Array:
     """C_l at the elements of one azimuth, reverse flow included."""
-    return _at_azimuth(solution, solution.disk.cl, azimuth_deg)
-
-
-def _at_azimuth(solution: Solution, values: Array, azimuth_deg: float) -> Array:
-    """A column of (elements, azimuths) between two stations, periodic."""
-    n = values.shape[1]
-    position = (math.radians(azimuth_deg) - float(solution.disk.psi[0])) * n / (2.0 * math.pi)
-    base = math.floor(position)
-    weight = position - base
-    return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
+    return at_azimuth(solution, solution.disk.cl, math.radians(azimuth_deg))

@@ -10,7 +10,7 @@ from scipy.interpolate import PchipInterpolator
 
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.text.readout import ideal_induced
-from explorer.workers.scheduler import SCHEDULER
+from explorer.workers.newest_wins import UPDATES
 from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -146,7 +146,7 @@ class PowerCurves:
                 if k not in few or end < len(SWEEP):
                     self._starts = before | points
                     return _bridged(values, slow, base), True
-                if patient or SCHEDULER.waiting or time.monotonic() - begun > self._haste:
+                if patient or UPDATES.waiting or time.monotonic() - begun > self._haste:
                     return None, False
             try:
                 design = family.at(mu=SWEEP[k])

@@ -4,8 +4,7 @@ Each chart compares this design with its reference. Gaps are NaN in the arrays a
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, Literal
 
@@ -14,6 +13,7 @@ import numpy as np
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.text.units import KILOWATT, SI, Units, number
 from rotor.arrays import Array
+from rotor.line_chart import round_ticks
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 
@@ -104,16 +104,23 @@ class StripChart:
         low, high = self.y_range
         return bool(np.mean((line.y >= low) & (line.y <= high)) > 0.5)
 
-    def _area(self, band: StripBand, digits: int) -> dict[str, list[float | None]]:
-        known = np.isfinite(band.low) & np.isfinite(band.high)
-        edges = {"x": (band.x, 4), "low": (band.low, digits), "high": (band.high, digits)}
-        return {name: _plain(values[known], places) for name, (values, places) in edges.items()}
-
     @cached_property
     def as_dict(self) -> dict[str, Any]:
         """The chart as JSON can hold it, rounded to what a pixel shows."""
-        span = self.y_range[1] - self.y_range[0]
-        digits = max(0, 4 - math.floor(math.log10(span)))
+        digits = max(0, 4 - math.floor(math.log10(self.y_range[1] - self.y_range[0])))
+        y_digits = {"y": digits, "low": digits, "high": digits, "error": digits + 1, "x": 5}
+
+        def plain(part: Any) -> dict[str, Any]:
+            """The fields of a part of the chart, numbers rounded."""
+            values = {one.name: getattr(part, one.name) for one in fields(part)}
+            return {
+                name: _plain(value, y_digits[name]) if name in y_digits else value for name, value in values.items()
+            }
+
+        band = self.band
+        if band is not None:
+            known = np.isfinite(band.low) & np.isfinite(band.high)
+            band = StripBand(band.x[known], band.low[known], band.high[known])
         return {
             "title": self.title,
             "unit": self.unit,
@@ -122,38 +129,13 @@ class StripChart:
             "x_ticks": self.x_ticks,
             "x_name": self.x_name,
             "y_ticks": self.y_ticks,
-            "lines": [
-                {"x": _plain(line.x, 4), "y": _plain(line.y, digits), "role": line.role, "filled": line.filled}
-                for line in self.lines
-                if line.role != "limit" or self._seen(line)
-            ],
-            "dots": [
-                {"x": dot.x, "y": round(dot.y, digits), "label": dot.label} for dot in self.dots if math.isfinite(dot.y)
-            ],
-            "marks": [
-                {
-                    "x": round(mark.x, 5),
-                    "y": round(mark.y, digits),
-                    "error": round(mark.error, digits + 1),
-                    "words": mark.words,
-                    "case": mark.case,
-                    "elsewhere": mark.elsewhere,
-                }
-                for mark in self.marks
-            ],
-            "band": None if self.band is None else self._area(self.band, digits),
+            "lines": [plain(line) for line in self.lines if line.role != "limit" or self._seen(line)],
+            "dots": [plain(dot) for dot in self.dots if math.isfinite(dot.y)],
+            "marks": [plain(mark) for mark in self.marks],
+            "band": None if band is None else plain(band),
             "value": self.value,
             "note": self.note,
         }
-
-
-def round_ticks(low: float, high: float, count: int) -> list[float]:
-    """At most `count` + 1 round numbers within an axis, zero among them where it is inside."""
-    span = high - low
-    step = 10.0 ** math.floor(math.log10(span / count))
-    step = next(factor * step for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if factor * step * count >= span * (1.0 - 1e-9))
-    first = math.ceil(low / step - 1e-9)
-    return [round(k * step, 12) for k in range(first, math.floor(high / step + 1e-9) + 1)]
 
 
 def power_change_chart(
@@ -326,8 +308,7 @@ def _margin(r: Array, margin: Array) -> tuple[str, str]:
     return f"{number(float(margin[at]), 1)}° to stall", f"Least margin at {r[at]:.2f} R."
 
 
-def _plain(values: Sequence[float] | Array, digits: int) -> list[float | None]:
+def _plain(values: float | Array, digits: int) -> Any:
+    """A number, or a list of them with None for NaN."""
     rounded = np.round(np.asarray(values, dtype=float), digits)
-    if np.isfinite(rounded).all():
-        return rounded.tolist()
-    return [value if math.isfinite(value) else None for value in rounded.tolist()]
+    return np.where(np.isfinite(rounded), rounded.astype(object), np.array(None)).tolist()

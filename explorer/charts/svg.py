@@ -2,12 +2,8 @@
 
 import base64
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from html import escape
-
-import numpy as np
-
-from rotor.arrays import Array
 
 Point = tuple[float, float]
 
@@ -115,37 +111,3 @@ def image(x: float, y: float, wide: float, high: float, png: bytes) -> str:
     return (
         f'<image x="{x:.2f}" y="{y:.2f}" width="{wide:.2f}" height="{high:.2f}" href="data:image/png;base64,{data}"/>'
     )
-
-
-def polylines(lines: Sequence[Array]) -> str:
-    """The `d` of a path through lines of points (n, 2); a line that ends where it begins is closed."""
-    parts = []
-    for line in lines:
-        points = [f"{x:.1f},{y:.1f}" for x, y in line]
-        closed = len(points) > 2 and points[0] == points[-1]
-        parts.append("M" + "L".join(points[:-1] if closed else points) + ("Z" if closed else ""))
-    return "".join(parts)
-
-
-def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
-    """Segments (n, 2, 2) joined to lines where they share an end."""
-    keys = [tuple(map(tuple, np.rint(segment / tolerance).astype(int))) for segment in segments]
-    at: dict[tuple[int, ...], list[int]] = {}
-    for k, ends in enumerate(keys):
-        for end in ends:
-            at.setdefault(end, []).append(k)
-    left, lines = set(range(len(keys))), []
-    for first in range(len(keys)):
-        if first not in left:
-            continue
-        left.discard(first)
-        line = [segments[first][0], segments[first][1]]
-        for forward in (True, False):
-            end = keys[first][1 if forward else 0]
-            while (k := next((k for k in at[end] if k in left), None)) is not None:
-                left.discard(k)
-                ahead = 1 if keys[k][0] == end else 0
-                end = keys[k][ahead]
-                line.insert(len(line) if forward else 0, segments[k][ahead])
-        lines.append(np.array(line))
-    return lines

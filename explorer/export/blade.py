@@ -21,9 +21,17 @@ from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
 from explorer.export.provenance import PROGRAM, file_stem
+from explorer.picture.airframe import mast, rotor_head
 from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
-from explorer.picture.poses import Pose, blade_pose, blade_twists, flown_twist, follows_azimuth, rotor_pose
-from explorer.picture.rotor_head import mast, rotor_head
+from explorer.picture.poses import (
+    Pose,
+    at_azimuth,
+    blade_pose,
+    flown_twist,
+    follows_azimuth,
+    rotor_pose,
+    with_active_twist,
+)
 from explorer.picture.solids import Faces
 from explorer.theme import colours
 from rotor.arrays import Array
@@ -83,11 +91,9 @@ def flown_design(solution: Solution, psi: float) -> Design:
     As every law it is zero at 0.75 R: what elasticity does there is left to the pitch.
     """
     design, elastic = solution.design, solution.disk.elastic_twist
-    turning = blade_twists(design, (psi,))
-    law = turning[0] if turning else design.twist
+    law = with_active_twist(design, psi)
     if elastic is not None:
-        grid = solution.disk.psi
-        at = np.array([np.interp(psi, grid, row, period=2.0 * math.pi) for row in elastic])
+        at = at_azimuth(solution, elastic, psi)
         law = SumTwist(law, TableTwist(tuple(solution.disk.r.tolist()), tuple(at.tolist()), "elastic"))
     return replace(design, twist=law, active_twist=None)
 

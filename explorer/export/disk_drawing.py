@@ -1,29 +1,28 @@
-"""The disk from above as SVG of any size: field, outlines, azimuth marks, flight arrow, colour bar and key."""
+"""The disk from above as SVG: field, marked regions, azimuth marks, flight arrow, colour bar and key."""
 
 import math
 from html import escape
 
 from explorer.charts import svg
 from explorer.picture import disk_image as image
-from explorer.picture.fields import Field, tick_text, ticks
-from explorer.picture.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
-from explorer.picture.picture import OUTLINE_COLOURS, disk_png
+from explorer.picture.fields import Field, reverse_flow
+from explorer.picture.picture import disk_png
+from explorer.picture.polar import polar_grid
+from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_codes
+from explorer.picture.scene_theme import DiskInk
+from explorer.text.design_words import flight_words, title_words
 from explorer.text.units import SI, Units
 from explorer.theme.colours import RIM, VOID, colour_map, css
-from rotor.arrays import Array
+from rotor.line_chart import round_ticks, tick_text
 from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
 
 HALF = 134.0
 """Half the edge of the drawing, where the rotor's radius is 100."""
-OUTLINES = {
-    "reverse_flow": ("reverse flow", reverse_flow_segments),
-    "stall": ("stall", stall_segments),
-    "drag_divergence": ("drag divergence", drag_divergence_segments),
-}
-"""Title and source of each line on the disk, by the name of the toggle in `ViewState`."""
 _STOPS = 25
+_FROM_ABOVE = 0.0, 1.0
+"""Labels face a reader behind the tail, as tall as they are wide."""
 
 
 def disk_drawing(
@@ -31,80 +30,63 @@ def disk_drawing(
     field: Field,
     colour_range: Range,
     pixels: int = image.SIZE,
-    shown: tuple[str, ...] = tuple(OUTLINES),
+    marks: Marks = ALL_MARKS,
     letters: float = 9.0,
     units: Units = SI,
 ) -> str:
     """The inside of an SVG that spans −HALF…HALF: nose up, advancing side right.
 
-    `pixels`: along each edge of the field's picture; `shown`: names of the outlines; `letters`: their height.
+    `pixels`: along each edge of the field's picture; `letters`: their height.
     """
     half = image.half_width(100.0, min(pixels, image.LARGEST))
-    picture = svg.image(-half, -half, 2 * half, 2 * half, disk_png(solution, field, colour_range, size=pixels))
+    png = disk_png(solution, field, colour_range, size=pixels, marks=marks, reader=_FROM_ABOVE)
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = "".join(f'<circle r="{r:.2f}" fill="none"/>' for r in (100.0, cutout))
     rim = f'<g stroke="{css(RIM)}" stroke-width=".8">{rings}<path d="{_ticks()}"/></g>'
-    return f"{picture}{rim}{_lines(solution, shown)}{_labels(letters)}{_flight(solution, letters, units)}"
+    return (
+        f"{svg.image(-half, -half, 2 * half, 2 * half, png)}{rim}{_labels(letters)}{_flight(solution, letters, units)}"
+    )
 
 
-def _lines(solution: Solution, shown: tuple[str, ...]) -> str:
-    """Outlines, each with a casing, so that they can be seen on every colour."""
-    out = []
-    for name in shown:
-        lines = [_up(line) for line in svg.joined(OUTLINES[name][1](solution))]
-        if lines:
-            colour, casing = OUTLINE_COLOURS[name]
-            path = svg.polylines(lines)
-            out += [
-                f'<path d="{path}" stroke="{css(paint)}" stroke-width="{width}"/>'
-                for paint, width in ((casing, 2.2), (colour, 1.0))
-            ]
-    return f'<g fill="none" stroke-linejoin="round" stroke-linecap="round">{"".join(out)}</g>'
-
-
-def _up(points: Array) -> Array:
-    """From (aft, starboard) in radii to the drawing's right and down."""
-    return 100.0 * points[..., ::-1]
+def disk_svg(solution: Solution, field: Field, colour_range: Range, marks: Marks, units: Units) -> str:
+    """The drawing as a file of its own, with a title, the colour bar and the key; black on white."""
+    size, wide = 9.0, 200.0
+    key, at = [], -HALF + 6.0
+    for title, swatch in key_entries(solution, field, marks):
+        key.append(f'<g transform="translate({at:.1f} 0)">{swatch}{svg.text(18.0, 7.5, title, size)}</g>')
+        at += 30.0 + 0.55 * size * len(title)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-HALF:g} {-HALF - 34:g} {2 * HALF:g} {2 * HALF + 98:g}" '
+        'font-family="system-ui,sans-serif" color="#212529" style="background:#fff">'
+        f"{svg.text(0, -HALF - 20, title_words(solution.design), 10.5, anchor='middle', weight=650)}"
+        f"{svg.text(0, -HALF - 6, flight_words(solution.design, units), size, anchor='middle')}"
+        f"{disk_drawing(solution, field, colour_range, 1000, marks, size, units)}"
+        f'<g transform="translate({-0.5 * wide:g} {HALF + 4:g})">{bar_drawing(field, colour_range, wide, "scale")}</g>'
+        f'<g transform="translate(0 {HALF + 48:g})">{"".join(key)}</g></svg>'
+    )
 
 
 def _ticks() -> str:
     parts = []
     for degrees in range(0, 360, 10):
-        psi = math.radians(degrees)
         reach = 4.0 if degrees % 90 == 0 else 2.4 if degrees % 30 == 0 else 1.2
-        x, y = math.sin(psi), math.cos(psi)
-        parts.append(f"M{100.6 * x:.2f},{100.6 * y:.2f}L{(100.6 + reach) * x:.2f},{(100.6 + reach) * y:.2f}")
+        (x, y), (x_end, y_end) = _at(degrees, 100.6), _at(degrees, 100.6 + reach)
+        parts.append(f"M{x:.2f},{y:.2f}L{x_end:.2f},{y_end:.2f}")
     return "".join(parts)
 
 
 def _labels(size: float) -> str:
-    return "".join(
-        (
-            svg.text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
-            svg.text(107, 0.35 * size, "90°", size),
-            svg.text(0, -107, "180°", size, anchor="middle"),
-            svg.text(-107, 0.35 * size, "270°", size, anchor="end"),
-            # Arrow of the sense of rotation, outside the rim between ψ 22° and 50°.
-            f'<g fill="{css(RIM)}" stroke="none"><path d="{_arc(22.0, 45.0, 109.0, 2.4)}"/>'
-            f'<path d="{_arrow_head(45.0, 51.0, 109.0, 3.4)}"/></g>',
-        )
-    )
-
-
-def _arc(begin: float, end: float, radius: float, thickness: float) -> str:
-    inner, outer = radius - thickness / 2, radius + thickness / 2
-    (ax, ay), (bx, by), (cx, cy), (dx, dy) = (
-        _at(psi, r) for psi, r in ((begin, inner), (end, inner), (end, outer), (begin, outer))
-    )
+    """Four azimuths, and the sense of rotation outside the rim between ψ 22° and 51°."""
+    (x, y), (x_end, y_end) = _at(22.0, 109.0), _at(45.0, 109.0)
+    head = " ".join(f"{a:.2f},{b:.2f}" for a, b in (_at(45.0, 105.6), _at(51.0, 109.0), _at(45.0, 112.4)))
     return (
-        f"M{ax:.2f},{ay:.2f}A{inner:g},{inner:g} 0 0 0 {bx:.2f},{by:.2f}"
-        f"L{cx:.2f},{cy:.2f}A{outer:g},{outer:g} 0 0 1 {dx:.2f},{dy:.2f}Z"
+        svg.text(0, 107 + size, "ψ = 0°", size, anchor="middle")
+        + svg.text(107, 0.35 * size, "90°", size)
+        + svg.text(0, -107, "180°", size, anchor="middle")
+        + svg.text(-107, 0.35 * size, "270°", size, anchor="end")
+        + f'<path d="M{x:.2f},{y:.2f}A109,109 0 0 0 {x_end:.2f},{y_end:.2f}" fill="none" stroke="{css(RIM)}" '
+        f'stroke-width="2.4"/><polygon points="{head}" fill="{css(RIM)}"/>'
     )
-
-
-def _arrow_head(base: float, tip: float, radius: float, half: float) -> str:
-    points = [_at(base, radius - half), _at(tip, radius), _at(base, radius + half)]
-    return "M" + "L".join(f"{x:.2f},{y:.2f}" for x, y in points) + "Z"
 
 
 def _at(psi_deg: float, r: float) -> tuple[float, float]:
@@ -129,7 +111,7 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
         for k, colour in enumerate(colour_map(field.colours, _STOPS).tolist())
     )
     scale = []
-    for value in ticks(low, high):
+    for value in round_ticks(low, high, 5):
         x = wide * (value - low) / (high - low)
         scale.append(f'<path d="M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}" stroke="currentColor"/>')
         scale.append(svg.text(x, 3.75 * size, tick_text(value), 0.92 * size, anchor="middle"))
@@ -140,20 +122,18 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
     )
 
 
-def key_entries(solution: Solution, field: Field, shown: tuple[str, ...] = tuple(OUTLINES)) -> list[tuple[str, str]]:
-    """Key of the outlines and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
+def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, str]]:
+    """Key of the marked regions and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
+    grid, ink = polar_grid(solution.disk, 80, 240), DiskInk()
+    codes = region_codes(solution, grid, marks, 0.02)
     entries = []
-    for name in shown:
-        title, source = OUTLINES[name]
-        if len(source(solution)):
-            line, casing = OUTLINE_COLOURS[name]
-            entries.append(
-                (
-                    title,
-                    f'<path d="M0,4h14" stroke="{css(casing)}" stroke-width="4.4"/>'
-                    f'<path d="M0,4h14" stroke="{css(line)}" stroke-width="2"/>',
-                )
-            )
-    if field.void_in_reverse_flow and len(reverse_flow_segments(solution)):
+    for region, title, colour, dash in (
+        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, ""),
+        (MarkedRegion.STALLED, "stall", ink.stall, ""),
+        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, ' stroke-dasharray="4 3"'),
+    ):
+        if codes is not None and (codes == region).any():
+            entries.append((title, f'<path d="M0,4h14" stroke="{css(colour)}" stroke-width="3"{dash}/>'))
+    if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(solution, grid).any():
         entries.append(("not defined", f'<rect width="14" height="8" rx="1.5" fill="{css(VOID)}"/>'))
     return entries

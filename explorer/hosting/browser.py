@@ -1,8 +1,7 @@
-"""What the server asks of one client's browser: its address, texts to keep, the clipboard, pictures to save."""
+"""What the server asks of one client's browser: its address, texts to keep, the clipboard."""
 
 import json
 import secrets
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -56,29 +55,6 @@ def set_query(client: viser.ClientHandle, query: str) -> None:
     call(client, "RX.address", query)
 
 
-def copy_text(client: viser.ClientHandle, text: str) -> None:
-    """Put a text into the clipboard, where the browser allows it."""
-    call(client, "RX.copy", text)
-
-
 def copy_link(client: viser.ClientHandle, query: str) -> None:
     """Put the page's address with this query into the clipboard, where the browser allows it."""
     call(client, "RX.copyLink", query)
-
-
-def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
-    """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
-
-    RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
-    """
-    key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
-    call(client, "RX.save", drawing, *size, name, key)
-    deadline = time.monotonic() + patience
-    while (said := client.local_storage.get_item(key, timeout=patience)) is None:
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"the page has not drawn the picture within {patience:g} s")
-        time.sleep(0.1)
-    client.local_storage.remove_item(key)
-    if not said.isdigit():
-        raise RuntimeError(said.removeprefix("failed: "))
-    return int(said)

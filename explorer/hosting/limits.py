@@ -1,9 +1,12 @@
-"""Limits of one server: sessions, messages, uploads, and memory given back after many pages."""
+"""Limits of one server: sessions, messages, uploads, its log, and memory given back after many pages."""
 
 import contextlib
 import ctypes
 import gc
+import logging
 import threading
+import time
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +22,7 @@ _lock = threading.Lock()
 _due: threading.Timer | None = None
 
 
-def settle() -> None:
+def exclude_from_collection() -> None:
     """Exclude what is loaded by now from garbage collection: each pass over it took 90 ms, without a frame."""
     gc.collect()
     gc.freeze()
@@ -58,10 +61,8 @@ def give_back() -> None:
 
 SESSIONS = 24
 """Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
-SLEEP_AFTER = 1800.0
-"""[s]; the break of a lecture."""
 _SPARE = 40
-"""Connections beyond the pages at work: pages that wait, sleep, or have only just connected."""
+"""Connections beyond the pages at work: pages that wait, or have only just connected."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,6 @@ class ServerLimits:
 
     sessions: int = SESSIONS
     """Pages at work at once."""
-    sleep_after: float = SLEEP_AFTER
-    """[s] without a change after which a page sleeps: its caches are freed, another page may take its place."""
     allow_hosts: tuple[str, ...] = ()
     """Further names by which the server is reached."""
     studies: Path = Path()
@@ -184,3 +183,45 @@ def _is_accepted(name: str, accepts: str) -> bool:
     """Whether the ending is one of those listed; types without a dot say nothing about names."""
     endings = [item.strip().lower() for item in accepts.split(",")]
     return any(not item.startswith(".") or name.lower().endswith(item) for item in endings)
+
+
+_MOST, _WINDOW = 3, 60.0
+"""Records of one kind, within so many seconds."""
+_KINDS = 200
+"""Kinds that are counted at once."""
+
+
+class RepeatFilter(logging.Filter):
+    """Lets few records of a kind pass within a minute; the next one that passes says how many did not."""
+
+    def __init__(self, most: int = _MOST, window: float = _WINDOW) -> None:
+        super().__init__()
+        self._most, self._window = most, window
+        self._lock = threading.Lock()
+        self._seen: OrderedDict[tuple[str, int, str], tuple[float, int]] = OrderedDict()
+        """Begin of the window and number of records by kind: logger, line of code, type of the error."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether the record passes."""
+        error = record.exc_info[0] if record.exc_info else None
+        kind = (record.name, record.lineno, error.__name__ if error else "")
+        now = time.monotonic()
+        with self._lock:
+            begun, count = self._seen.pop(kind, (now, 0))
+            skipped = 0
+            if now - begun > self._window:
+                skipped, begun, count = max(count - self._most, 0), now, 0
+            self._seen[kind] = (begun, count + 1)
+            if len(self._seen) > _KINDS:
+                self._seen.popitem(last=False)
+        if skipped:
+            record.msg = f"{record.msg} ({skipped} more like this were not written)"
+        return count < self._most
+
+
+def limit_log() -> None:
+    """Limit what this process writes to its log."""
+    handlers = logging.getLogger().handlers or ([logging.lastResort] if logging.lastResort else [])
+    for handler in handlers:
+        if not any(isinstance(one, RepeatFilter) for one in handler.filters):
+            handler.addFilter(RepeatFilter())

@@ -1,12 +1,15 @@
-"""Filters what reaches the page's server: whose requests, how many connections, how much each may send."""
+"""The page that is served, and the filter before its server: whose requests, how many connections, how much of each."""
 
 import asyncio
 import contextlib
+import gzip
+import hashlib
 import http
 import logging
 import time
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection
@@ -15,9 +18,46 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
+from explorer import web
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.limits import LARGEST_MESSAGE, RateLimiter
-from explorer.hosting.served_page import ServedPage
+
+TITLE = "Rotor explorer"
+_SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = "<script", "</head>", "<body>"
+
+
+@dataclass(frozen=True)
+class ServedPage:
+    """The served page."""
+
+    html: bytes
+
+    @cached_property
+    def packed(self) -> bytes:
+        """Compressed by gzip."""
+        return gzip.compress(self.html, 6, mtime=0)
+
+    @cached_property
+    def tag(self) -> str:
+        """ETag: a browser that holds this version need not fetch it again."""
+        return f'"{hashlib.sha256(self.html).hexdigest()[:16]}"'
+
+
+def with_loading_screen(client: str, frame: str = "") -> ServedPage:
+    """The client's page with our title, the loading screen, and the `frame` behind it; ValueError for another layout.
+
+    Its script moves from the head behind the loading screen, which is then painted while the script arrives.
+    """
+    head, begins, rest = client.partition(_SCRIPT_BEGINS)
+    script, ends, tail = rest.partition(_HEAD_ENDS)
+    before, body, content = tail.partition(_BODY_BEGINS)
+    if not (begins and ends and body) or before.strip() or "<title>" not in head:
+        raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
+    title, _, after = head.partition("<title>")
+    head = f"{title}<title>{TITLE}{after[after.index('</title>') :]}"
+    veil = web.text("loading.html") + web.scripts("loading.js")
+    return ServedPage(f"{head}{web.styles('loading.css')}{ends}{body}{veil}{frame}{begins}{script}{content}".encode())
+
 
 _log = logging.getLogger(__name__)
 _visitors = logging.getLogger(f"{__name__}.visitors")

@@ -1,7 +1,7 @@
-"""The helicopter below the rotor, from `assets/airframe.glb`: a UH-60A, a generic one for every other rotor.
+"""The helicopter without blades: hub, cuffs, swashplate, pitch links and mast, and the airframe below them.
 
-Metres, hub at the origin, level attitude: x aft, y starboard, z up. `tests/tools/airframe.py` makes the file from
-published dimensions.
+The airframe is read from `assets/airframe.glb`, a UH-60A or a generic one; `tests/tools/airframe.py` makes the file
+from published dimensions. Metres, hub at the origin, level attitude: x aft, y starboard, z up.
 """
 
 import math
@@ -11,10 +11,78 @@ from functools import cache, lru_cache
 import numpy as np
 import trimesh
 
-from explorer.picture.rotor_head import size
-from explorer.picture.solids import Mesh, joined
+from explorer.picture.solids import Mesh, joined, revolved, tube
 from rotor.assets import asset_path
 from rotor.design.blade import Rotor
+
+_DRAWN_FOR = 8.1788
+"""Radius [m] that the fixed measures are given for; on other rotors they grow and shrink with it."""
+_LEAST_HINGE = 0.30
+"""A teetering rotor's hub still has arms this long [m, at that radius]."""
+_ABSORBERS = ("UH-60A",)
+"""Rotors with a bifilar vibration absorber above the hub."""
+
+
+def size(radius: float) -> float:
+    """How large a rotor of this radius [m] is beside the one that fixed measures are given for."""
+    return radius / _DRAWN_FOR
+
+
+@lru_cache(maxsize=4)
+def rotor_head(rotor: Rotor) -> Mesh:
+    """Everything that turns with the blades; its first arm points along x, as a blade at ψ = 0 does."""
+    scale = size(rotor.radius)
+    hinge = max(rotor.blade.flap_hinge * rotor.radius / scale, _LEAST_HINGE)
+    parts = [_hub(hinge), _swashplate()]
+    for k in range(rotor.blades):
+        parts += _arm(2.0 * math.pi * k / rotor.blades, hinge)
+    if rotor.name in _ABSORBERS:
+        parts += _absorber(rotor.blades)
+    return joined(parts).scaled(scale)
+
+
+@lru_cache(maxsize=4)
+def mast(radius: float) -> Mesh:
+    """The shaft below the hub of a rotor of this radius [m]."""
+    return revolved([[0.0, -1.3], [0.21, -1.3], [0.17, -0.75], [0.13, -0.09], [0.0, -0.09]], 28).scaled(size(radius))
+
+
+def _hub(hinge: float) -> Mesh:
+    """A plate with a raised cap."""
+    rim = 0.82 * hinge
+    outline = [[0.0, -0.12], [rim, -0.12], [1.02 * rim, -0.05], [1.02 * rim, 0.05], [0.8 * rim, 0.10], [0.17, 0.14]]
+    return revolved([*outline, [0.15, 0.24], [0.0, 0.24]])
+
+
+def _swashplate() -> Mesh:
+    return revolved([[0.0, -0.63], [0.38, -0.63], [0.40, -0.58], [0.38, -0.52], [0.20, -0.49], [0.0, -0.49]], 36)
+
+
+def _arm(psi: float, hinge: float) -> list[Mesh]:
+    """One blade's arm, hinge pin, cuff and pitch link; the link stands ahead of the blade."""
+    out = np.array([math.cos(psi), math.sin(psi), 0.0])
+    ahead = np.array([-out[1], out[0], 0.0])
+    below = np.array([0.0, 0.0, -1.0])
+    horn = (hinge + 0.16) * out + 0.25 * ahead
+    return [
+        tube(0.4 * hinge * out, 1.06 * hinge * out, 0.125, 0.105),
+        tube(hinge * out - 0.14 * ahead, hinge * out + 0.14 * ahead, 0.085),
+        tube(1.02 * hinge * out, (hinge + 0.30) * out, 0.115, 0.10),
+        tube((hinge + 0.16) * out, horn, 0.045),
+        tube(0.36 * out + 0.16 * ahead + 0.55 * below, horn, 0.026),
+    ]
+
+
+def _absorber(blades: int) -> list[Mesh]:
+    parts, rise = [], np.array([0.0, 0.0, 0.055])
+    for k in range(blades):
+        psi = 2.0 * math.pi * (k + 0.5) / blades
+        out = np.array([math.cos(psi), math.sin(psi), 0.0])
+        start, end = 0.10 * out + np.array([0.0, 0.0, 0.21]), 0.47 * out + np.array([0.0, 0.0, 0.21])
+        parts.append(tube(start, end, 0.05, 0.035))
+        parts.append(tube(end - rise, end + rise, 0.085))
+    return parts
+
 
 SHAFT_FORWARD = math.radians(3.0)
 """How far the shaft leans forward in the airframe [rad]: the airframe pitches by the shaft tilt less this. UH-60A."""

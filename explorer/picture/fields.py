@@ -13,6 +13,7 @@ from explorer.theme.colours import Scheme
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.line_chart import round_up
 from rotor.trim.solution import DiskFields, Solution
 
 
@@ -220,24 +221,6 @@ def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:
     """Whether a thousandth of the values lies below a range, and above it."""
     least = 1e-3 * values.size
     return bool(np.count_nonzero(values < held[0]) > least), bool(np.count_nonzero(values > held[1]) > least)
-
-
-def ticks(low: float, high: float, about: int = 5) -> tuple[float, ...]:
-    """Round tick values inside a range."""
-    step = round_up((high - low) / about)
-    first = math.ceil(low / step - 1e-9)
-    return tuple(step * k for k in range(first, math.floor(high / step + 1e-9) + 1))
-
-
-def round_up(step: float) -> float:
-    """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
-    power = 10.0 ** math.floor(math.log10(step))
-    return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))
-
-
-def tick_text(value: float) -> str:
-    """A tick's number with a true minus sign and no needless digits."""
-    return f"{round(value, 6) + 0.0:g}".replace("-", "−")
 
 
 _PART = 0.1

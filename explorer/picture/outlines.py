@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.polar import PolarGrid, polar_grid, refined, stall_margin
+from explorer.picture.polar import PolarGrid, polar_grid, refined
 from explorer.picture.regions import divergence_margin
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
@@ -32,21 +32,15 @@ def reverse_flow_segments(solution: Solution) -> Array:
     return np.stack((points[:-1], points[1:]), axis=1)[keep]
 
 
-def stall_segments(solution: Solution) -> Array:
-    """Where the stall margin is zero, the reverse-flow region left out; shape (n, 2, 2), in radii."""
-    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
-    return _outside_reverse_flow(contour(grid, stall_margin(solution, grid), 0.0), solution, 0.0)
-
-
 def positive_stall_segments(solution: Solution) -> Array:
-    """Where the angle of attack is the positive stall angle, as `stall_segments`."""
+    """Where the angle of attack is the positive stall angle, the reverse-flow region left out; (n, 2, 2), in radii."""
     grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
     flow = refined(solution, grid)
     return _outside_reverse_flow(contour(grid, (flow.upper - flow.alpha).astype(np.float64), 0.0), solution, 0.0)
 
 
 def negative_stall_segments(solution: Solution) -> Array:
-    """Where the angle of attack is the negative stall angle, as `stall_segments`."""
+    """The same for the negative stall angle."""
     grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
     flow = refined(solution, grid)
     return _outside_reverse_flow(contour(grid, (flow.alpha - flow.lower).astype(np.float64), 0.0), solution, 0.0)
@@ -99,3 +93,27 @@ def contour(grid: PolarGrid, values: Array, level: float) -> Array:
 def _corner(r: Array, psi: Array, row: NDArray[np.intp], column: NDArray[np.intp], corner: int) -> Array:
     outer, later = corner in (1, 2), corner in (2, 3)
     return np.stack((r[row + outer], psi[column + later]), axis=-1)
+
+
+def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
+    """Segments (n, 2, 2) joined to lines where they share an end."""
+    keys = [tuple(map(tuple, np.rint(segment / tolerance).astype(int))) for segment in segments]
+    at: dict[tuple[int, ...], list[int]] = {}
+    for k, ends in enumerate(keys):
+        for end in ends:
+            at.setdefault(end, []).append(k)
+    left, lines = set(range(len(keys))), []
+    for first in range(len(keys)):
+        if first not in left:
+            continue
+        left.discard(first)
+        line = [segments[first][0], segments[first][1]]
+        for forward in (True, False):
+            end = keys[first][1 if forward else 0]
+            while (k := next((k for k in at[end] if k in left), None)) is not None:
+                left.discard(k)
+                ahead = 1 if keys[k][0] == end else 0
+                end = keys[k][ahead]
+                line.insert(len(line) if forward else 0, segments[k][ahead])
+        lines.append(np.array(line))
+    return lines

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture import disk_image
+from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.lettering import label_masks
@@ -22,10 +23,8 @@ from explorer.picture.poses import (
     tip_path_pose,
 )
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
-from explorer.picture.rotor_head import size
 from explorer.picture.scene_theme import DiskInk, scene_theme
 from explorer.state import ViewState
-from explorer.theme import colours
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.files.make_design import make_design
@@ -43,13 +42,6 @@ _SLOW = 0.2
 """U_T/ΩR below which a field without meaning in reverse flow does not count for its range."""
 _LINE_PIXELS = 1.4
 """Half the width of the lines on the disk, in pixels of its picture at rest."""
-
-OUTLINE_COLOURS = {
-    "reverse_flow": (colours.REVERSE_FLOW, colours.CASING_DARK),
-    "stall": (colours.STALL, colours.CASING_LIGHT),
-    "drag_divergence": (colours.DRAG_DIVERGENCE, colours.CASING_LIGHT),
-}
-"""Line and casing in drawings for print, by the name of the toggle in `ViewState`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from explorer.charts import svg
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.outlines import (
     drag_divergence_segments,
+    joined,
     negative_stall_segments,
     positive_stall_segments,
     reverse_flow_segments,
@@ -110,7 +110,7 @@ def _lines(segments: Array) -> list[list[list[float]]]:
     """Segments (aft, starboard) as polylines (right, down), in radii."""
     if not len(segments):
         return []
-    return [np.round(line[:, ::-1], 3).tolist() for line in svg.joined(segments)]
+    return [np.round(line[:, ::-1], 3).tolist() for line in joined(segments)]
 
 
 def _values(solution: Solution, field: Field) -> dict[str, dict[str, Any]]:

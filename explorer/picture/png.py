@@ -1,12 +1,10 @@
 """Arrays of pixels → PNG files."""
 
-import io
 import struct
 import zlib
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 Bytes = NDArray[np.uint8]
 
@@ -35,10 +33,3 @@ def encode_png(pixels: Bytes, entries: Bytes, effort: int = 1) -> bytes:
 def _chunk(kind: bytes, content: bytes) -> bytes:
     """Length, kind, content and check sum."""
     return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(content, zlib.crc32(kind)))
-
-
-def encode_rgba(pixels: Bytes) -> bytes:
-    """A true-colour PNG of shape (rows, columns, 4)."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, "PNG", compress_level=1)
-    return file.getvalue()

@@ -219,16 +219,3 @@ def refined(solution: Solution, grid: PolarGrid) -> Refined:
     lower, upper = stall_angles(solution)
     theta, u_t, u_p, low, high = grid.refine_all((disk.theta, disk.u_t, disk.u_p, lower, upper))
     return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high)
-
-
-def angle_of_attack(solution: Solution, grid: PolarGrid) -> Array:
-    """α [rad] on a polar grid in full precision, shape (radii, azimuths)."""
-    disk = solution.disk
-    return grid.refine(disk.theta) - np.arctan2(grid.refine(disk.u_p), grid.refine(disk.u_t))
-
-
-def stall_margin(solution: Solution, grid: PolarGrid) -> Array:
-    """Angle left before stall [rad] on a polar grid in full precision, shape (radii, azimuths)."""
-    lower, upper = stall_angles(solution)
-    alpha = angle_of_attack(solution, grid)
-    return np.minimum(grid.refine(upper) - alpha, alpha - grid.refine(lower))

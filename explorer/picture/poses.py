@@ -100,51 +100,35 @@ def tip_path_pose(controls: TrimState, drop: float) -> Pose:
 
 @dataclass(frozen=True)
 class TwistAt:
-    """A law with the active twist of one azimuth on top; not zero at 0.75 R."""
+    """A law with active and elastic twist of one azimuth on top; not zero at 0.75 R."""
 
     law: TwistLaw
-    active: ActiveTwist
+    active: ActiveTwist | None
     psi: float
-
-    def __call__(self, r: ArrayLike) -> Array:
-        stations = np.atleast_1d(np.asarray(r, dtype=float))
-        made: Array = self.law(stations) + self.active(stations, np.array([self.psi]))[:, 0]
-        return made
-
-    def spec(self) -> str:
-        return self.law.spec()
-
-
-def blade_twists(design: Design, azimuths: tuple[float, ...]) -> tuple[TwistLaw, ...]:
-    """The twist of each blade [azimuths in rad]; empty when one shape does for all."""
-    if design.active_twist is None or design.hovering:
-        return ()
-    return tuple(TwistAt(design.twist, design.active_twist, psi) for psi in azimuths)
-
-
-@dataclass(frozen=True)
-class ElasticAt:
-    """A law with the elastic twist of one azimuth on top; not zero at 0.75 R."""
-
-    law: TwistLaw
-    stations: tuple[float, ...]
-    """r/R, ascending; constant beyond."""
-    angles: tuple[float, ...]
+    """[rad], of the active twist."""
+    stations: tuple[float, ...] = (0.0, 1.0)
+    """r/R of the elastic twist, ascending; constant beyond."""
+    elastic: tuple[float, ...] = (0.0, 0.0)
     """[rad]"""
 
     def __call__(self, r: ArrayLike) -> Array:
-        stations = np.atleast_1d(np.asarray(r, dtype=float))
-        made: Array = self.law(stations) + np.interp(stations, self.stations, self.angles)
-        return made
+        at = np.atleast_1d(np.asarray(r, dtype=float))
+        twist: Array = self.law(at) + np.interp(at, self.stations, self.elastic)
+        return twist if self.active is None else twist + self.active(at, np.array([self.psi]))[:, 0]
 
     def spec(self) -> str:
         return self.law.spec()
+
+
+def with_active_twist(design: Design, psi: float) -> TwistLaw:
+    """Jig twist and active twist of a blade at ψ [rad]."""
+    active = None if design.hovering else design.active_twist
+    return design.twist if active is None else TwistAt(design.twist, active, psi)
 
 
 def flown_twist(solution: Solution, psi: float) -> TwistLaw:
     """The twist of a blade in flight at ψ [rad]: jig twist, active twist and elastic twist."""
-    law = (*blade_twists(solution.design, (psi,)), solution.design.twist)[0]
-    return with_elastic_twist(law, solution, psi)
+    return with_elastic_twist(with_active_twist(solution.design, psi), solution, psi)
 
 
 def with_elastic_twist(law: TwistLaw, solution: Solution, psi: float) -> TwistLaw:
@@ -152,13 +136,17 @@ def with_elastic_twist(law: TwistLaw, solution: Solution, psi: float) -> TwistLa
     disk = solution.disk
     if disk.elastic_twist is None:
         return law
-    count = len(disk.psi)
-    position = (psi - float(disk.psi[0])) * count / (2.0 * math.pi)
-    before = math.floor(position)
-    weight = position - before
-    one, two = disk.elastic_twist[:, before % count], disk.elastic_twist[:, (before + 1) % count]
-    angles = (1.0 - weight) * one + weight * two
-    return ElasticAt(law, tuple(disk.r.tolist()), tuple(angles.tolist()))
+    elastic = tuple(at_azimuth(solution, disk.elastic_twist, psi).tolist())
+    return TwistAt(law, None, psi, tuple(disk.r.tolist()), elastic)
+
+
+def at_azimuth(solution: Solution, values: Array, psi: float) -> Array:
+    """Values (elements, azimuths) at ψ [rad], linear between two azimuths, periodic; (elements,)."""
+    n = values.shape[1]
+    position = (psi - float(solution.disk.psi[0])) * n / (2.0 * math.pi)
+    base = math.floor(position)
+    weight = position - base
+    return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
 
 
 def follows_azimuth(solution: Solution) -> bool:

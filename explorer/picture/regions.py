@@ -58,7 +58,7 @@ class Marks:
     drag_divergence: bool = True
 
 
-NO_MARKS = Marks(False, False, False)
+ALL_MARKS, NO_MARKS = Marks(), Marks(False, False, False)
 
 
 @dataclass(frozen=True)

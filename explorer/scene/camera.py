@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, between_cards, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, View, between_cards, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
@@ -95,19 +95,6 @@ class FittedCamera:
         wanted, self._wanted = self._wanted, None
         if not held and wanted is not None:
             self.follow(*wanted)
-
-    def pictured(self, aspect: float) -> tuple[np.ndarray, np.ndarray, float]:
-        """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows.
-
-        A picture has no cards.
-        """
-        camera = self._client.camera
-        if self._following:
-            shown = self._fit(aspect) if self._view is None else self._fitted(self._view, aspect, UNCOVERED)
-            return camera.wxyz, shown.position, camera.fov
-        # A narrower picture takes in more height, so that nothing at the sides is lost.
-        wider = max(1.0, camera.aspect / aspect)
-        return camera.wxyz, camera.position, 2.0 * math.atan(wider * math.tan(camera.fov / 2.0))
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
         """The same for any other subject: `fitted` finds the camera for a width over height without cards."""

@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from explorer.hosting import viser_compat
-from explorer.picture.airframe import airframe
+from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.camera_views import LETTER_SIZE, letter_place
 from explorer.picture.disk_image import half_width
@@ -21,7 +21,6 @@ from explorer.picture.lettering import (
 )
 from explorer.picture.picture import Blades, Picture
 from explorer.picture.poses import Pose, about
-from explorer.picture.rotor_head import mast, rotor_head, size
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Faces, Mesh, joined
 from explorer.state import ViewState

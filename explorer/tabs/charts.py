@@ -14,7 +14,6 @@ from explorer.charts.strip import (
     alpha_chart,
     lift_chart,
     power_change_chart,
-    round_ticks,
     total_power_chart,
     where_to_twist_chart,
 )
@@ -26,6 +25,7 @@ from explorer.text import readout
 from explorer.text.units import UNITS, Units, number
 from explorer.theme.colours import PINNED, PINNED_DASH, START_COLOURS, THIS, css
 from rotor.design.design import Design
+from rotor.line_chart import round_ticks
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 

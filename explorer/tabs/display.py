@@ -8,11 +8,12 @@ from typing import Any
 
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
-from explorer.picture.fields import FIELDS, Field, tick_text, ticks
+from explorer.picture.fields import FIELDS, Field
 from explorer.scene.page_scene import TURN_RATES
 from explorer.state import ViewState
 from explorer.text.units import number
 from explorer.theme.colours import Scheme, colour_map, css
+from rotor.line_chart import round_ticks, tick_text
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
@@ -156,7 +157,8 @@ class Display:
                 "unit": f"{field.unit}{field.note}",
                 "colours": _bar(field.colours),
                 "ticks": [
-                    [round(100.0 * (value - low) / (high - low), 2), tick_text(value)] for value in ticks(low, high)
+                    [round(100.0 * (value - low) / (high - low), 2), tick_text(value)]
+                    for value in round_ticks(low, high, 5)
                 ],
                 "faded": self._faded,
                 "fitted": self._fitted,

@@ -11,9 +11,8 @@ from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natura
 from explorer.sliders import SLIDERS, slider
 from explorer.state import Inputs, baseline_of
 from explorer.text.readout import fineness, ideal_induced, part_titles
-from explorer.text.status import cautions
+from explorer.text.status import cautions, validated
 from explorer.text.units import BLANK, SI, UNITS, Units, number
-from explorer.text.validated import validated
 from explorer.text.why import why
 from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient

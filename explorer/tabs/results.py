@@ -8,14 +8,13 @@ import viser
 from explorer.charts.plots import PowerCurve
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
-from explorer.picture.blade_inset import inset
+from explorer.picture.blade_mesh import inset
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.charts import ChartStrip
 from explorer.tabs.layout import Layout
 from explorer.tabs.power_card import PowerCard, SliderWorth, against
 from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel, trust_page
 from explorer.text.units import SI, UNITS, Units
@@ -143,4 +142,7 @@ def _numbers(state: SessionState, band: str) -> tuple[str, str]:
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
         return readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
-    return ab_readout.power_panel(solution, pinned, units, band), ab_readout.trim_panel(solution, pinned)
+    return (
+        readout.compared_power_panel(solution, pinned, units, band),
+        readout.compared_trim_panel(solution, pinned),
+    )

@@ -1,14 +1,15 @@
-"""Power, trim and speed of a solution as HTML, in the units of the page."""
+"""Power and trim of a solution, or of A and B with their differences, as HTML in the units of the page."""
 
 import math
+from collections.abc import Callable
 from html import escape
 
 import numpy as np
 
 from explorer.state import baseline_title
 from explorer.text.glossary import tip
-from explorer.text.units import BLANK, SI, Units, degrees, number
-from explorer.theme.colours import PARTS
+from explorer.text.units import BLANK, SI, Units, number
+from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor.analysis.ideal_bound import ideal_factor, not_bounded
 from rotor.design.design import Design
 from rotor.trim.solution import PowerBudget, Solution
@@ -149,44 +150,63 @@ def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | Non
     )
 
 
+_TRIM: dict[str, tuple[Callable[[Solution], float | None], int, str]] = {
+    "collective": (lambda s: math.degrees(s.controls.collective), 2, "°"),
+    "shaft_tilt": (lambda s: math.degrees(s.controls.shaft_tilt), 2, "°"),
+    "cyclic_1c": (lambda s: math.degrees(s.controls.cyclic_1c), 2, "°"),
+    "cyclic_1s": (lambda s: math.degrees(s.controls.cyclic_1s), 2, "°"),
+    "coning": (lambda s: math.degrees(s.controls.coning), 2, "°"),
+    "flap_1c": (lambda s: math.degrees(s.controls.flap_1c), 2, "°"),
+    "flap_1s": (lambda s: math.degrees(s.controls.flap_1s), 2, "°"),
+    "ct_over_sigma": (lambda s: s.ct_over_sigma, 4, ""),
+    "kappa": (lambda s: s.induced_power_factor, 2, ""),
+    "lift_to_drag": (lambda s: s.lift_to_drag, 2, ""),
+    "figure_of_merit": (lambda s: s.figure_of_merit, 3, ""),
+    "reverse_flow_area": (lambda s: 100.0 * s.reverse_flow_area, 1, " %"),
+    "stalled_area": (lambda s: 100.0 * s.stalled_area, 1, " %"),
+    "elastic_tip": (lambda s: math.degrees(float(s.elastic.tip.mean())) if s.elastic else None, 2, "°"),
+    "elastic_wave": (lambda s: math.degrees(s.elastic.first_harmonic) if s.elastic else None, 2, "°"),
+    "pitch_link": (lambda s: float(s.elastic.pitch_link_load.mean()) / 1e3 if s.elastic else None, 2, " kN"),
+    "pitch_link_wave": (lambda s: 0.5e-3 * float(np.ptp(s.elastic.pitch_link_load)) if s.elastic else None, 2, " kN"),
+}
+"""Value, digits and unit of a trim quantity, by its name in the glossary."""
+
+
 def trim_panel(solution: Solution) -> str:
     """Trim angles, loading, efficiency and areas, in two columns."""
-    c = solution.controls
-    efficiency = ("lift_to_drag", "Rotor L/De", number(solution.lift_to_drag, 2))
-    if solution.design.hovering:
-        efficiency = ("figure_of_merit", "Figure of merit", number(solution.figure_of_merit, 3))
-    entries = (
-        ("collective", "Collective θ0", degrees(c.collective)),
-        ("shaft_tilt", "Shaft tilt α", degrees(c.shaft_tilt)),
-        ("cyclic_1c", "Cyclic θ1c", degrees(c.cyclic_1c)),
-        ("coning", "Coning β0", degrees(c.coning)),
-        ("cyclic_1s", "Cyclic θ1s", degrees(c.cyclic_1s)),
-        ("flapping_1", "Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {degrees(c.flap_1s, 1)}"),
-        ("ct_over_sigma", "CT/σ", number(solution.ct_over_sigma, 4)),
-        efficiency,
-        ("reverse_flow_area", "Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
-        ("stalled_area", "Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
-        *_elastic(solution),
-    )
+    flapping = [math.degrees(angle) for angle in (solution.controls.flap_1c, solution.controls.flap_1s)]
+    titles = {
+        "collective": "Collective θ0",
+        "shaft_tilt": "Shaft tilt α",
+        "cyclic_1c": "Cyclic θ1c",
+        "coning": "Coning β0",
+        "cyclic_1s": "Cyclic θ1s",
+        "flapping_1": "Flap β1c, β1s",
+        "ct_over_sigma": "CT/σ",
+        **({"figure_of_merit": "Figure of merit"} if solution.design.hovering else {"lift_to_drag": "Rotor L/De"}),
+        "reverse_flow_area": "Reverse flow",
+        "stalled_area": "Stalled area",
+        "elastic_tip": "Elastic tip",
+        **({"elastic_wave": "Elastic 1/rev"} if solution.elastic else {}),
+        "pitch_link": "Pitch link",
+        **({"pitch_link_wave": "Pitch link ±"} if solution.elastic else {}),
+    }
+
+    def value(key: str) -> str:
+        if key == "flapping_1":
+            return f"{number(flapping[0], 1)}, {number(flapping[1], 1)}°"
+        read, digits, unit = _TRIM[key]
+        found = read(solution)
+        if found is None:
+            return "rigid" if key == "elastic_tip" else BLANK
+        return f"{number(found, digits)}{unit}"
+
     cells = "".join(
-        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for key, name, value in entries
+        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span>'
+        f'<span class="rx-num">{value(key)}</span></div>'
+        for key, name in titles.items()
     )
     return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
-
-
-def _elastic(solution: Solution) -> tuple[tuple[str, str, str], ...]:
-    """Elastic twist of the tip: mean and 1/rev amplitude. Load of one pitch link: mean and half of peak to peak."""
-    elastic = solution.elastic
-    if elastic is None:
-        return ("elastic_tip", "Elastic tip", "rigid"), ("pitch_link", "Pitch link", BLANK)
-    load = elastic.pitch_link_load / 1e3
-    return (
-        ("elastic_tip", "Elastic tip", degrees(float(elastic.tip.mean()))),
-        ("elastic_wave", "Elastic 1/rev", degrees(elastic.first_harmonic)),
-        ("pitch_link", "Pitch link", f"{number(float(load.mean()), 2)} kN"),
-        ("pitch_link_wave", "Pitch link ±", f"{number(0.5 * float(np.ptp(load)), 2)} kN"),
-    )
 
 
 def explanation(text: str) -> str:
@@ -212,3 +232,103 @@ def dash(colour: str, dashed: bool = False) -> str:
 def faded(html: str) -> str:
     """The same text, greyed: out of date."""
     return f'<div class="rx-faded">{html}</div>'
+
+
+def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> str:
+    """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
+
+    Where A has no trim it shows dashes. `band`: of B, as `drag_band_words` says it.
+    """
+    power = solution.power
+    reference = pinned.power if pinned.converged else None
+    against = (
+        f"vs. {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim at this condition"
+    )
+    ideal = ideal_induced(solution)
+    rows = [
+        _compared_row(title, power, reference, lambda p, n=name: getattr(p, n), units, name)
+        for name, title in part_titles(solution.design, pinned.design).items()
+    ]
+    rows.append(_compared_row("Total", power, reference, lambda p: p.total, units))
+    symbol = units.power[0].symbol
+    head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
+    table = f'<table class="rx-ab" data-explorer="ab">{head}{"".join(rows)}</table>'
+    return (
+        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
+        f'<div class="rx-line rx-dim"{tip("change")}><span>total power of {_name("B")}</span>'
+        f"<span>{against}</span></div>"
+        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}{band_line(band)}</div>"
+    )
+
+
+def compared_trim_panel(solution: Solution, pinned: Solution) -> str:
+    """Trim angles, loading, efficiency and areas of A and B, in two columns."""
+    titles = {
+        "collective": "θ0 [°]",
+        "shaft_tilt": "α [°]",
+        "cyclic_1c": "θ1c [°]",
+        "coning": "β0 [°]",
+        "cyclic_1s": "θ1s [°]",
+        "flap_1c": "β1c [°]",
+        "ct_over_sigma": "CT/σ",
+        "flap_1s": "β1s [°]",
+        "kappa": "κ",
+        **({"figure_of_merit": "FM"} if solution.design.hovering else {"lift_to_drag": "L/De"}),
+        "reverse_flow_area": "rev. [%]",
+        "stalled_area": "stall [%]",
+        "elastic_tip": "φ tip [°]",
+        "pitch_link": "link [kN]",
+    }
+    head = f'<div class="rx-four rx-dim rx-small"><span></span><span>{_name("A")}</span><span>{_name("B")}</span></div>'
+    cells = [head, head]
+    for key, short in titles.items():
+        read, digits, _ = _TRIM[key]
+        a, b = number(read(pinned) if pinned.converged else None, digits), number(read(solution), digits)
+        cells.append(
+            f'<div class="rx-four"{tip(key)}><span class="rx-dim">{short}</span><span>{a}</span><span>{b}</span></div>'
+        )
+    return f'<div class="rx rx-grid" data-explorer="trim">{"".join(cells)}</div>'
+
+
+def _name(letter: str) -> str:
+    """A or B with the mark of its lines in the charts."""
+    return f"{dash(PINNED, dashed=True) if letter == 'A' else dash(THIS)}<b>{letter}</b>"
+
+
+def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> str:
+    """A above B; the length of a bar is the total power."""
+    longest = max(power.total, reference.total if reference else 0.0, 1.0)
+    lines = []
+    for letter, one, mark in (("A", reference, None), ("B", power, ideal)):
+        length = 100.0 * max(one.total, 0.0) / longest if one else 0.0
+        filled = f'<div class="rx-bar" style="width:{length:.2f}%">{bar(one, mark) if one else ""}</div>'
+        lines.append(f'<span class="rx-dim">{letter}</span><div>{filled}</div>')
+    return f'<div class="rx-bars">{"".join(lines)}</div>'
+
+
+def _compared_row(
+    title: str,
+    power: PowerBudget,
+    reference: PowerBudget | None,
+    read: Callable[[PowerBudget], float],
+    units: Units,
+    part: str = "",
+) -> str:
+    unit = units.power[0]
+    b = unit.of(read(power))
+    a = None if reference is None else unit.of(read(reference))
+    apart = None if a is None else b - a
+    percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
+    changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
+    fine = fineness(power)
+    if part:
+        patch = f'<span class="rx-patch" style="background:{PARTS[part]}"></span>'
+        return _cells(patch + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
+    kind = "" if percent is None else direction(percent)
+    coloured = (f'<span class="{kind.strip()}">{text}</span>' for text in changes)
+    return _cells(title, (number(a, fine), number(b, fine), *coloured), "rx-sum", tip("total_power"))
+
+
+def _cells(title: str, values: tuple[str, ...], kind: str = "", tooltip: str = "") -> str:
+    cells = "".join(f'<td class="rx-num">{value}</td>' for value in values)
+    return f'<tr class="{kind}"{tooltip}><td>{title}</td>{cells}</tr>'

@@ -52,9 +52,6 @@ RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""
 VOID: Rgb = (150, 152, 156)
 """Where the shown field has no meaning."""
-REVERSE_FLOW: Rgb = (255, 255, 255)
-STALL: Rgb = (230, 20, 130)
-DRAG_DIVERGENCE: Rgb = (10, 10, 12)
 CASING_DARK: Rgb = (20, 20, 24)
 """Outlines have a casing, so that each reads on every colour of the disk."""
 CASING_LIGHT: Rgb = (255, 255, 255)

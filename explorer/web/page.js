@@ -44,8 +44,7 @@
       try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); } catch { sessionStorage.removeItem(KEPT); }
     },
     address(query) { history.replaceState(null, '', location.pathname + query); },
-    copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
-    copyLink(query) { RX.copy(location.origin + location.pathname + query); },
+    copyLink(query) { navigator.clipboard?.writeText(location.origin + location.pathname + query).catch(() => {}); },
     // Clicks on points of Plotly's charts write their `customdata` into the field of that name, wherever it is.
     takePoints(field) {
       window.hearCharts(point => { if (point.customdata !== undefined) type(labels(document, field), String(point.customdata)); });
@@ -61,28 +60,6 @@
       dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
       document.body.append(dialog);
       dialog.showModal();
-    },
-    // Saves an SVG as a PNG of so many pixels, and says under `key` how many bytes it has, or why there is none.
-    async save(drawing, width, height, name, key) {
-      try {
-        const address = URL.createObjectURL(new Blob([drawing], {type: 'image/svg+xml;charset=utf-8'}));
-        const image = new Image();
-        image.src = address;
-        await image.decode();
-        const canvas = Object.assign(document.createElement('canvas'), {width, height});
-        canvas.getContext('2d').drawImage(image, 0, 0, width, height);
-        URL.revokeObjectURL(address);
-        const pixels = await new Promise(done => canvas.toBlob(done, 'image/png'));
-        if (!pixels) throw new Error('no memory for so many pixels');
-        const link = document.createElement('a');
-        link.href = URL.createObjectURL(pixels);
-        link.download = name;
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-        answer(key, String(pixels.size));
-      } catch (error) {
-        answer(key, `failed: ${error.message}`);
-      }
     },
   });
   RX.paint('big', big => page.toggleAttribute('data-big', big));

@@ -1,135 +1,180 @@
-"""A thread that always works on the newest state: nothing is queued, nothing is debounced."""
+"""Updates of the pages on a few threads: the newest state of each page wins, frames come before what can wait.
+
+All sessions share one process, and most of an update is Python, of which only one line runs at a time. On a thread for
+each page twenty updates would all be half done, and none would be drawn. Here an update runs through to its frame, and
+no page gets its second before all others had their first.
+"""
 
 import contextlib
+import heapq
+import itertools
+import os
 import threading
-from collections.abc import Callable
-from dataclasses import dataclass
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Literal
 
-from explorer.workers.scheduler import SCHEDULER, FairScheduler, Turn
+Update = Callable[[], Iterator[float] | None]
+"""Draws a frame and returns what can wait, as steps. Each step yields how long to wait for a newer update before the
+next [s]. None: what waited before goes on."""
 
-Update = Callable[[Callable[[], bool]], None]
-"""Does one update. Between steps of what can wait it calls its argument, which lets the frames of other pages go first
-and returns whether a newer update is wanted; the update then returns early."""
-
-
-@dataclass(frozen=True)
-class IdleTimeout:
-    """What happens when no update is wanted for long; called on the worker's thread."""
-
-    after: float
-    """[s]"""
-    on_sleep: Callable[[], None]
-    on_wake: Callable[[], None]
-    """Called before the update that ends the sleep."""
+_FRAMES_IN_A_ROW = 20
+"""Frames after which a step of what can wait has its turn, in a crowd. A step is charts of some three frames' time."""
+_SLOW = 0.15
+"""[s] that a frame takes which does not converge, or with a costly model."""
+_IDLE = 10.0
+"""[s] after which a thread without work ends."""
 
 
-class Superseded:
-    """What an update calls between its steps."""
+class UpdatePool:
+    """Threads shared by many pages; of what can wait only one step runs at a time, so that frames find a thread."""
 
-    def __init__(self, worker: "NewestWins", turn: Turn) -> None:
-        self._worker, self._turn = worker, turn
+    def __init__(self, threads: int) -> None:
+        self.change = threading.Condition()
+        self._most, self._threads = threads, 0
+        self._frames: deque[NewestWins] = deque()
+        self._steps: list[tuple[float, int, NewestWins]] = []
+        """What can wait: a heap by the time it is due and a number."""
+        self._numbers = itertools.count()
+        self._frames_in_a_row = 0
+        self._step_runs = False
 
-    def __call__(self) -> bool:
-        """Let the frames of other pages go first; whether a newer update is wanted."""
-        return not self._turn.give_way(lambda: self._worker.superseded) or self._worker.superseded
+    @property
+    def waiting(self) -> int:
+        """How many frames wait for a thread."""
+        return len(self._frames)
 
-    def pause(self) -> None:
-        """Let them go first in the middle of a step that must come to its end, if that step is a long one."""
-        if self._turn.long:
-            self._turn.give_way(lambda: self._worker.stopped)
+    def queue(self, worker: "NewestWins", due: float | None) -> int:
+        """Put a worker in line, for a frame or for a step at `due` [s]; the caller holds `change`. Returns a ticket."""
+        number = next(self._numbers)
+        if due is None:
+            self._frames.append(worker)
+        else:
+            heapq.heappush(self._steps, (due, number, worker))
+        if self._threads < self._most:
+            self._threads += 1
+            threading.Thread(target=self._run, name="update", daemon=True).start()
+        self.change.notify()
+        return number
+
+    def _run(self) -> None:
+        while (found := self._next()) is not None:
+            worker, is_step = found
+            worker.run()
+            with self.change:
+                if is_step:
+                    self._step_runs = False
+                worker.requeue()
+                self.change.notify_all()
+
+    def _next(self) -> "tuple[NewestWins, bool] | None":
+        """The next worker and whether it is for a step; None when there is no work."""
+        with self.change:
+            while True:
+                while self._steps and not self._steps[0][2].waits(self._steps[0][1]):
+                    heapq.heappop(self._steps)
+                wait = self._steps[0][0] - time.monotonic() if self._steps and not self._step_runs else _IDLE
+                if self._frames and not (wait <= 0.0 and self._frames_in_a_row >= _FRAMES_IN_A_ROW):
+                    worker, is_step = self._frames.popleft(), False
+                    self._frames_in_a_row += 1
+                elif wait <= 0.0:
+                    worker, is_step = heapq.heappop(self._steps)[2], True
+                    self._frames_in_a_row, self._step_runs = 0, True
+                else:
+                    woken = self.change.wait(min(wait, _IDLE))
+                    if not (woken or self._frames or self._steps):
+                        self._threads -= 1
+                        return None
+                    continue
+                if worker.begin():
+                    return worker, is_step
+                self._step_runs = self._step_runs and not is_step
+
+
+UPDATES = UpdatePool(min(os.cpu_count() or 1, 2))
+"""Of this process."""
 
 
 class NewestWins:
     """Runs `update` once after every `wake`; one further run answers all wakes that come while it runs."""
 
-    def __init__(
-        self,
-        update: Update,
-        on_error: Callable[[Exception], None],
-        name: str,
-        idle: IdleTimeout | None = None,
-        scheduler: FairScheduler = SCHEDULER,
-    ) -> None:
-        self._update = update
-        self._on_error = on_error
-        self._idle = idle
-        self._scheduler = scheduler
+    def __init__(self, update: Update, on_error: Callable[[Exception], None], pool: UpdatePool = UPDATES) -> None:
+        self._update, self._on_error, self._pool = update, on_error, pool
         self._wanted = threading.Event()
         self._stopped = False
-        self._turn: Turn | None = None
-        """Of the update that runs now."""
-        self._thread = threading.Thread(target=self._loop, name=name, daemon=True)
-
-    def start(self) -> None:
-        self._thread.start()
+        self._state: Literal["idle", "frame", "step", "running"] = "idle"
+        self._ticket = self._thread = 0
+        self._steps: Iterator[float] | None = None
+        self._pause = self._took = 0.0
+        """[s] before the next step, and that the last frame took."""
 
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
-        if not self._wanted.is_set():  # To set it again takes as long as all the rest of an edit.
+        if self._wanted.is_set():  # To set it again takes as long as all the rest of an edit.
+            return
+        with self._pool.change:
             self._wanted.set()
-            self._look()
+            if self._state in ("idle", "step") and not self._stopped:
+                self._line_up_for_frame()
 
     def stop(self, timeout: float = 2.0) -> None:
-        """End the thread after the update it is in."""
+        """No update and no step begins after this; waits for the one that runs."""
         self._stopped = True
         self._wanted.set()
-        self._look()
-        if threading.current_thread() is not self._thread and self._thread.is_alive():
-            self._thread.join(timeout)
-
-    @property
-    def stopped(self) -> bool:
-        """Whether the page has gone."""
-        return self._stopped
+        with self._pool.change:
+            if self._thread != threading.get_ident():
+                self._pool.change.wait_for(lambda: self._state != "running", timeout)
 
     @property
     def superseded(self) -> bool:
-        """Whether a newer update is wanted."""
+        """Whether a newer update is wanted, or none any more."""
         return self._stopped or self._wanted.is_set()
 
-    def pause(self, seconds: float) -> None:
-        """Within an update: leave the turn to others until a newer update is wanted, at most so long.
-
-        What can wait then does not stand in the way of the next step of a drag. Nor does the wait for another turn,
-        which may be long where other pages compute: a newer update ends it.
-        """
-        if self._turn is not None:
-            self._turn.leave()
+    def wait(self, seconds: float) -> None:
+        """Within an update of a pool of one's own: wait until a newer one is wanted, at most so long."""
         self._wanted.wait(seconds)
-        if self._turn is not None:
-            self._turn.give_way(lambda: self.superseded)
 
-    def _look(self) -> None:
-        """Let an update that waits behind frames check again whether it is wanted."""
-        if (turn := self._turn) is not None:
-            turn.look()
+    def waits(self, ticket: int) -> bool:
+        """Whether the step of this ticket is still to be done."""
+        return self._state == "step" and self._ticket == ticket and not self._stopped
 
-    def _superseded_after(self, turn: Turn) -> "Superseded":
-        return Superseded(self, turn)
+    def begin(self) -> bool:
+        """A thread takes it; False when it has stopped. The caller holds the pool's `change`."""
+        self._state, self._thread = "idle" if self._stopped else "running", threading.get_ident()
+        return not self._stopped
 
-    def _rest(self) -> None:
-        """Wait until an update is wanted."""
-        idle = self._idle
-        if self._wanted.wait(None if idle is None else idle.after):
-            return
-        assert idle is not None
-        idle.on_sleep()
-        self._wanted.wait()
-        idle.on_wake()
+    def run(self) -> None:
+        """One update, or one step of what can wait."""
+        try:
+            if self._wanted.is_set():
+                # Cleared before the update reads anything, so that a change during the update wakes it again.
+                self._wanted.clear()
+                begun = time.monotonic()
+                self._pause, steps = 0.0, self._update()
+                self._took = time.monotonic() - begun
+                self._steps = self._steps if steps is None else steps
+            elif self._steps is not None:
+                pause = next(self._steps, None)
+                self._pause, self._steps = pause or 0.0, None if pause is None else self._steps
+        except Exception as error:  # The session must survive whatever one update does.
+            self._steps = None
+            if not self._stopped:
+                with contextlib.suppress(Exception):  # The browser may have gone.
+                    self._on_error(error)
 
-    def _loop(self) -> None:
-        while True:
-            self._rest()
-            try:
-                with self._scheduler.take() as turn:
-                    # Cleared before the update reads anything, so that a change during the update wakes it again.
-                    # Not cleared before the turn: the update will see what changes while it waits.
-                    self._wanted.clear()
-                    if self._stopped:
-                        return
-                    self._turn = turn
-                    self._update(self._superseded_after(turn))
-            except Exception as error:  # The session must survive whatever one update does.
-                if not self._stopped:
-                    with contextlib.suppress(Exception):  # The browser may have gone.
-                        self._on_error(error)
+    def requeue(self) -> None:
+        """After a run: in line again where there is more to do. The caller holds the pool's `change`."""
+        self._state, self._thread = "idle", 0
+        if self._stopped:
+            self._steps = None
+        elif self._wanted.is_set():
+            self._line_up_for_frame()
+        elif self._steps is not None:
+            self._state, self._ticket = "step", self._pool.queue(self, time.monotonic() + self._pause)
+
+    def _line_up_for_frame(self) -> None:
+        """Frames of a page whose trims take long are steps: only one of these is computed at a time."""
+        slow = self._took > _SLOW
+        self._state = "step" if slow else "frame"
+        self._ticket = self._pool.queue(self, time.monotonic() if slow else None)

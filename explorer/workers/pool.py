@@ -1,7 +1,8 @@
 """A pool of warm worker processes shared by all pages, with progress, stop, time limits and honest queue positions.
 
 One process is kept warm from the start; others are added, up to the size of the pool, once there is work. Each has a
-thread that feeds it through a pipe, so a process that ends or hangs costs only its own job.
+thread that feeds it through a pipe, so a process that ends or hangs costs only its own job. The processes import this
+file, so it imports nothing of the page.
 
 `concurrent.futures.ProcessPoolExecutor` (and loky, which is built on it) was tried and does not do: it cannot end a
 task that ignores its stop, the interpreter waits for running tasks at exit (8 s measured for a task of 8 s), and the
@@ -9,27 +10,22 @@ processes of a server that was killed go on.
 """
 
 import itertools
+import os
+import signal
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
-from typing import Any
+from typing import Any, Literal, Protocol
 
-from explorer.workers.job import (
-    MOST_WAITING,
-    Job,
-    JobEnded,
-    JobEvent,
-    JobFailed,
-    JobProgress,
-    JobQueue,
-    JobQueued,
-    JobStarted,
-)
-from explorer.workers.process import RunRequest, StopRequest, Task, WorkerReply, serve
+for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_threads, "1")  # Before NumPy is loaded: its BLAS then makes no threads, which only hinder.
 
+_NICE = 5
+"""Lower priority than the server, so that frames come before searches where processors are short."""
 _PATIENCE = 0.12
 """[s] a process has to answer a stop; then the job ends with what was reported."""
 _GRACE = 3.0
@@ -41,29 +37,95 @@ _POLL = 0.2
 _START = 60.0
 """[s] a new process may take to import and compile."""
 
+Tell = Callable[[Any], None]
+Stop = Callable[[], bool]
+
+
+class Task(Protocol):
+    """A value that can be pickled and run."""
+
+    def run(self, tell: Tell, stop: Stop) -> Any:
+        """Report progress with `tell`; call `stop` often, and return what there is when it is True."""
+        ...
+
+
+@dataclass(frozen=True)
+class JobQueued:
+    """The job waits behind `ahead` others."""
+
+    ahead: int
+
+
+@dataclass(frozen=True)
+class JobStarted:
+    """A process runs the job."""
+
+
+@dataclass(frozen=True)
+class JobProgress:
+    """What the task reported."""
+
+    item: Any
+
+
+@dataclass(frozen=True)
+class JobEnded:
+    """The end: the task's result, or None if it was stopped before it had one."""
+
+    result: Any
+    stopped: bool = False
+    late: bool = False
+    """Stopped by the time limit."""
+
+
+@dataclass(frozen=True)
+class JobFailed:
+    """The end without a result, with a sentence for the page."""
+
+    message: str
+
+
+JobEvent = JobQueued | JobStarted | JobProgress | JobEnded | JobFailed
+
+
+class Job:
+    """One task in the pool; of two that wait the one of lower urgency number runs first, then the older one."""
+
+    def __init__(self, number: int, task: Task, on_event: Callable[[JobEvent], None], limit: float, urgency: int):
+        self.number, self.task, self.limit, self.urgency = number, task, limit, urgency
+        self.stopping = threading.Event()
+        self._on_event = on_event
+        self._lock = threading.Lock()
+        self._over = False
+
+    @property
+    def over(self) -> bool:
+        return self._over
+
+    def tell(self, event: JobEvent) -> None:
+        """Pass an event on; none follows the end."""
+        with self._lock:
+            if self._over:
+                return
+            self._over = isinstance(event, (JobEnded, JobFailed))
+            self._on_event(event)
+
+    def silence(self) -> None:
+        """Pass on no further event."""
+        with self._lock:
+            self._over = True
+
 
 class Pool:
     """Processes shared by all sessions; safe from any thread."""
 
     def __init__(self, processes: int = 2) -> None:
         self._numbers = itertools.count(1)
-        self._queue = JobQueue(processes)
+        self._waiting: list[Job] = []
         self._change = threading.Condition()
         self._workers: list[WorkerThread] = []
         self._processes = processes
         self.closed = False
-
-    def share(self) -> "PoolClient":
-        """Access for one page."""
-        with self._change:
-            self._queue.pages += 1
-        return PoolClient(self)
-
-    def leave(self) -> None:
-        """A page has gone; its tabs stop their own jobs."""
-        with self._change:
-            self._queue.pages -= 1
-            self._change.notify_all()
 
     def warm(self) -> None:
         """Start the first process before it is needed."""
@@ -71,29 +133,44 @@ class Pool:
             if not self._workers:
                 self._add_worker()
 
-    def submit(
-        self,
-        task: Task,
-        on_event: Callable[[JobEvent], None],
-        limit: float = 60.0,
-        urgency: int = 0,
-        owner: "PoolClient | None" = None,
-    ) -> Job:
+    def submit(self, task: Task, on_event: Callable[[JobEvent], None], limit: float = 60.0, urgency: int = 0) -> Job:
         """Queue a task. `on_event` is called from threads of the pool and must be quick. Lower `urgency` goes first."""
         with self._change:
-            job = Job(next(self._numbers), task, on_event, limit, urgency, owner)
+            job = Job(next(self._numbers), task, on_event, limit, urgency)
             if self.closed:
                 job.tell(JobFailed("The page is closing."))
                 return job
-            if self._queue.full(owner):
-                job.tell(JobFailed(f"{MOST_WAITING} jobs of this page wait already: stop one of them first."))
-                return job
-            self._queue.add(job)
-            if self._idle < len(self._queue):
+            self._waiting.append(job)
+            self._waiting.sort(key=lambda one: (one.urgency, one.number))
+            if self._idle < len(self._waiting):
                 self._add_worker()
             self._change.notify_all()
         self._tell_positions()
         return job
+
+    def result(
+        self, task: Task, superseded: Callable[[], bool], urgency: int, found: Callable[[Any], None] = lambda _: None
+    ) -> JobEnded | JobFailed | None:
+        """Waits for the end of a task; None when superseded first: it leaves the queue, or runs on to its end.
+
+        `found` is called with the result, also of a task that ran on. Not to be called on a thread that pages need.
+        """
+        over, ends = threading.Event(), list[JobEnded | JobFailed]()
+
+        def on_event(event: JobEvent) -> None:
+            if isinstance(event, JobEnded | JobFailed):
+                if isinstance(event, JobEnded) and event.result is not None:
+                    found(event.result)
+                ends.append(event)
+                over.set()
+
+        job = self.submit(task, on_event, urgency=urgency)
+        while not over.wait(_POLL):
+            if superseded():
+                if self._dequeue(job):
+                    job.silence()
+                return None
+        return ends[0]
 
     def stop(self, job: Job, quiet: bool = False) -> None:
         """Stop a job, waiting or running; `quiet`: nobody listens any more."""
@@ -102,19 +179,12 @@ class Pool:
         job.stopping.set()
         if self._dequeue(job):
             job.tell(JobEnded(None, stopped=True))
-            self._tell_positions()
-
-    def abandon(self, job: Job) -> None:
-        """Its result is no longer needed: a waiting job leaves the queue, a running one goes on to its end."""
-        if self._dequeue(job):
-            job.silence()
-            self._tell_positions()
 
     def close(self) -> None:
         """End all processes."""
         with self._change:
             self.closed = True
-            workers, waiting = list(self._workers), self._queue.clear()
+            workers, waiting, self._waiting = list(self._workers), self._waiting, []
             self._change.notify_all()
         for job in waiting:
             job.silence()
@@ -124,20 +194,16 @@ class Pool:
     def next(self, patience: float) -> Job | None:
         """The next job; None when none came within `patience` [s] or the pool closes."""
         with self._change:
-            job = None if self.closed else self._queue.take()
-            if job is None and not self.closed:
-                self._change.wait(patience)
-                job = None if self.closed else self._queue.take()
+            self._change.wait_for(lambda: self._waiting or self.closed, patience)
+            job = self._waiting.pop(0) if self._waiting else None
         if job is not None:
             self._tell_positions()
         return job
 
-    def done(self, job: Job) -> None:
-        """Its process is free again. Where one had work another may soon, so a further one is warmed."""
+    def done(self) -> None:
+        """A process is free again. Where one had work another may soon, so a further one is warmed."""
         with self._change:
-            self._queue.done(job)
             self._add_worker()
-            self._change.notify_all()
 
     @property
     def _idle(self) -> int:
@@ -152,51 +218,37 @@ class Pool:
     def _dequeue(self, job: Job) -> bool:
         """Take a job out of the queue, if it waits."""
         with self._change:
-            waiting = job in self._queue
-            if waiting:
-                self._queue.remove(job)
-        return waiting
+            waits = job in self._waiting
+            if waits:
+                self._waiting.remove(job)
+        self._tell_positions()
+        return waits
 
     def _tell_positions(self) -> None:
         with self._change:
-            behind = self._queue.behind(self._idle)
+            behind = self._waiting[self._idle :]
         for ahead, job in enumerate(behind):
             job.tell(JobQueued(ahead))
 
 
-class PoolClient:
-    """Access of one page to the pool; the methods are those of `Pool`, in this page's name."""
+@dataclass(frozen=True)
+class RunRequest:
+    number: int
+    task: Task
 
-    def __init__(self, pool: Pool) -> None:
-        self._pool = pool
-        self.stop, self.abandon, self.leave = pool.stop, pool.abandon, pool.leave
 
-    def submit(self, task: Task, on_event: Callable[[JobEvent], None], limit: float = 60.0, urgency: int = 0) -> Job:
-        return self._pool.submit(task, on_event, limit, urgency, self)
+@dataclass(frozen=True)
+class StopRequest:
+    number: int
 
-    def result(
-        self, task: Task, superseded: Callable[[], bool], urgency: int, found: Callable[[Any], None] = lambda _: None
-    ) -> JobEnded | JobFailed | None:
-        """Waits for the end of a task; None when superseded first.
 
-        `found` is called with the result, also of a task that ran on after it was superseded. The thread that waits
-        must not hold a turn that pages need to compute.
-        """
-        over, ends = threading.Event(), list[JobEnded | JobFailed]()
+@dataclass(frozen=True)
+class WorkerReply:
+    """What the process sends about the task of that number."""
 
-        def on_event(news: JobEvent) -> None:
-            if isinstance(news, JobEnded | JobFailed):
-                if isinstance(news, JobEnded) and news.result is not None:
-                    found(news.result)
-                ends.append(news)
-                over.set()
-
-        job = self.submit(task, on_event, urgency=urgency)
-        while not over.wait(_POLL):
-            if superseded():
-                self.abandon(job)
-                return None
-        return ends[0]
+    number: int
+    kind: Literal["ready", "progress", "done", "failed"]
+    item: Any = None
 
 
 class WorkerThread(threading.Thread):
@@ -231,7 +283,7 @@ class WorkerThread(threading.Thread):
             except Exception as error:  # A task that cannot be pickled, for example: the thread must go on.
                 job.tell(JobFailed(f"The work could not be done: {error}"))
             self.idle = True
-            self._pool.done(job)
+            self._pool.done()
 
     def close(self) -> None:
         self._closed = True
@@ -299,3 +351,43 @@ class WorkerThread(threading.Thread):
             process.join(1.0)
         if pipe is not None:
             pipe.close()
+
+
+def serve(pipe: "Connection[Any, Any]") -> None:
+    """The life of the process. It ends when the pipe closes, which it does however the server ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server.
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
+    from explorer.workers import solver
+
+    solver.warm()
+    with suppress(EOFError, OSError):
+        pipe.send(WorkerReply(0, "ready"))
+        while True:
+            request = pipe.recv()
+            if isinstance(request, RunRequest):
+                _run(pipe, request)
+
+
+def _run(pipe: "Connection[Any, Any]", request: RunRequest) -> None:
+    stopped = False
+
+    def stop() -> bool:
+        nonlocal stopped
+        try:
+            while not stopped and pipe.poll():
+                stopped = pipe.recv() == StopRequest(request.number)
+        except (EOFError, OSError):
+            stopped = True
+        return stopped
+
+    def tell(item: Any) -> None:
+        pipe.send(WorkerReply(request.number, "progress", item))
+
+    try:
+        reply = WorkerReply(request.number, "done", request.task.run(tell, stop))
+    except (EOFError, BrokenPipeError):
+        raise
+    except Exception as error:  # The process must survive whatever a task does.
+        reply = WorkerReply(request.number, "failed", str(error) or type(error).__name__)
+    pipe.send(reply)

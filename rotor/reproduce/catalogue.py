@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from rotor.line_chart import LineChart, Mark, Series
 from rotor.reproduce import (
     actuation,
     aircraft,
@@ -30,7 +31,6 @@ from rotor.reproduce.runs import (
     best_fixed,
     searches,
 )
-from rotor.validation.chart import Mark, Series, TrustChart
 from rotor.validation.theory import bound
 from rotor.validation.trust import TrustRow, TrustSet, share
 
@@ -244,7 +244,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         f"{count['agrees']} agree, {count['differs']} differ",
         "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, 2016. "
         "Figures of which only the caption is known, and drawings, are not here.",
-        tuple(rows), (TrustChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
+        tuple(rows), (LineChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
         ("*Agrees* and *differs* judge a statement. *As loaded*: its numbers are our input. "
          "*Indicative*: compared with data of unclear origin.",),
     )  # fmt: skip
@@ -253,7 +253,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
 _MARKS: dict[str, Mark] = {"points": "points", "dashed": "dashed", "both": "both"}
 
 
-def _chart(report: Report, place: int = 0) -> TrustChart:
+def _chart(report: Report, place: int = 0) -> LineChart:
     """A panel of lines as a chart of the trust page."""
     panel = report.panels[place]
     assert isinstance(panel, PlotPanel)
@@ -261,4 +261,4 @@ def _chart(report: Report, place: int = 0) -> TrustChart:
         Series(one.label, one.x, one.y, _MARKS.get(one.style, "line"), 0 if one.style in ("points", "dashed") else k)
         for k, one in enumerate(panel.curves, start=1)
     )
-    return TrustChart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)
+    return LineChart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)

@@ -10,9 +10,9 @@ from rotor.design.retired import current_model
 from rotor.design.stand import Stand
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import Series, TrustChart
 from rotor.validation.measured import MeasuredSet, load_set
 from rotor.validation.trust import TrustRow, TrustSet
 
@@ -196,7 +196,7 @@ def _row(found: Comparison) -> TrustRow:
     )
 
 
-def _chart(found: list[Comparison]) -> TrustChart:
+def _chart(found: list[Comparison]) -> LineChart:
     """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
     measured, quantity = found[0].measured, found[0].measured.quantity
     along = measured.varied[0]
@@ -209,7 +209,7 @@ def _chart(found: list[Comparison]) -> TrustChart:
         x, y = zip(*ours, strict=True)
         alone = len(set(x)) == len(x)
         series.append(Series(f"computed, inflow {one.inflow}", x, y, "both" if alone else "crosses", k))
-    return TrustChart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
+    return LineChart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
 
 
 def _constant(measured: MeasuredSet) -> str:

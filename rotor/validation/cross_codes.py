@@ -15,9 +15,9 @@ import numpy as np
 from rotor.airfoil.sections import load_section
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, share, trust_rows
 
 DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
@@ -69,7 +69,7 @@ def dynbem() -> TrustSet:
     ]  # fmt: skip
     rows = rows or _shipped("dynbem")
     series = Series("dynbem's torque over ours", DYNBEM_SPEEDS, _percent(rows), "both", 1)
-    chart = TrustChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
+    chart = LineChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
     return TrustSet(
         "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
         "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
@@ -91,7 +91,7 @@ def ccblade() -> TrustSet:
         Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
         Series("with swirl", CCBLADE_MASSES, power[1::2], "both", 2),
     )
-    chart = TrustChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
+    chart = LineChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
     return TrustSet(
         "ccblade", "CCBlade", "Hover power without and with swirl",
         f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",

@@ -16,6 +16,7 @@ from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.files.make_design import make_design
+from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.airloads import (
@@ -27,7 +28,6 @@ from rotor.validation.airloads import (
     measured_curves,
     our_curve,
 )
-from rotor.validation.chart import AZIMUTH, Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, judged
 
 POWERS = "flown-power"
@@ -259,7 +259,7 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
     )  # fmt: skip
 
 
-def _power_chart(powers: Sequence[FlownPower], rotor: str) -> TrustChart:
+def _power_chart(powers: Sequence[FlownPower], rotor: str) -> LineChart:
     mine = sorted((row for row in powers if row.rotor == rotor and row.ours is not None), key=lambda row: row.mu)
     mu = tuple(row.mu for row in mine)
     series = [
@@ -269,15 +269,15 @@ def _power_chart(powers: Sequence[FlownPower], rotor: str) -> TrustChart:
     for k, word in enumerate(("lowest", "highest")):
         ends = tuple(math.nan if row.band is None else row.band[k] / 1e3 for row in mine)
         series.append(Series(f"{word} drag area", mu, ends, "dashed", 2 + k))
-    return TrustChart(f"Power of the {TITLES[rotor]}", "advance ratio µ", "main-rotor power [kW]", tuple(series))
+    return LineChart(f"Power of the {TITLES[rotor]}", "advance ratio µ", "main-rotor power [kW]", tuple(series))
 
 
-def _angle_chart(angles: Sequence[FlownAngle]) -> TrustChart:
+def _angle_chart(angles: Sequence[FlownAngle]) -> LineChart:
     series: list[Series] = []
     for k, one in enumerate(angles, start=1):
         series.append(Series(f"{ANGLES[one.quantity]}, measured", one.speed_kt, one.measured, "points", k))
         series.append(Series("computed", one.speed_kt, one.ours, "line", k))
-    return TrustChart("Pitch angles of the Bo 105", "airspeed [kt]", "pitch [°]", tuple(series))
+    return LineChart("Pitch angles of the Bo 105", "airspeed [kt]", "pitch [°]", tuple(series))
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
@@ -347,7 +347,7 @@ def _lift_row(name: str, quantity: str, found: Sequence[CurveAgreement]) -> Trus
     )
 
 
-def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> TrustChart:
+def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> LineChart:
     """c_l at the radii."""
     series: list[Series] = []
     mine = [one for one in curves if one[0].case.name == name and one[0].quantity == "cl"]
@@ -357,7 +357,7 @@ def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Ar
         ours = tuple(np.append(values, values[0]).tolist())
         series.append(Series("computed", (*np.degrees(psi).tolist(), 360.0), ours, "line", k))
     mu = mine[0][0].case.conditions["mu"]
-    return TrustChart(
+    return LineChart(
         f"Section lift coefficient, {name}, µ {mu:g}", "azimuth [°]", f"c_l, {name}", tuple(series), x_ticks=AZIMUTH
     )
 

@@ -12,6 +12,7 @@ from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
+from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.airloads import (
@@ -26,7 +27,6 @@ from rotor.validation.airloads import (
     our_curve,
     wave,
 )
-from rotor.validation.chart import AZIMUTH, Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet
 
 SET = "hart2-airloads"
@@ -326,7 +326,7 @@ def vortex_errors(solution: Solution, case: str) -> tuple[float, float, int]:
     return float(np.sqrt(np.mean(error**2))), float(error.mean()), len(error)
 
 
-def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[str, Solution]) -> Iterator[TrustChart]:
+def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[str, Solution]) -> Iterator[LineChart]:
     """Loads less their mean, a chart for each case; twist and flapping as they are."""
     for quantity in ("cn_m2", "cm_m2"):
         for name, solution in solutions.items():
@@ -338,7 +338,7 @@ def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[
                 Series("measured", _degrees(measured.psi[::2]), tuple(theirs[::2].tolist())),
                 Series("computed", *_closed(psi, values - values.mean()), "line", 1),
             )
-            yield TrustChart(label, "azimuth [°]", label, series, x_ticks=AZIMUTH)
+            yield LineChart(label, "azimuth [°]", label, series, x_ticks=AZIMUTH)
     for quantity in ("tip_twist_deg", "tip_flap"):
         series_of: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
@@ -347,10 +347,10 @@ def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[
             series_of.append(Series(f"{name}, measured", _degrees(measured.psi), theirs, "points", k))
             series_of.append(Series("computed", *_closed(*our_curve(measured, solution)), "line", k))
         label = QUANTITIES[quantity]
-        yield TrustChart(label, "azimuth [°]", label, tuple(series_of), x_ticks=AZIMUTH)
+        yield LineChart(label, "azimuth [°]", label, tuple(series_of), x_ticks=AZIMUTH)
 
 
-def _vortex_chart(solution: Solution) -> TrustChart:
+def _vortex_chart(solution: Solution) -> LineChart:
     """Height over x of BL near three planes y."""
     course, measured = solution.wake_course, measured_vortices("BL")
     assert course is not None
@@ -364,7 +364,7 @@ def _vortex_chart(solution: Solution) -> TrustChart:
         along = np.linspace(-math.sqrt(1.0 - y * y), float(x.max()), 30)
         ours = height(course, along, np.full_like(along, y))
         series.append(Series("computed", tuple(along.tolist()), tuple(ours.tolist()), "line", k))
-    return TrustChart("Tip vortices above the hub, BL", "x/R, aft", "z/R of tip vortices, BL", tuple(series))
+    return LineChart("Tip vortices above the hub, BL", "x/R, aft", "z/R of tip vortices, BL", tuple(series))
 
 
 def _degrees(psi: Array) -> tuple[float, ...]:

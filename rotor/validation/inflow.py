@@ -16,10 +16,10 @@ from rotor.aero.lifting_line.influence import at_points
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.files.make_design import make_design
+from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import AZIMUTH, Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet
 
 ROTOR = "2mrts"
@@ -122,7 +122,7 @@ def inflow_set() -> TrustSet:
     )
 
 
-def _chart(measured: MeasuredInflow) -> TrustChart:
+def _chart(measured: MeasuredInflow) -> LineChart:
     """Measured and computed inflow over azimuth."""
     here = [k for k, r in enumerate(measured.r) if r == RADIUS]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
@@ -133,7 +133,7 @@ def _chart(measured: MeasuredInflow) -> TrustChart:
     for k, name in enumerate(DRAWN, start=1):
         series.append(Series(name, angle, tuple(_time_mean(name, ring).tolist()), "line", k))
     title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
-    return TrustChart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
+    return LineChart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
 
 
 def inflow_agreement() -> Iterator[InflowAgreement]:

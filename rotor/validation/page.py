@@ -14,8 +14,8 @@ from functools import partial
 from itertools import groupby
 from pathlib import Path
 
+from rotor.line_chart import draw, draw_small
 from rotor.validation import cross_codes, flown, hart2, uh60a
-from rotor.validation.chart import draw, draw_small
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set

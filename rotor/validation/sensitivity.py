@@ -9,9 +9,9 @@ from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.structure import BladeStructure
 from rotor.files.make_design import make_design
+from rotor.line_chart import LineChart, Series
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
-from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import SensitivityRow
 
 SPEEDS = (0.0, 0.15, 0.30)
@@ -140,7 +140,7 @@ def sensitivity() -> Iterator[SensitivityRow]:
             )
 
 
-def sensitivity_chart(rows: Sequence[SensitivityRow]) -> TrustChart:
+def sensitivity_chart(rows: Sequence[SensitivityRow]) -> LineChart:
     """The best twist of each change with its band, one colour a speed."""
     changes = tuple(dict.fromkeys(row.change for row in rows))
     series: list[Series] = []
@@ -157,4 +157,4 @@ def sensitivity_chart(rows: Sequence[SensitivityRow]) -> TrustChart:
             )
         )
     title = "Best linear twist by choice of model, with its band"
-    return TrustChart(title, "best linear twist [° per radius]", "", tuple(series), names=changes)
+    return LineChart(title, "best linear twist [° per radius]", "", tuple(series), names=changes)

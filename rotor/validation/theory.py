@@ -14,12 +14,12 @@ from rotor.arrays import Array
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.line_chart import LineChart, Series
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
-from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, judged
 
 SPEEDS = (0.1, 0.2, 0.3)
@@ -50,7 +50,7 @@ def theory() -> TrustSet:
         ),
     )  # fmt: skip
     places = tuple(map(float, range(len(bounds))))
-    chart = TrustChart(
+    chart = LineChart(
         "Errors and their bounds", "relative error", "",
         (
             Series("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, "points", 1),

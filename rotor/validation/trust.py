@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from rotor.assets import asset_path, csv_rows
-from rotor.validation.chart import TrustChart
+from rotor.line_chart import LineChart
 
 Kind = Literal["validation", "indicative", "verification", "public code", "document"]
 KINDS: dict[Kind, str] = {
@@ -76,7 +76,7 @@ class TrustSet:
     """For the summary."""
     source: str
     rows: tuple[TrustRow, ...]
-    charts: tuple[TrustChart, ...]
+    charts: tuple[LineChart, ...]
     """The first is also the small picture of the summary."""
     text: tuple[str, ...] = ()
     """Paragraphs that hold for all rows."""

@@ -13,9 +13,9 @@ from rotor.airfoil.sections import load_section
 from rotor.assets import asset_path
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.line_chart import LineChart, Series
 from rotor.trim.solve import solve
 from rotor.units import KNOT
-from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, judged, share
 
 HORSEPOWER_KW = 0.745700
@@ -90,7 +90,7 @@ def hover() -> TrustSet:
         "uh60a-hover", "UH-60A, hover", "C_P, 10 points", f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         "Digitised UH-60 rotor measurements (W. Garre, 2018, project history of SONATA, TU Munich); provenance "
         "incomplete.",
-        rows, (TrustChart("UH-60A in hover", "C_T/σ", "C_P/σ", series),),
+        rows, (LineChart("UH-60A in hover", "C_T/σ", "C_P/σ", series),),
         ("C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.",),
         (("C_T/σ", "Measured C_P/σ", "Ours", "Error"),
          *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f} %") for a, b, c, d in points)),
@@ -117,7 +117,7 @@ def forward() -> TrustSet:
     return TrustSet(
         "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * rms:.1f} %, mean {100 * mean:+.1f} %",
         "A flight-mechanics model with Pitt–Peters inflow: Lee, Texas A&M dissertation, 2021, read off a graph to 2 %.",
-        rows, (TrustChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
+        rows, (LineChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
         ("No measured forward-flight power of the UH-60A could be reached.",),
         (("µ", "Model curve [kW]", "Ours [kW]", "Error"),
          *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f} %")
@@ -154,7 +154,7 @@ def section() -> TrustSet:
     )  # fmt: skip
 
 
-def _over_angle(name: str, label: str, mach: float = 0.4) -> TrustChart:
+def _over_angle(name: str, label: str, mach: float = 0.4) -> LineChart:
     table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
     alpha = np.arange(-5.0, 9.1, 0.25)
     ours = tuple(float(getattr(table(math.radians(a), mach), name)) for a in alpha)
@@ -162,10 +162,10 @@ def _over_angle(name: str, label: str, mach: float = 0.4) -> TrustChart:
         Series("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
         Series("section table", tuple(alpha.tolist()), ours, "line", 1),
     )
-    return TrustChart(f"{label} of SC1095 at Mach {mach:g}", "angle of attack [°]", f"{label}, Mach {mach:g}", series)
+    return LineChart(f"{label} of SC1095 at Mach {mach:g}", "angle of attack [°]", f"{label}, Mach {mach:g}", series)
 
 
-def _drag_rise(alpha_deg: float = 2.0) -> TrustChart:
+def _drag_rise(alpha_deg: float = 2.0) -> LineChart:
     table, alpha = load_section("sc1095"), math.radians(alpha_deg)
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
@@ -174,7 +174,7 @@ def _drag_rise(alpha_deg: float = 2.0) -> TrustChart:
         Series("RANS and net, kept aside", mach, drag),
         Series("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), "line", 1),
     )
-    return TrustChart(f"Drag rise of SC1095 at {alpha_deg:g}°", "Mach number", f"C_d at {alpha_deg:g}°", series)
+    return LineChart(f"Drag rise of SC1095 at {alpha_deg:g}°", "Mach number", f"C_d at {alpha_deg:g}°", series)
 
 
 def constants() -> TrustSet:
@@ -205,5 +205,5 @@ def constants() -> TrustSet:
     return TrustSet(
         name, "Constants of the UH-60A", "Lift slope, flapping, Lock number",
         f"{min(errors):+.1f} to {max(errors):+.1f} %", "Published constants of sections and blade, each named below.",
-        tuple(rows), (TrustChart("Ours over published", "difference [%]", "", (series,), names=titles),),
+        tuple(rows), (LineChart("Ours over published", "difference [%]", "", (series,), names=titles),),
     )  # fmt: skip

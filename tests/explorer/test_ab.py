@@ -15,7 +15,7 @@ from explorer.picture.polar import polar_grid
 from explorer.pinned import Pinboard, Pinned, act
 from explorer.scene.overlays import ghost_of
 from explorer.state import Inputs, ViewState
-from explorer.text import comparison as ab_readout
+from explorer.text import readout
 from explorer.text.status import cautions, status_panel
 from explorer.text.units import number
 from explorer.theme.colours import PINNED_GHOST, VOID
@@ -168,7 +168,7 @@ def value(text: str) -> float:
 
 class TestReadOut:
     def test_every_part_has_a_b_and_the_difference(self, along: Solution, b: Solution):
-        html = ab_readout.power_panel(b, along)
+        html = readout.compared_power_panel(b, along)
         assert cells(html, "kW")[1:] == ["A", "B", "Δ kW", "Δ %"]
         apart = 0.0
         for title, name in (("Induced", "induced"), ("Profile", "profile"), ("Tail rotor", "tail")):
@@ -182,27 +182,27 @@ class TestReadOut:
 
     def test_signs_are_true_and_no_row_says_nan(self, along: Solution, b: Solution):
         for one, other in ((b, along), (along, b)):
-            html = ab_readout.power_panel(one, other) + ab_readout.trim_panel(one, other)
+            html = readout.compared_power_panel(one, other) + readout.compared_trim_panel(one, other)
             text = re.sub(r"<[^>]*>", " ", html)
             assert not re.search(r"\s-\d", text)
             assert not re.search(r"nan|inf\b", text, re.IGNORECASE)
 
     def test_where_a_has_no_trim_there_are_dashes_and_a_sentence(self, lost: Solution, b: Solution):
-        html = ab_readout.power_panel(b, lost)
+        html = readout.compared_power_panel(b, lost)
         assert "no trim at this condition" in html
         assert cells(html, "Total")[1] == "–"
         assert cells(html, "Total")[3:] == ["–", "–"]
         assert 'data-explorer="change"' not in html
-        assert "–" in ab_readout.trim_panel(b, lost)
+        assert "–" in readout.compared_trim_panel(b, lost)
         assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
 
     def test_trim_of_both(self, along: Solution, b: Solution):
-        html = ab_readout.trim_panel(b, along)
+        html = readout.compared_trim_panel(b, along)
         for solution in (along, b):
             assert f">{number(np.degrees(solution.controls.collective), 2)}<" in html
         assert "L/De" in html
         hover = replace(b, design=replace(b.design, condition=replace(b.design.condition, advance_ratio=0.0)))
-        assert "FM" in ab_readout.trim_panel(hover, along)
+        assert "FM" in readout.compared_trim_panel(hover, along)
 
     def test_cautions_say_whose_they_are_and_what_else_differs(self, a: Solution, along: Solution, b: Solution):
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")

@@ -35,8 +35,8 @@ from explorer.tabs.actuator.state import (
 )
 from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
 from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
+from explorer.workers.newest_wins import NewestWins
 from explorer.workers.pool import Pool
-from explorer.workers.scheduler import SCHEDULER, Turn
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -300,8 +300,7 @@ def test_the_study_answers_the_newest_question():
     inputs = ActuatorInputs(actuator="extension_twist")
     first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
     here = Here()
-    study = VerdictWorker(here, lambda: None, "study-test")
-    study.start()
+    study = VerdictWorker(here, lambda: None)
     study.ask(first)
     study.ask(last)
     until(lambda: study.findings.complete)
@@ -311,36 +310,29 @@ def test_the_study_answers_the_newest_question():
     study.stop()
 
 
-def page_gets_its_turn() -> bool:
-    """Whether a trim that gave way in the middle, and comes behind all else, gets its turn, at last."""
+def page_is_updated() -> bool:
+    """Whether an update of a page runs soon."""
     time.sleep(0.1)
-    turn, late = Turn(SCHEDULER), threading.Event()
-    turn.held = False
-    alarm = threading.Timer(10.0, lambda: (late.set(), turn.look()))
-    alarm.start()
-    granted = turn.give_way(late.is_set)
-    alarm.cancel()
-    turn.leave()
-    return granted
+    done = threading.Event()
+    NewestWins(done.set, print).wake()
+    return done.wait(10.0)
 
 
 def test_studies_that_wait_keep_no_page_from_computing():
-    studies = [VerdictWorker(Here(), lambda: None, f"study-{k}") for k in range(4)]
+    studies = [VerdictWorker(Here(), lambda: None) for _ in range(4)]
     for study in studies:
-        study.start()
         study.ask(question_of(ActuatorInputs(), DESIGN), wanted=False)
-    assert page_gets_its_turn()
+    assert page_is_updated()
     for study in studies:
         study.stop()
 
 
 def test_sweeps_that_wait_keep_no_page_from_computing():
     pool = Pool(processes=0)  # Nothing that is asked of it ends.
-    sweeps = [SweepWorker(pool.share(), lambda: None, f"sweep-{k}") for k in range(4)]
+    sweeps = [SweepWorker(pool, lambda: None) for _ in range(4)]
     for sweep in sweeps:
-        sweep.start()
         assert sweep.ask(sweep_task(ActuatorInputs(per_rev=2), DESIGN)) is None
-    assert page_gets_its_turn()
+    assert page_is_updated()
     for sweep in sweeps:
         sweep.stop()
     pool.close()
@@ -350,9 +342,8 @@ def test_sweeps_that_wait_keep_no_page_from_computing():
 def test_work_not_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
     now, here = [100.0], Here()
     monkeypatch.setattr(actuator_study, "time", SimpleNamespace(monotonic=lambda: now[0], sleep=time.sleep))
-    study = VerdictWorker(here, lambda: None, "study-idle")
+    study = VerdictWorker(here, lambda: None)
     question = question_of(ActuatorInputs(), DESIGN)
-    study.start()
     for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
         study.ask(question, wanted=False)
         now[0] += 0.9 * actuator_study.IDLE

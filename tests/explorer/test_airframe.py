@@ -7,8 +7,7 @@ import pytest
 import trimesh
 from scipy.spatial import cKDTree
 
-from explorer.picture.airframe import airframe
-from explorer.picture.rotor_head import mast, rotor_head
+from explorer.picture.airframe import airframe, mast, rotor_head
 from explorer.picture.solids import Mesh, joined, loft, revolved, tube
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.blade import Rotor

@@ -9,9 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-from explorer.picture.picture import OUTLINE_COLOURS
 from explorer.tabs.probe.readout import ALPHA, DRAG, LIFT
-from explorer.theme import colours
 from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from rotor.arrays import Array
 
@@ -106,13 +104,3 @@ def test_power_parts_are_told_apart(eye: str):
 def test_lines_of_one_chart_are_told_apart(eye: str, together: tuple[str, ...]):
     for first, second in itertools.combinations(together, 2):
         assert apart(first, second, eye) > PLAIN, f"{first} and {second}"
-
-
-@eyes
-@pytest.mark.parametrize("scheme", ["sequential", "diverging"])
-def test_outlines_stand_out_from_every_colour_of_the_disk(eye: str, scheme: Scheme):
-    """Line or casing differs in lightness from whatever lies beneath, by 20 of 100."""
-    disk = seen(np.concatenate((colour_map(scheme, 64), [colours.VOID])), eye)[:, 0]
-    for name, pair in OUTLINE_COLOURS.items():
-        lightness = seen(np.array(pair), eye)[:, 0]
-        assert np.abs(disk[:, None] - lightness).max(axis=1).min() > 20.0, name

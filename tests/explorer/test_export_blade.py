@@ -26,7 +26,7 @@ from explorer.export.files import flown_file, jig_file
 from explorer.export.provenance import file_stem
 from explorer.interface import SessionState
 from explorer.picture.blade_mesh import swept_back
-from explorer.picture.poses import blade_twists
+from explorer.picture.poses import with_active_twist
 from explorer.state import Inputs, ViewState
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -113,7 +113,7 @@ def test_the_file_is_what_the_mesh_is_and_says_its_unit():
 
 def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
     design = replace(DESIGN, active_twist=ActiveTwist((Harmonic(1, math.radians(3.0)),)))
-    laws = blade_twists(design, (0.0, math.pi))
+    laws = [with_active_twist(design, psi) for psi in (0.0, math.pi)]
     tail, nose = (blade_mesh(replace(DESIGN, twist=law)) for law in laws)
     assert tail.is_watertight
     assert nose.is_watertight

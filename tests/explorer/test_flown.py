@@ -18,9 +18,8 @@ from explorer.tabs.probe.element import probe
 from explorer.tabs.probe.measured import beside_measured, correlation, measured_panel
 from explorer.tabs.probe.readout import probe_panel
 from explorer.text.readout import drag_band_words, open_drag_area
-from explorer.text.status import cautions
+from explorer.text.status import cautions, validated
 from explorer.text.units import SI
-from explorer.text.validated import validated
 from rotor.analysis.series import between_drag_areas
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve

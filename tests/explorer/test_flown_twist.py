@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.picture.blade_inset import inset
-from explorer.picture.blade_mesh import PAGE, blade_shape, blade_vertices, drawn_pitch
+from explorer.picture.blade_mesh import PAGE, blade_shape, blade_vertices, drawn_pitch, inset
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS, fitted_range
 from explorer.picture.picture import field_values, make_picture, turned_blades
@@ -19,7 +18,7 @@ from explorer.scene.overlays import ghost_twist
 from explorer.state import ViewState
 from explorer.tabs.probe.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
-from explorer.text.comparison import trim_panel as both_panel
+from explorer.text.readout import compared_trim_panel as both_panel
 from explorer.text.readout import trim_panel
 from rotor.arrays import Array
 from rotor.design.twist import LinearTwist

@@ -13,7 +13,6 @@ import viser
 from explorer.sliders import SLIDERS
 from explorer.state import Inputs
 from explorer.tabs.controls import DesignControls
-from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
 from explorer.text.status import status_panel
@@ -85,7 +84,7 @@ def test_every_widget_that_is_made_anywhere_has_its_hint_from_the_glossary():
             given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
             where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
             assert given or label == "Close" or _never_seen(node), (
-                f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.py"
+                f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.toml"
             )
             assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
 
@@ -98,8 +97,8 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
     page = [
         readout.power_panel(solution, other),
         readout.trim_panel(solution),
-        ab_readout.power_panel(solution, other),
-        ab_readout.trim_panel(solution, other),
+        readout.compared_power_panel(solution, other),
+        readout.compared_trim_panel(solution, other),
         status_panel(solution),
     ]
     for html in page:

@@ -24,7 +24,7 @@ from explorer.tabs.optimise.run import SearchRun, starts_of
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.tabs.optimise.text import concept_picture
 from explorer.text.units import SI
-from explorer.workers.job import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS

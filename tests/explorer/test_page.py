@@ -9,8 +9,7 @@ import viser
 
 from explorer.hosting import viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
-from explorer.hosting.request_filter import RequestFilter
-from explorer.hosting.served_page import with_loading_screen
+from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 
 CLIENT = (
     "<!doctype html><html><head><title>Viser</title>\n<script data-p=x>go()</script></head>\n"

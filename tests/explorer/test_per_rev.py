@@ -11,7 +11,6 @@ import pytest
 import viser
 from numpy.testing import assert_allclose
 
-from explorer.export.as_code import as_command_line, as_python
 from explorer.export.demo import flown_pitch
 from explorer.export.provenance import provenance_lines
 from explorer.picture.blade_mesh import blade_shape
@@ -25,7 +24,7 @@ from explorer.tabs.actuator.state import ActuatorInputs
 from explorer.tabs.controls import DesignControls, PerRevControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import twist_name, wave_words
-from explorer.text.validated import validated
+from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.undo import History
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
@@ -68,16 +67,6 @@ def test_a_drag_is_one_step_of_undo():
         waves = (Harmonic(3, math.radians(1.0 + k)),)
         history.note(replace(OPENING, pitch_per_rev=waves), 2.0 if k == 0 else 0.1)
     assert history.undo() == OPENING
-
-
-def test_code_for_shell_and_python_makes_the_design():
-    command = as_command_line(MOVED.design())
-    assert command.case is None
-    assert "--pitch-per-rev 3:1.5:180,5:0.2:40" in command.command
-    assert "--twist-per-rev 2:1:30" in command.command
-    scope: dict[str, Any] = {}
-    exec(as_python(MOVED.design()).partition("solution =")[0], scope)
-    assert scope["design"] == MOVED.design()
 
 
 def test_the_actuators_harmonic_and_the_twist_are_not_both():

@@ -1,35 +1,36 @@
 """Pictures and reports as text: complete, to the point, and nothing in them that needs a network."""
 
 import io
+import json
 import math
 import re
 import threading
 import xml.etree.ElementTree as ET
 from dataclasses import asdict, replace
+from html import escape
 from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer import __main__ as command
-from explorer.charts import svg
-from explorer.charts.line_chart import Trace, line_chart
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.charts.power_curve import PowerCurves
+from explorer.export.disk_drawing import disk_svg, key_entries
 from explorer.export.provenance import versions
-from explorer.export.report import command as report_command
+from explorer.export.report import document
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.sheet import SIZES, Paper, disk_sheet, shown, view_sheet, window
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
+from explorer.picture.regions import NO_MARKS, Marks
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.state import Inputs, ViewState, baseline_of
+from explorer.text.units import UNITS
 from explorer.web import json_block
 from rotor.design.design import Design
 from rotor.trim.solution import Status
@@ -41,7 +42,6 @@ FAST = solve(Inputs(law="linear", linear=-16.0, advance_ratio=0.41).design())
 VIEW = ViewState()
 ALPHA = FIELDS[VIEW.field]
 RANGE = ALPHA.low, ALPHA.high
-SHOWN = shown(VIEW)
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -63,87 +63,28 @@ def words(document: ET.Element) -> str:
 
 
 class TestDrawing:
-    def test_segments_that_share_ends_are_one_line(self):
-        corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-        ring = np.stack((corners, np.roll(corners, -1, axis=0)), axis=1)
-        ring[2] = ring[2][::-1]  # Whichever way a segment runs.
-        apart = np.array([[[3.0, 3.0], [4.0, 4.0]]])
-        square, line = svg.joined(np.concatenate((ring, apart)))
-        assert len(square) == 5
-        assert_allclose(square[0], square[-1])
-        assert_allclose(line, apart[0])
-        assert svg.polylines([square]).endswith("Z")
-
     def test_the_disk_has_the_pixels_asked_for_up_to_the_largest(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setattr(disk_image, "LARGEST", 600)
         for size, made in ((200, 200), (SIZE, SIZE), (9000, 600)):
             assert Image.open(io.BytesIO(disk_png(NOW, ALPHA, RANGE, size=size))).size == (made, made)
 
-    def test_a_chart_breaks_its_line_at_a_gap_and_keeps_inside_its_axes(self):
-        x = np.linspace(0.0, 1.0, 9)
-        y = np.array([0.0, 1.0, math.nan, 2.0, 3.0, math.nan, 1e9, 1.0, 0.0])
-        chart = line_chart("A <title>", "x", "y", [Trace("one", "#123456", x, y)], (0.0, 1.0), (0.0, 4.0))
-        drawn = ET.fromstring(chart)  # Well formed.
-        (path,) = [p for p in drawn.iter("path") if p.get("stroke") == "#123456" and p.get("stroke-linejoin")]
-        assert path.get("d", "").count("M") == 3
-        assert "nan" not in chart
-        assert max(abs(float(number)) for number in re.findall(r"-?\d+\.\d", path.get("d", ""))) < 1000.0
+    def test_as_a_file_it_has_title_flight_scale_and_the_key_of_what_is_marked(self):
+        drawn = ET.fromstring(disk_svg(FAST, ALPHA, RANGE, Marks(), UNITS["Aviation"]))
+        seen = words(drawn)
+        for text in ("µ 0.410 · 176 kt · 326 km/h · 18\u2009342 lb · 0 ft", ALPHA.label, "reverse flow", "stall"):
+            assert text in seen
+        left, top, wide, high = map(float, drawn.attrib["viewBox"].split())
+        for element in drawn.findall(f"{SVG}text"):
+            assert left <= float(element.attrib["x"]) <= left + wide
+            assert top <= float(element.attrib["y"]) <= top + high
 
-    def test_a_chart_of_nothing_known_is_empty_axes(self):
-        nothing = np.full(3, math.nan)
-        assert "nan" not in line_chart("t", "x", "y", [Trace("a", "red", nothing, nothing)], (0.0, 1.0))
-
-
-class TestSheet:
-    @pytest.mark.parametrize(("size", "dark"), [((1280, 720), True), ((2000, 2000), False)])
-    def test_size_ground_and_words(self, size: tuple[int, int], dark: bool):
-        assert size in SIZES.values()
-        drawn = ET.fromstring(disk_sheet(FAST, SHOWN, Paper(*size, dark)))
-        assert (drawn.get("width"), drawn.get("height")) == tuple(map(str, size))
-        ground = drawn[0]
-        assert ground.tag == f"{SVG}rect"
-        assert (ground.get("fill") == "#ffffff") != dark
-        said = words(drawn)
-        assert f"{FAST.power.total / 1e3:,.0f} kW".replace(",", "\u2009") in said
-        assert "µ 0.410 · 326 km/h · 176 kt · 8.32 t · 0 m" in said
-        assert ALPHA.label in said
-        assert "quasi-steady sections" in said  # Its caveat, broken into lines or not.
-        assert "not a measurement" in said
-
-    def test_words_stay_on_the_paper(self):
-        for width, height in ((1280, 720), (800, 800), (700, 1000), (1000, 400)):
-            drawn = ET.fromstring(disk_sheet(FAST, SHOWN, Paper(width, height)))
-            for element in drawn.findall(f"{SVG}text"):
-                assert 0.0 <= float(element.get("x", "-1")) <= width
-                assert 0.0 <= float(element.get("y", "-1")) <= height
-
-    def test_aviation_units_are_those_of_the_page(self):
-        said = words(ET.fromstring(disk_sheet(FAST, shown(replace(VIEW, units="Aviation")), Paper(1280, 720))))
-        assert f"{FAST.power.total / 745.699872:,.0f} hp".replace(",", "\u2009") in said
-        assert "µ 0.410 · 176 kt · 326 km/h · 18\u2009342 lb · 0 ft" in said
-
-    def test_transparent_paper_has_no_ground(self):
-        assert ET.fromstring(disk_sheet(NOW, SHOWN, Paper(800, 450, transparent=True)))[0].tag != f"{SVG}rect"
-
-    def test_lines_that_are_off_are_not_drawn_and_not_explained(self):
-        plain = words(ET.fromstring(disk_sheet(NOW, shown(replace(VIEW, stall=False)), Paper(1280, 720))))
-        assert "reverse flow" in plain
-        assert "stall" not in plain.splitlines()
-
-    @pytest.mark.parametrize("size", [(1280, 720), (2000, 2000), (600, 900)])
-    def test_the_view_fills_its_window(self, size: tuple[int, int]):
-        paper = Paper(*size)
-        x, y, wide, high = window(FAST, paper)
-        assert x + wide <= size[0]
-        assert y + high <= size[1]
-        drawn = ET.fromstring(view_sheet(FAST, SHOWN, paper, b"png"))
-        (image,) = drawn.iter(f"{SVG}image")
-        assert [float(image.get(name, "")) for name in ("x", "y", "width", "height")] == [x, y, wide, high]
-
-    @pytest.mark.parametrize("size", [(100, 720), (1280, 9000), (3000, 500)])
-    def test_a_size_that_cannot_be_is_one_sentence(self, size: tuple[int, int]):
-        with pytest.raises(ValueError, match=r"^.*: keep .*\.$"):
-            Paper(*size)
+    def test_the_key_has_only_what_is_marked_and_there(self):
+        assert [title for title, _ in key_entries(FAST, ALPHA, Marks(stall=False))] == [
+            "reverse flow",
+            "drag divergence",
+        ]
+        assert key_entries(FAST, ALPHA, NO_MARKS)[0][0] == "not defined"
+        assert "reverse flow" not in dict(key_entries(solve(NOW.design.at(hover=True)), ALPHA))
 
 
 class Checked(HTMLParser):
@@ -205,7 +146,7 @@ class TestReport:
             assert f"<li>{caveat.sentence}</li>" in page
         for name, number in versions().items():
             assert f"<tr><td>{name}</td><td>{number}</td></tr>" in page
-        assert "python -m rotor solve" in page
+        assert escape(json.dumps(FAST.design.to_dict()["twist"])) in page
         assert "Kept &lt;1&gt;" in page
 
     def test_does_not_compare_what_flies_differently(self, page: str):
@@ -266,7 +207,7 @@ class TestCommand:
     def test_design_files_become_one_report(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ):
-        monkeypatch.setattr(report_command, "report_html", lambda report, stage: report_html(report, stage, Swept()))
+        monkeypatch.setattr(document, "report_html", lambda report, stage: report_html(report, stage, Swept()))
         for name, solution in (("now", NOW), ("fast", FAST)):
             solution.design.save(tmp_path / f"{name}.json")
         out = tmp_path / "out.html"

@@ -106,7 +106,7 @@ class TestCommand:
 
             def __init__(self, *_: object) -> None: ...
 
-            def settle(self) -> None:
+            def wait_until_warm(self) -> None:
                 raise KeyboardInterrupt
 
             def stop(self) -> None: ...

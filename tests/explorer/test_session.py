@@ -13,6 +13,7 @@ from explorer.interface import Failure, Frame, SessionState
 from explorer.page import Page
 from explorer.session import Session
 from explorer.state import Inputs, ViewState
+from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor.design.design import Design
 
 
@@ -70,16 +71,20 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Session:
     monkeypatch.setattr(power_curve, "_FEW", (0, 1, 2, 3))
     monkeypatch.setattr(power_curve, "_FEWEST", (0, 1, 2, 3))
     client: Any = SimpleNamespace(client_id=1)
-    shared: Any = SimpleNamespace(pool=SimpleNamespace(leave=lambda: None))
-    return Session(client, Inputs(), PageFacts(), shared)
+    made = Session(client, Inputs(), PageFacts(), shared=SimpleNamespace())  # pyright: ignore[reportArgumentType]
+    made._worker = NewestWins(made._update, made._failed, UpdatePool(0))
+    return made
 
 
 def update(session: Session) -> Any:
-    """One update in which nothing supersedes it; the page with the calls of this update only."""
+    """One update with all its steps, in which nothing supersedes it; the page with the calls of this update only."""
     page: Any = session.page
     page.calls.clear()
     session._all_changed = True
-    session._update(lambda: False)
+    steps = session._update()
+    assert steps is not None
+    for _ in steps:
+        pass
     return page
 
 
@@ -132,7 +137,7 @@ def test_azimuth_alone_updates_little(session: Session):
     page.calls.clear()
     page.view = replace(page.view, azimuth_deg=75.0)
     session._all_changed = False
-    session._update(lambda: False)
+    assert session._update() is None
     assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_azimuth"]
     assert page.frames[-1].only_azimuth
 
@@ -150,9 +155,8 @@ def test_search_is_shown_in_place_of_the_sliders(session: Session):
 def test_frame_goes_out_when_newer_input_waits(session: Session):
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
-    session._update(lambda: True)
-    assert page.calls[:4] == ["pin_or_swap", "show_frame", "solve_pinned", "show_results"]
-    assert "follow" not in page.calls
+    session._update()
+    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned"]
 
 
 def test_the_page_settles_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -163,62 +167,31 @@ def test_the_page_settles_before_the_power_curve(session: Session, monkeypatch: 
     assert page.calls[-3:] == ["settle", "sweep", "rest"]
 
 
-def test_a_drag_waits_neither_for_the_fine_picture_nor_for_a_recent_curve(
-    session: Session, monkeypatch: pytest.MonkeyPatch
-):
-    monkeypatch.setattr(power_curve, "PATIENCE", 600.0)
-    update(session)
+def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Session, monkeypatch: pytest.MonkeyPatch):
     page: Any = session.page
-    page.calls.clear()
-    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
-    session._update(lambda: True)
-    assert page.calls[-1] == "show_power"
+    monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
+    assert update(session).calls.count("sweep") == 1
+    for recent, expected in ((False, ["sweep", "settle", "sweep"]), (True, ["settle", "sweep"])):
+        monkeypatch.setattr(type(session._curves), "recent", property(lambda _, recent=recent: recent))
+        calls = update(session).calls
+        assert [one for one in calls if one in ("sweep", "settle")] == expected
 
 
-def test_in_a_crowd_charts_wait_but_not_for_long(session: Session, monkeypatch: pytest.MonkeyPatch):
-    update(session)
+def test_in_a_crowd_the_number_comes_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3))
     page: Any = session.page
-    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
-    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    page.calls.clear()
-    session._update(lambda: True)
-    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
-    session._frames_took = 2e6 * session._charts_took  # As if many frames had followed.
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    session._update(lambda: True)
-    assert "show_results" in page.calls
-    assert session._frames_took == 0.0
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    page.calls.clear()
-    session._update(lambda: True)
-    assert page.calls[-1] == "show_power_number"
+    session._update()
+    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
 
 
-def test_in_a_crowd_the_last_step_gets_its_charts(session: Session, monkeypatch: pytest.MonkeyPatch):
-    """The number comes at once; charts once nothing has moved for a moment in which other pages compute."""
-    update(session)
+def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     page: Any = session.page
-    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
-    monkeypatch.setattr(session._worker, "pause", lambda _: page.calls.append("pause"))
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    calls = update(session).calls
-    assert calls[: calls.index("show_results") + 1][-3:] == ["show_power_number", "pause", "show_results"]
-    assert page.states[-1].solution is page.frames[-1].solution
-    assert "follow" in calls
-
-
-def test_in_a_crowd_a_step_between_two_others_has_no_charts(session: Session, monkeypatch: pytest.MonkeyPatch):
-    """The next step of the drag comes while this one leaves its turn to others."""
-    update(session)
-    page: Any = session.page
-    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
-    monkeypatch.setattr(session._worker, "pause", lambda _: session._wake())
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    assert update(session).calls[-1] == "show_power_number"
+    steps = session._update()
+    assert steps is not None
+    page.view = replace(page.view, azimuth_deg=75.0)
+    assert session._update() is None
+    next(steps)
+    assert page.states[-1].view.azimuth_deg == 75.0
 
 
 def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():

@@ -27,16 +27,6 @@ def section_angle(vertices: np.ndarray, ring: int) -> float:
     return math.atan2(nose[2] - tail[2], nose[1] - tail[1])
 
 
-@pytest.mark.parametrize("preset", ["flight", "thesis"])
-def test_blade_is_watertight_and_the_right_way_out(preset: str):
-    rotor = uh60a_rotor(preset)
-    shape = blade_mesh.blade_shape(rotor)
-    mesh = trimesh.Trimesh(blade_mesh.blade_vertices(shape, rotor.builtin_twist), shape.faces)
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert mesh.volume > 0.0
-
-
 def test_blade_volume_is_that_of_its_sections():
     """∫ area dr of the true outlines, the round shank left out."""
     lifting = SHAPE.r >= ROTOR.blade.root_cutout - 1e-9
@@ -49,16 +39,6 @@ def test_blade_volume_is_that_of_its_sections():
     assert lifted < mesh.volume < lifted + 1.1 * shank
 
 
-def test_twist_shows_from_root_to_tip():
-    """−12° per radius turns the tip against the root by −12° times the lifting span."""
-    flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
-    twisted = blade_mesh.blade_vertices(SHAPE, LinearTwist(math.radians(-12.0)))
-    last, root = len(SHAPE.r) - 1, 6
-    turned = [section_angle(twisted, ring) - section_angle(flat, ring) for ring in (root, last)]
-    span = 1.0 - ROTOR.blade.root_cutout
-    assert_allclose(turned[1] - turned[0], math.radians(-12.0) * span, rtol=1e-9)
-
-
 def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
     twist = LinearTwist(math.radians(-10.0))
     once, thrice = (blade_mesh.blade_vertices(SHAPE, twist, factor) for factor in (1.0, 3.0))
@@ -69,12 +49,6 @@ def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
     near = int(np.abs(SHAPE.r - 0.75).argmin())
     expected = math.radians(-10.0) * (SHAPE.r[near] - 0.75)
     assert_allclose(section_angle(once, near) - section_angle(flat, near), expected, atol=1e-9)
-
-
-def test_only_vertices_change_with_the_twist():
-    one, other = (blade_mesh.blade_vertices(SHAPE, LinearTwist(rate)) for rate in (0.0, -0.2))
-    assert one.shape == other.shape
-    assert SHAPE.faces.max() == len(one) - 1
 
 
 def test_sc1095_outline_keeps_its_thickness():

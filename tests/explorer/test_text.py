@@ -3,8 +3,6 @@
 import itertools
 import math
 import re
-import threading
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +17,6 @@ from explorer.text import readout
 from explorer.text.status import provenance, status_panel
 from explorer.text.units import number
 from explorer.text.why import why
-from explorer.workers.newest_wins import NewestWins
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.design.design import PRESETS, Design
 from rotor.design.twist import TableTwist
@@ -305,73 +302,6 @@ class TestPowerCurves:
         design = Inputs(law="linear", linear=-8.0).design()
         assert curves.sweep(design, design, lambda: next(calls) >= 8)
         assert np.isfinite(curves.known(design, design).design).all()
-
-
-class TestLatestWins:
-    def test_works_on_the_newest_and_never_queues(self):
-        state, seen, gate, begun = [0], [], threading.Event(), threading.Event()
-
-        def job(superseded) -> None:
-            seen.append(state[0])
-            begun.set()
-            gate.wait(60.0)
-
-        worker = NewestWins(job, lambda error: None, "test")
-        worker.start()
-        worker.wake()
-        assert begun.wait(60.0)
-        for value in range(1, 50):
-            state[0] = value
-            worker.wake()
-        gate.set()
-        deadline = time.monotonic() + 60.0
-        while len(seen) < 2 and time.monotonic() < deadline:
-            time.sleep(0.005)
-        time.sleep(0.05)
-        worker.stop()
-        assert seen == [0, 49]
-
-    def test_a_job_learns_that_it_is_superseded(self):
-        answers: list[bool] = []
-        running, finish, done = threading.Event(), threading.Event(), threading.Event()
-
-        def job(superseded) -> None:
-            if not answers:
-                answers.append(superseded())
-                running.set()
-                finish.wait(60.0)
-                answers.append(superseded())
-                done.set()
-
-        worker = NewestWins(job, lambda error: None, "test")
-        worker.start()
-        worker.wake()
-        assert running.wait(60.0)
-        worker.wake()
-        finish.set()
-        assert done.wait(60.0)
-        worker.stop()
-        assert answers[:2] == [False, True]
-
-    def test_an_error_is_reported_and_survived(self):
-        errors: list[Exception] = []
-        done = threading.Event()
-
-        def job(superseded) -> None:
-            if not errors:
-                raise RuntimeError("broken")
-            done.set()
-
-        def report(error: Exception) -> None:
-            errors.append(error)
-            worker.wake()
-
-        worker = NewestWins(job, report, "test")
-        worker.start()
-        worker.wake()
-        assert done.wait(60.0)
-        worker.stop()
-        assert [str(error) for error in errors] == ["broken"]
 
 
 def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():

@@ -1,7 +1,7 @@
 """The page with a trim on few elements, finer towards the tip: pictures, lines, probe and files as with even ones."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -9,14 +9,12 @@ from numpy.testing import assert_allclose
 
 from explorer.export.provenance import blade_csv, disk_csv
 from explorer.picture.fields import FIELDS, difference
-from explorer.picture.outlines import drag_divergence_segments, stall_segments
 from explorer.picture.polar import polar_grid, refined
 from explorer.picture.regions import MarkedRegion, Marks, region_codes, region_labels
 from explorer.picture.wake import inflow_arrows, tip_vortex_path
 from explorer.tabs.probe.element import probe
 from explorer.text.status import provenance
 from explorer.text.why import lift_centroid, why
-from rotor.arrays import Array
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -70,16 +68,7 @@ class TestFields:
         assert np.abs(changed).max() < 0.02
 
 
-class TestLines:
-    @pytest.mark.parametrize("segments", [stall_segments, drag_divergence_segments])
-    def test_they_run_where_they_run_on_even_elements(
-        self, segments: Callable[[Solution], Array], few: Solution, even: Solution
-    ):
-        ours, theirs = (segments(solution).mean(axis=1) for solution in (few, even))
-        assert len(ours) > 50
-        nearest = np.array([np.hypot(*(theirs - point).T).min() for point in ours])
-        assert np.quantile(nearest, 0.9) < 0.03
-
+class TestMarks:
     def test_marks_and_labels(self, few: Solution, even: Solution):
         shares = []
         for solution in (few, even):

@@ -12,7 +12,6 @@ from explorer.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.state import Inputs, ViewState
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.history import strip as history_view
-from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.design_words import flight_name
 from explorer.text.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
@@ -57,7 +56,7 @@ def test_the_chosen_unit_comes_first(solution: Solution):
 
 
 def test_a_and_b_in_horsepower(solution: Solution):
-    html = ab_readout.power_panel(solution, solution, AVIATION)
+    html = readout.compared_power_panel(solution, solution, AVIATION)
     assert "Δ hp" in html
     assert "Δ kW" not in html
     assert AVIATION.watts(solution.power.total) in html

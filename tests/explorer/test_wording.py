@@ -49,7 +49,10 @@ INSTEAD = {
 
 
 def shown_texts(path: Path) -> Iterator[str]:
-    """String constants of a file, without its docstrings."""
+    """String constants of a file, without its docstrings; all of a data file."""
+    if path.suffix == ".toml":
+        yield path.read_text(encoding="utf-8")
+        return
     nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
     silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
     for node in nodes:
@@ -68,7 +71,7 @@ def test_no_text_uses_a_second_name(package: str):
     phrases = {phrase.lower(): better for phrase, better in INSTEAD.items()}
     found = [
         f"{path.relative_to(ROOT)}: {phrase!r}: write {better!r}"
-        for path in sorted((ROOT / package).rglob("*.py"))
+        for path in sorted((*(ROOT / package).rglob("*.py"), *(ROOT / package).rglob("*.toml")))
         for text in map(str.lower, shown_texts(path))
         for phrase, better in phrases.items()
         if phrase in text

@@ -1,21 +1,34 @@
-"""The session's designs as one HTML file that needs no server and no network: power, trim, 3D, disks, charts."""
+"""Designs as one HTML file that needs no server and no network: power, trim, 3D, disks, charts.
 
+`python -m explorer report` makes it of design files, without a page and without a browser.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from html import escape
+from pathlib import Path
 
 from explorer import web
 from explorer.charts.power_curve import PowerCurves
-from explorer.export.as_code import as_command_line, as_python
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
-from explorer.export.report.contents import DesignReport, colours_of
+from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, report_of
 from explorer.picture.fields import FIELDS
-from explorer.scene.still_scene import EmbeddedViewer
+from explorer.scene.still_scene import EmbeddedViewer, make_stage
+from explorer.state import ViewState, baseline_of, baseline_title
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
+from rotor.design.design import Design
+from rotor.files.design_file import load_design
+from rotor.terminal import run_command
 from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.user_input import write_whole
 
 
 def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None) -> str:
@@ -108,21 +121,14 @@ def _section(report: DesignReport, k: int) -> str:
         f"{_caveats(solution)}"
         f'<div class="tables">{tables.conditions(solution)}{tables.parts(report, entry)}'
         f"{tables.trim(solution)}</div>{tables.blade(solution.design)}"
-        f"{figures.disks(report, entry, k)}{figures.along(solution)}{_again(solution)}</section>"
+        f"{figures.disks(report, entry, k)}{figures.along(solution)}{_design_file(solution.design)}</section>"
     )
 
 
-def _again(solution: Solution) -> str:
-    """How to reproduce it: command line and script."""
-    texts = {"Python": as_python, "Command line": lambda design: as_command_line(design).text}
-    parts = []
-    for title, write in texts.items():
-        try:
-            text = write(solution.design)
-        except ValueError as error:
-            text = str(error)
-        parts.append(f"<details><summary>{title}</summary><pre>{escape(text)}</pre></details>")
-    return f"<h3>To reproduce it</h3>{''.join(parts)}"
+def _design_file(design: Design) -> str:
+    """The design as its file, which the page, the command line and Python open."""
+    text = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)
+    return f"<details><summary>Design file</summary><pre>{escape(text)}</pre></details>"
 
 
 def _caveats(solution: Solution) -> str:
@@ -133,3 +139,47 @@ def _caveats(solution: Solution) -> str:
             f"less than {tiny(solution.residual)} of the weight.</p>"
         )
     return f'<ul class="care">{sentences}</ul>'
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """0 when the report is written, 1 when a design does not trim, 2 for bad input."""
+    return run_command("explorer report", lambda: _run(_parser().parse_args(arguments)))
+
+
+def _run(options: argparse.Namespace) -> int:
+    entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
+    view = ViewState(field=options.field)
+    first = entries[0].solution.design
+    try:
+        report = report_of(ReportEntry(baseline_title(first), solve(baseline_of(first))), entries, view)
+    except ValueError as error:
+        print(f"explorer report: {error}", file=sys.stderr)
+        return 1
+    stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
+    try:
+        write_whole(options.out, report_html(report, stage))
+    except OSError as error:
+        print(
+            f"explorer report: cannot write {options.out!r} ({error.strerror}): give a writable file", file=sys.stderr
+        )
+        return 2
+    print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m explorer report",
+        description="Designs side by side as one HTML file that opens without a server.",
+    )
+    parser.add_argument(
+        "designs",
+        nargs="+",
+        metavar="FILE",
+        help="design files (JSON); changes count from the first one's baseline twist",
+    )
+    parser.add_argument("--out", default="report.html", metavar="FILE", help="where to write (default report.html)")
+    parser.add_argument(
+        "--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=f"in 3D: {', '.join(FIELDS)}"
+    )
+    return parser

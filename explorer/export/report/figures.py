@@ -1,6 +1,7 @@
 """Figures of the report: power over speed, twist, disks with their scales, angle of attack and lift along the blade."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from html import escape
 
@@ -8,18 +9,19 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts import plots
-from explorer.charts.line_chart import Trace, line_chart
-from explorer.charts.plots import SWEEP
+from explorer.charts.plots import SWEEP, held_range
 from explorer.charts.power_curve import PowerCurves
+from explorer.charts.strip import lift_per_metre
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.picture.fields import Field
 from explorer.theme.colours import BASELINE, IDEAL
 from rotor.arrays import Array
+from rotor.line_chart import LineChart, Mark, Series, draw
 from rotor.trim.solution import Solution
 
-PIXELS = 400
-"""Pixels of a disk along each edge; more would be finer than the solver's grid."""
+PIXELS = 480
+"""Pixels of a disk along each edge: the labels of its regions can be read."""
 AZIMUTHS = {0: "#0ca678", 90: "#e8590c", 180: "#1c7ed6", 270: "#9c36b5"}
 """Azimuths of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
 _BAR = 200.0
@@ -28,46 +30,46 @@ _LETTERS = 10.0
 
 def overview(report: DesignReport, curves: PowerCurves) -> str:
     """Power over advance ratio and twist along the blade, all designs together."""
-    colours = colours_of(report)
-    pairs = list(zip(report.all, colours, strict=True))
-    power = [trace for entry, colour in reversed(pairs) for trace in _power(report, entry, colour, curves)]
+    pairs = list(zip(report.all, colours_of(report), strict=True))
+    power = [one for entry, colour in reversed(pairs) for one in _power(report, entry, colour, curves)]
     r = np.linspace(report.entries[0].solution.design.rotor.blade.root_cutout, 1.0, 160)
     twist, load = [], []
     for entry, colour in reversed(pairs):
-        look = ("6 4", 1.6) if entry is report.reference else ("", 2.2)
+        mark: Mark = "dashed" if entry is report.reference else "line"
         solution = entry.solution
-        twist.append(Trace(entry.title, colour, r, np.degrees(solution.design.twist(r)), *look))
-        load.append(Trace(entry.title, colour, solution.disk.r, _mean_load(solution), *look))
-    known = np.concatenate([trace.y[trace.x <= 0.4] for trace in power])
-    top = float(np.nanmax(known)) if np.isfinite(known).any() else 1.0
+        twist.append(_series(entry.title, r, np.degrees(solution.design.twist(r)), mark, colour))
+        load.append(_series(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, mark, colour))
+    seen = [y for one in power for x, y in zip(one.x, one.y, strict=True) if x <= 0.4 and math.isfinite(y)]
+    y_range, unit = held_range(None, 0.0, max(seen, default=1.0)), report.units.power[0].symbol
+    speed, speeds, along_r = "advance ratio µ", (-0.01, 0.46), (0.1, 1.01)
+    changes = [one for entry, colour in pairs for one in _change(report, entry, colour, curves)]
+    zero = _series("", np.array(speeds), np.zeros(2), "dashed", BASELINE)
+    against = f"vs. {report.reference.title} [%]"
     charts = [
-        line_chart(
-            "Power over advance ratio",
-            "advance ratio µ; hover as a point",
-            f"total power [{report.units.power[0].symbol}]",
-            power,
-            (-0.01, 0.46),
-            plots.held_range(None, 0.0, top),
-        ),
-        line_chart("Jig twist along the blade", "r/R", "twist [°], zero at 0.75 R", twist, (0.1, 1.01)),
-        line_chart("Load along the blade", "r/R", "dT/dr, mean over azimuth [kN/m]", load, (0.1, 1.01)),
-    ]
-    changes = [trace for entry, colour in pairs for trace in _change(report, entry, colour, curves)]
-    if changes:
-        charts.insert(
-            1,
-            line_chart(
-                "Change of power",
-                "advance ratio µ",
-                f"vs. {report.reference.title} [%]",
-                [Trace("", BASELINE, np.array([0.0, 0.5]), np.zeros(2), "6 4", 1.4), *changes],
-                (-0.01, 0.46),
-            ),
-        )
-    return f'<section><h2>Over speed and along the blade</h2><div class="charts">{"".join(charts)}</div></section>'
+        LineChart("Power over advance ratio", f"{speed}; hover as a point", f"total power [{unit}]", tuple(power),
+                  x_range=speeds, y_range=y_range),
+        *([LineChart("Change of power", speed, against, (zero, *changes), x_range=speeds)] if changes else []),
+        LineChart("Jig twist along the blade", "r/R", "twist [°], zero at 0.75 R", tuple(twist), x_range=along_r),
+        LineChart("Load along the blade", "r/R", "dT/dr, mean over azimuth [kN/m]", tuple(load), x_range=along_r),
+    ]  # fmt: skip
+    return f"<section><h2>Over speed and along the blade</h2>{_charts(charts)}</section>"
 
 
-def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
+def _charts(charts: Sequence[LineChart]) -> str:
+    return f'<div class="charts">{"".join(map(figure, charts))}</div>'
+
+
+def figure(chart: LineChart) -> str:
+    """A chart with its title, as HTML."""
+    title = f"<figcaption><b>{escape(chart.title)}</b></figcaption>"
+    return f'<figure class="chart">{title}{draw(chart, inline=True)}</figure>'
+
+
+def _series(label: str, x: Array, y: Array, mark: Mark, colour: str) -> Series:
+    return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
+
+
+def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Series]:
     """Curve over advance ratio, hover as a point, the present condition as a point."""
     design = entry.solution.design
     curves.sweep(design, report.reference.solution.design, lambda: False)
@@ -76,22 +78,16 @@ def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerC
     unit = report.units.power[0]
     here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
     total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
-    traces = [
-        Trace(entry.title, colour, *_smooth(total), "6 4" if is_reference else "", 1.6 if is_reference else 2.2),
-        Trace("", colour, mu[:1], total[:1], points=True),
+    found = [
+        _series(entry.title, *_smooth(total), "dashed" if is_reference else "line", colour),
+        _series("", mu[:1], total[:1], "points", colour),
     ]
     if entry is report.entries[0]:
-        traces.insert(0, Trace("ideal for its lift", IDEAL, *_smooth(ideal), "2 3", 1.4))
-    return traces if is_reference else [*traces, Trace("", colour, *here, points=True)]
+        found.insert(0, _series("ideal for its lift", *_smooth(ideal), "dashed", IDEAL))
+    return found if is_reference else [*found, _series("", *here, "points", colour)]
 
 
-def _mean_load(solution: Solution) -> Array:
-    """Thrust per length of one blade, mean over azimuth [kN/m], (elements,)."""
-    design = solution.design
-    return solution.disk.dct.mean(axis=1) * design.thrust_unit / (design.rotor.blades * design.rotor.radius) / 1e3
-
-
-def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
+def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Series]:
     """Change against the reference over speed, for blades with the same weight and altitude."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
@@ -100,8 +96,8 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
     curve = curves.known(design, reference)
     change = 100.0 * (curve.design / curve.reference - 1.0)
     return [
-        Trace(entry.title, colour, *_smooth(change)),
-        Trace("", colour, np.array(SWEEP[:1]), change[:1], points=True),
+        _series(entry.title, *_smooth(change), "line", colour),
+        _series("", np.array(SWEEP[:1]), change[:1], "points", colour),
     ]
 
 
@@ -117,7 +113,7 @@ def _smooth(values: Array) -> tuple[Array, Array]:
 
 
 def disks(report: DesignReport, entry: ReportEntry, k: int) -> str:
-    """The fields over the disk, each with its scale, and the key of the outlines."""
+    """The fields over the disk, each with its scale, and the key of the marked regions."""
     solution, figures = entry.solution, []
     for n, field in enumerate(fields_of(report)):
         colour_range = report.colour_range(field)
@@ -153,14 +149,14 @@ def along(solution: Solution) -> str:
     for degrees, colour in AZIMUTHS.items():
         lower, upper, angle = plots.angles_along(solution, float(degrees))
         if degrees == 270:
-            alpha += [Trace("", BASELINE, r, limit, "3 3", 1.2) for limit in (lower, upper)]
-        alpha.append(Trace(f"ψ {degrees}°", colour, r, angle))
-        cl = plots.lift_along(solution, float(degrees))
-        lift.append(Trace(f"ψ {degrees}°", colour, r, np.where(np.isfinite(angle), cl, math.nan)))
-    alpha.append(Trace("stall at ψ 270°", BASELINE, r[:0], r[:0], "3 3", 1.2))
-    return (
-        '<h3>Along the blade</h3><div class="charts">'
-        + line_chart("Angle of attack", "r/R; reverse flow omitted", "α [°]", alpha, (0.1, 1.01), (-15.0, 20.0))
-        + line_chart("Lift coefficient", "r/R; reverse flow omitted", "Cl", lift, (0.1, 1.01), (-0.5, 1.5))
-        + "</div>"
-    )
+            names = zip(("stall at ψ 270°", ""), (lower, upper), strict=True)
+            alpha += [_series(name, r, limit, "dashed", BASELINE) for name, limit in names]
+        alpha.append(_series(f"ψ {degrees}°", r, angle, "line", colour))
+        cl = np.where(np.isfinite(angle), plots.lift_along(solution, float(degrees)), math.nan)
+        lift.append(_series(f"ψ {degrees}°", r, cl, "line", colour))
+    x_label, x_range = "r/R; reverse flow omitted", (0.1, 1.01)
+    charts = [
+        LineChart("Angle of attack", x_label, "α [°]", tuple(alpha), x_range=x_range, y_range=(-15.0, 20.0)),
+        LineChart("Lift coefficient", x_label, "C_l", tuple(lift), x_range=x_range, y_range=(-0.5, 1.5)),
+    ]
+    return f"<h3>Along the blade</h3>{_charts(charts)}"

@@ -15,7 +15,7 @@ from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
 from explorer.workers import solver
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Pool
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
@@ -31,7 +31,7 @@ class ActuatorPanel:
         self,
         client: viser.ClientHandle,
         bridge: Bridge,
-        pool: PoolClient,
+        pool: Pool,
         changed: Callable[[], None],
         fly: Callable[[float], None],
     ) -> None:
@@ -41,8 +41,8 @@ class ActuatorPanel:
         self._client = client
         self._touched = False
         self._cut = CutScene(client.scene, bridge)
-        self._study = VerdictWorker(CachedVerdicts(pool), changed, f"study-{client.client_id}")
-        self._sweep = SweepWorker(pool, changed, f"sweep-{client.client_id}")
+        self._study = VerdictWorker(CachedVerdicts(pool), changed)
+        self._sweep = SweepWorker(pool, changed)
         self._rest = solver.BaselineCache()
         self._told: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
@@ -52,10 +52,6 @@ class ActuatorPanel:
         self._controls.fly_buttons.on_click(self._fly_clicked)
         self.shown = self._controls.shown
         self.inputs = self._controls.inputs
-
-    def start(self) -> None:
-        self._study.start()
-        self._sweep.start()
 
     def stop(self) -> None:
         self._study.stop()

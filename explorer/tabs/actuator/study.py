@@ -11,10 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from explorer.tabs.actuator.state import Question
-from explorer.workers.job import JobFailed
-from explorer.workers.newest_wins import NewestWins
-from explorer.workers.pool import PoolClient
-from explorer.workers.scheduler import FairScheduler
+from explorer.workers.newest_wins import NewestWins, UpdatePool
+from explorer.workers.pool import JobFailed, Pool
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict, judge
 from rotor.optimisation.concepts import find_concept
@@ -100,7 +98,7 @@ class VerdictSource(Protocol):
 class CachedVerdicts:
     """What is known already, else a process of the pool."""
 
-    def __init__(self, pool: PoolClient) -> None:
+    def __init__(self, pool: Pool) -> None:
         self._pool = pool
 
     def find(self, task: VerdictTask, superseded: Superseded) -> Outcome | None:
@@ -135,18 +133,15 @@ def _remember(task: VerdictTask, outcome: Outcome) -> None:
 class VerdictWorker:
     """One thread that answers the newest question, first for the chosen actuator, then for all others."""
 
-    def __init__(self, answers: VerdictSource, found: Callable[[], None], name: str) -> None:
+    def __init__(self, answers: VerdictSource, found: Callable[[], None]) -> None:
         self._answers = answers
         self._found = found
         self._question: Question | None = None
         self._wanted = False
         self._last = time.monotonic()
-        # A turn of its own: this thread only waits, and would keep the pages from theirs while it does.
-        self._worker = NewestWins(self._round, self._failed, name, scheduler=FairScheduler(1))
+        # A thread of its own: it only waits, and would keep the pages from theirs while it does.
+        self._worker = NewestWins(lambda: self._round(lambda: self._worker.superseded), self._failed, UpdatePool(1))
         self.findings = Findings()
-
-    def start(self) -> None:
-        self._worker.start()
 
     def stop(self) -> None:
         self._worker.stop(timeout=0.0)
@@ -193,7 +188,7 @@ class VerdictWorker:
             left = (began + STILL if self._wanted else self._last + IDLE) - time.monotonic()
             if left <= 0.0:
                 return True
-            self._worker.pause(left)
+            self._worker.wait(left)
             if superseded():
                 return False
 

@@ -11,10 +11,8 @@ import numpy as np
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.tabs.actuator.state import ActuatorInputs
 from explorer.text.units import number
-from explorer.workers.job import JobFailed
-from explorer.workers.newest_wins import NewestWins
-from explorer.workers.pool import PoolClient
-from explorer.workers.scheduler import FairScheduler
+from explorer.workers.newest_wins import NewestWins, UpdatePool
+from explorer.workers.pool import JobFailed, Pool
 from rotor.actuator.harmonic import PowerMap, power_map
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -63,15 +61,12 @@ def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
 class SweepWorker:
     """One thread that has the newest map made by a process of the pool."""
 
-    def __init__(self, pool: PoolClient, found: Callable[[], None], name: str) -> None:
+    def __init__(self, pool: Pool, found: Callable[[], None]) -> None:
         self._pool, self._found = pool, found
         self._wanted: SweepTask | None = None
-        # A turn of its own: this thread only waits, and would keep the pages from theirs while it does.
-        self._worker = NewestWins(self._round, self._failed, name, scheduler=FairScheduler(1))
+        # A thread of its own: it only waits, and would keep the pages from theirs while it does.
+        self._worker = NewestWins(lambda: self._round(lambda: self._worker.superseded), self._failed, UpdatePool(1))
         self._known: tuple[SweepTask, PowerMap | str] | None = None
-
-    def start(self) -> None:
-        self._worker.start()
 
     def stop(self) -> None:
         self._worker.stop(timeout=0.0)

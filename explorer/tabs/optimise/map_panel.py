@@ -12,19 +12,18 @@ from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
 from explorer.interface import TabContext
-from explorer.picture.fields import tick_text, ticks
 from explorer.picture.png import encode_png
 from explorer.state import with_optimum
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.text.units import SI, UNITS, Units, number
 from explorer.theme.colours import NOW, colour_map, css
-from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Pool
 from explorer.workers.tasks import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.line_chart import round_ticks, tick_text
 from rotor.optimisation.concepts import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND as _BAND
 
@@ -138,7 +137,7 @@ def _star(x: float, y: float) -> str:
 def _axis(parameter: Parameter, along: bool) -> str:
     low, high = parameter.shown(parameter.low), parameter.shown(parameter.high)
     out = []
-    for value in ticks(low, high):
+    for value in round_ticks(low, high, 5):
         part = (value - low) / (high - low)
         if along:
             at = _LEFT + part * _W
@@ -246,7 +245,7 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, search: OptimisePanel) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Pool, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the Optimise tab asks for."""
         self._pool, self._context, self._search, self._request = pool, context, search, search.request
         self._job: Job | None = None

@@ -17,8 +17,7 @@ from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.tabs.optimise.text import concept_picture
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS, number
-from explorer.workers.job import Job, JobEvent, JobProgress
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Job, JobEvent, JobProgress, Pool
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS
@@ -35,7 +34,7 @@ class OptimisePanel:
         self,
         gui: viser.GuiApi,
         bridge: Bridge,
-        pool: PoolClient,
+        pool: Pool,
         context: TabContext,
         legs: Callable[[Design], tuple[WeightedCondition, ...]],
         changed: Callable[[], None],

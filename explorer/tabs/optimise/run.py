@@ -7,7 +7,7 @@ from itertools import accumulate
 from typing import Literal
 
 from explorer.text.units import SI, Units
-from explorer.workers.job import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import ReferencePower, StartPower
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept

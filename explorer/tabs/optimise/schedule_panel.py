@@ -16,9 +16,8 @@ from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
-from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.player import Player
-from explorer.workers.pool import PoolClient
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted, Pool
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
 from rotor.optimisation.objective import WeightedCondition
@@ -39,7 +38,7 @@ class SchedulePanel:
         self,
         gui: viser.GuiApi,
         bridge: Bridge,
-        pool: PoolClient,
+        pool: Pool,
         context: TabContext,
         request: Callable[[], SearchRequest],
         changed: Callable[[], None] = lambda: None,

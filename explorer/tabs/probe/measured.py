@@ -7,7 +7,6 @@ from html import escape
 import numpy as np
 
 from explorer.charts import svg
-from explorer.charts.strip import round_ticks
 from explorer.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
@@ -16,6 +15,7 @@ from explorer.text.units import number
 from explorer.theme.colours import LIMIT, NOW, THIS
 from rotor.airfoil.public_points import SOURCES, PublicPoint, nearest_points, points_near
 from rotor.arrays import Array
+from rotor.line_chart import round_ticks
 from rotor.trim.solution import Solution
 from rotor.validation.airloads import REPORTS, FlownCase, MeasuredCurve, harmonics, our_curve
 

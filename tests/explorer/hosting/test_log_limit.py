@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from explorer.hosting.log_limit import RepeatFilter
+from explorer.hosting.limits import RepeatFilter
 
 
 class Kept(logging.Handler):
@@ -45,7 +45,7 @@ def test_a_thousand_equal_failures_write_three_tracebacks(kept: Kept):
 
 def test_later_the_number_left_out_is_told(kept: Kept, monkeypatch: pytest.MonkeyPatch):
     now = [0.0]
-    monkeypatch.setattr("explorer.hosting.log_limit.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("explorer.hosting.limits.time.monotonic", lambda: now[0])
     kept.addFilter(RepeatFilter(most=2, window=10.0))
     for now[0] in (0.0, 1.0, 2.0, 3.0, 20.0):
         fail(1)

@@ -1,6 +1,5 @@
 """Long work in worker processes: results in order, a stop that answers, a queue, and recovery from what goes wrong."""
 
-import itertools
 import os
 import signal
 import subprocess
@@ -13,18 +12,16 @@ from typing import Any
 
 import pytest
 
-from explorer.workers.job import (
-    MOST_WAITING,
+from explorer.workers.pool import (
     Job,
     JobEnded,
     JobEvent,
     JobFailed,
     JobProgress,
-    JobQueue,
     JobQueued,
     JobStarted,
+    Pool,
 )
-from explorer.workers.pool import Pool
 
 ROOT = Path(__file__).parent.parent.parent.parent
 SOON = 60.0
@@ -169,61 +166,6 @@ def test_positions_in_the_queue_are_honest(pool: Pool):
     assert third.over
 
 
-class TestQueue:
-    def order(self, queue: JobQueue) -> list[int]:
-        """Numbers of the jobs as they are taken, each done before the next."""
-        taken = []
-        while (job := queue.take()) is not None:
-            taken.append(job.number)
-            queue.done(job)
-        return taken
-
-    def filled(self, queue: JobQueue, *owners: str, urgency: int = 0) -> JobQueue:
-        for owner in owners:
-            queue.add(Job(next(self.numbers), Count(1), lambda event: None, 1.0, urgency, owner))
-        return queue
-
-    @pytest.fixture(autouse=True)
-    def fresh(self) -> None:
-        self.numbers = itertools.count(1)
-
-    def test_pages_take_turns(self):
-        queue = self.filled(JobQueue(2), "a", "a", "a", "b", "c", "b")
-        assert self.order(queue) == [1, 4, 5, 2, 6, 3]
-
-    def test_what_is_urgent_comes_first_among_equals(self):
-        queue = self.filled(JobQueue(2), "a", "a", urgency=1)
-        self.filled(queue, "b")
-        assert self.order(queue) == [3, 1, 2]
-
-    def test_no_page_has_all_processes_while_there_are_others(self):
-        queue = self.filled(JobQueue(2), "a", "a")
-        queue.pages = 2
-        first = queue.take()
-        assert first is not None
-        assert queue.take() is None  # One process is kept for who comes.
-        self.filled(queue, "b")
-        assert [job.owner for job in queue.behind(1)] == ["a"]
-        other = queue.take()
-        assert other is not None
-        assert other.owner == "b"
-        queue.done(first)
-        assert (second := queue.take()) is not None
-        assert second.owner == "a"
-
-    def test_alone_a_page_has_all(self):
-        queue = self.filled(JobQueue(2), "a", "a")
-        queue.pages = 1
-        assert queue.take()
-        assert queue.take()
-
-    def test_a_page_cannot_fill_the_queue(self):
-        queue = self.filled(JobQueue(2), *"a" * MOST_WAITING)
-        assert queue.full("a")
-        assert not queue.full("b")
-        assert not queue.full(None)
-
-
 def test_time_is_limited(pool: Pool):
     for _ in range(TRIES):
         _, heard = submit(pool, Count(10_000, 0.01), limit=0.1)
@@ -298,13 +240,13 @@ def test_a_job_whose_browser_left_reports_nothing(pool: Pool):
 
 
 def test_a_result_can_be_waited_for_and_comes_later_when_superseded(pool: Pool, tmp_path: Path):
-    page, found = pool.share(), list[int]()
-    assert page.result(Count(2), lambda: False, 0, found.append) == JobEnded(2)
-    failed = page.result(Failing(), lambda: False, 0, found.append)
+    found = list[int]()
+    assert pool.result(Count(2), lambda: False, 0, found.append) == JobEnded(2)
+    failed = pool.result(Failing(), lambda: False, 0, found.append)
     assert isinstance(failed, JobFailed)
     assert "a value that nobody wants" in failed.message
     begun, leave = tmp_path / "begun", tmp_path / "leave"
-    assert page.result(Marking(begun, leave), begun.exists, 0, found.append) is None
+    assert pool.result(Marking(begun, leave), begun.exists, 0, found.append) is None
     leave.touch()
     _, after = submit(pool, Count(1))
     after.until(JobEnded)
@@ -326,6 +268,6 @@ def test_closing_ends_every_process():
 
 @pytest.mark.slow
 def test_worker_processes_load_no_page():
-    code = "import sys, explorer.workers.process, explorer.workers.tasks; print('viser' in sys.modules)"
+    code = "import sys, explorer.workers.pool, explorer.workers.tasks; print('viser' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"

@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.airfoil.sections import load_section
+from rotor.line_chart import draw, draw_small
 from rotor.validation import cross_codes
-from rotor.validation.chart import draw, draw_small
 from rotor.validation.page import LONGEST, SETS, sensitivity_page
 from rotor.validation.sensitivity import sensitivity, sensitivity_chart
 from rotor.validation.trust import KINDS, sensitivity_rows, trust_rows

@@ -1,6 +1,7 @@
-"""A chart of measured points and ours as SVG, which takes its text colour from the page it stands in.
+"""Line charts as SVG: points and lines over two axes, for the trust page, reports and the documentation.
 
-As a file of its own it follows the reader's light or dark setting.
+As a file of its own a chart follows the reader's light or dark setting; within a page it has the page's text colour.
+Fill and stroke are attributes of the drawing, so that no style sheet is needed.
 """
 
 import math
@@ -9,6 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Literal
+
+import numpy as np
 
 Mark = Literal["points", "crosses", "line", "dashed", "both"]
 Span = tuple[float, float]
@@ -20,11 +23,9 @@ _WIDE, _HIGH, _SIZE = 640.0, 320.0, 12.0
 """Size of the drawing and of its text."""
 _LETTER = 0.5 * _SIZE
 """Width of a letter, on average."""
-_HEAD = (
-    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0:.0f} {1:.0f}" font-family="system-ui,sans-serif" '
-    'font-size="{2:g}" role="img" aria-label="{3}"><style>svg{{color:#1c2429}}'
-    "@media(prefers-color-scheme:dark){{svg{{color:#dfe5e9}}}}</style>"
-)
+_NAMESPACE = 'xmlns="http://www.w3.org/2000/svg" '
+_OWN_COLOURS = "<style>svg{color:#1c2429}@media(prefers-color-scheme:dark){svg{color:#dfe5e9}}</style>"
+"""Of a file of its own; in a page it would reach the page's other drawings."""
 
 
 @dataclass(frozen=True)
@@ -37,14 +38,14 @@ class Series:
     y: tuple[float, ...]
     """NaN is a gap."""
     mark: Mark = "points"
-    colour: int = 0
-    """Place in `COLOURS`."""
+    colour: int | str = 0
+    """Place in `COLOURS`, or a colour as SVG writes it."""
     scatter: tuple[float, ...] = ()
     """Half the length of an error bar on each point, along the axis of values."""
 
 
 @dataclass(frozen=True)
-class TrustChart:
+class LineChart:
     """One pair of axes."""
 
     title: str
@@ -55,13 +56,16 @@ class TrustChart:
     x_ticks: tuple[float, ...] = ()
     names: tuple[str, ...] = ()
     """Where given, y counts these from the top, and values and error bars lie along x."""
+    x_range: Span | None = None
+    y_range: Span | None = None
+    """Ends of the axes; None: as the series ask for. Lines are cut off there."""
 
 
 @dataclass(frozen=True)
 class _Axes:
     """Where values lie in the drawing."""
 
-    chart: TrustChart
+    chart: LineChart
     x_range: Span
     y_range: Span
     left: float
@@ -70,19 +74,17 @@ class _Axes:
     high: float
 
     def x(self, value: float) -> float:
-        low, high = self.x_range
-        return self.left + self.wide * (_scaled(value, "x" in self.chart.log) - low) / (high - low)
+        return self.left + self.wide * _share(_scaled(value, "x" in self.chart.log), self.x_range)
 
     def y(self, value: float) -> float:
-        low, high = self.y_range
-        return self.top + self.high * (high - _scaled(value, "y" in self.chart.log)) / (high - low)
+        return self.top + self.high * (1.0 - _share(_scaled(value, "y" in self.chart.log), self.y_range))
 
 
-def draw(chart: TrustChart) -> str:
-    """The chart with key and axes, an SVG file."""
+def draw(chart: LineChart, inline: bool = False) -> str:
+    """The chart with key and axes, as an SVG file, or `inline` as part of a page."""
     x_ticks = chart.x_ticks or _ticks(_range(chart, "x"), 7, "x" in chart.log)
     y_ticks = [float(k) for k in range(len(chart.names))] or _ticks(_range(chart, "y"), 6, "y" in chart.log)
-    y_words = chart.names or [_number(value, "y" in chart.log) for value in y_ticks]
+    y_words = chart.names or [_tick_text(value, "y" in chart.log) for value in y_ticks]
     key, lines = _key([one for one in chart.series if one.label])
     left = 12.0 + _LETTER * max(map(len, y_words)) + (0.0 if chart.names else 1.5 * _SIZE)
     top, high = 16.0 + 18.0 * lines, max(_HIGH - 86.0, 21.0 * len(chart.names))
@@ -93,7 +95,7 @@ def draw(chart: TrustChart) -> str:
     for value in x_ticks:
         x = axes.x(value)
         grid.append(f"M{x:.1f},{top:.1f}V{bottom:.1f}")
-        words.append(_text(x, bottom + 17.0, _number(value, "x" in chart.log)))
+        words.append(_text(x, bottom + 17.0, _tick_text(value, "x" in chart.log)))
     for value, word in zip(y_ticks, y_words, strict=True):
         y = axes.y(value)
         grid.append(f"M{left:.1f},{y:.1f}H{right:.1f}")
@@ -103,29 +105,40 @@ def draw(chart: TrustChart) -> str:
         middle = 0.5 * (top + bottom)
         words.append(f'<g transform="translate(12 {middle:.1f}) rotate(-90)">{_text(0.0, 0.0, chart.y_label)}</g>')
     return (
-        _HEAD.format(_WIDE, bottom + 46.0, _SIZE, escape(chart.title, quote=True))
-        + f'<path d="{"".join(grid)}" stroke="currentColor" stroke-opacity=".14"/>'
+        _head(_WIDE, bottom + 46.0, chart.title, inline)
+        + f'<path d="{"".join(grid)}" fill="none" stroke="currentColor" stroke-opacity=".14"/>'
         + f'<path d="M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}" fill="none" stroke="currentColor"/>'
         + f'<g fill="currentColor">{"".join(words)}</g>{key}'
+        + f'<svg x="{left:.1f}" y="{top - 5.0:.1f}" width="{axes.wide:.1f}" height="{high + 10.0:.1f}" '
+        f'viewBox="{left:.1f} {top - 5.0:.1f} {axes.wide:.1f} {high + 10.0:.1f}">'
         + "".join(_series(axes, one, 4.0, 2.0) for one in chart.series)
-        + "</svg>\n"
+        + "</svg></svg>\n"
     )
 
 
-def draw_small(chart: TrustChart) -> str:
+def draw_small(chart: LineChart) -> str:
     """The same without text, for a row of a table."""
     axes = _Axes(chart, _range(chart, "x"), _range(chart, "y"), 4.0, 3.0, 112.0, 28.0)
     return (
-        _HEAD.format(120.0, 34.0, _SIZE, escape(chart.title, quote=True))
+        _head(120.0, 34.0, chart.title, False)
         + '<path d="M4,3V31H116" fill="none" stroke="currentColor" stroke-opacity=".35"/>'
         + "".join(_series(axes, one, 1.8, 1.5) for one in chart.series)
         + "</svg>\n"
     )
 
 
+def _head(wide: float, high: float, title: str, inline: bool) -> str:
+    return (
+        f'<svg {"" if inline else _NAMESPACE}viewBox="0 0 {wide:.0f} {high:.0f}" role="img" '
+        f'font-family="system-ui,sans-serif" font-size="{_SIZE:g}" aria-label="{escape(title, quote=True)}">'
+        + ("" if inline else _OWN_COLOURS)
+    )
+
+
 def _series(axes: _Axes, one: Series, radius: float, width: float) -> str:
     places = [(axes.x(x), axes.y(y)) for x, y in zip(one.x, one.y, strict=True)]
-    stroke = f'stroke="{COLOURS[one.colour]}" fill="none" stroke-width="{width:g}"'
+    colour = COLOURS[one.colour] if isinstance(one.colour, int) else one.colour
+    stroke = f'stroke="{colour}" fill="none" stroke-width="{width:g}"'
     parts: list[str] = []
     if one.mark in ("line", "dashed", "both"):
         dash = ' stroke-dasharray="6 4"' if one.mark == "dashed" else ""
@@ -146,7 +159,7 @@ def _series(axes: _Axes, one: Series, radius: float, width: float) -> str:
     elif one.mark in ("points", "both"):
         r = radius if one.mark == "points" else 0.7 * radius
         dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:g}"/>' for x, y in known)
-        parts.append(f'<g fill="{COLOURS[one.colour]}" fill-opacity=".85">{dots}</g>')
+        parts.append(f'<g fill="{colour}" fill-opacity=".85">{dots}</g>')
     return "".join(parts)
 
 
@@ -171,7 +184,7 @@ def _key(series: Sequence[Series]) -> tuple[str, int]:
         if x > 12.0 and x + wide > _WIDE:
             x, line = 12.0, line + 1
         y = 14.0 + 18.0 * line
-        axes = _Axes(TrustChart("", "", "", ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)
+        axes = _Axes(LineChart("", "", "", ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)
         middle = one.mark in ("points", "crosses")
         swatch = Series("", (0.5,) if middle else (0.0, 1.0), (0.5,) if middle else (0.5, 0.5), one.mark, one.colour)
         parts.append(_series(axes, swatch, 4.0, 2.0))
@@ -180,8 +193,11 @@ def _key(series: Sequence[Series]) -> tuple[str, int]:
     return "".join(parts), line + 1 if series else 0
 
 
-def _range(chart: TrustChart, axis: Literal["x", "y"]) -> Span:
-    """Of all values with their error bars, on the scale of the axis."""
+def _range(chart: LineChart, axis: Literal["x", "y"]) -> Span:
+    """As given, or of all values with their error bars, on the scale of the axis."""
+    given = chart.x_range if axis == "x" else chart.y_range
+    if given is not None:
+        return given
     if axis == "y" and chart.names:
         return len(chart.names) - 0.5, -0.5
     along = "x" if chart.names else "y"
@@ -191,17 +207,24 @@ def _range(chart: TrustChart, axis: Literal["x", "y"]) -> Span:
         seen += [end for value, half in zip(values, halves, strict=True) for end in (value - half, value + half)]
     log = axis in chart.log
     known = [_scaled(value, log) for value in (*seen, *(chart.x_ticks if axis == "x" else ())) if math.isfinite(value)]
-    low, high = min(known), max(known)
+    low, high = (min(known), max(known)) if known else (0.0, 1.0)
     if axis == "x" and chart.x_ticks:
         return low, high
+    if low == high:
+        return low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
     if not log and 0.0 < low < 0.5 * high:
         low = 0.0
-    margin = 0.06 * ((high - low) or abs(high) or 1.0)
+    margin = 0.06 * (high - low)
     return (low if low == 0.0 else low - margin), (high if high == 0.0 else high + margin)
 
 
 def _scaled(value: float, log: bool) -> float:
     return math.log10(max(value, 1e-300)) if log else value
+
+
+def _share(value: float, span: Span) -> float:
+    """Where a value lies along an axis, 0 to 1; one far outside is moved nearer, so that numbers stay short."""
+    return float(np.clip((value - span[0]) / (span[1] - span[0]), -1.0, 2.0))
 
 
 def _ticks(span: Span, about: int, log: bool) -> list[float]:
@@ -210,15 +233,30 @@ def _ticks(span: Span, about: int, log: bool) -> list[float]:
     if log:
         every = max(1, math.ceil((high - low) / about))
         return [10.0**k for k in range(math.ceil(low), math.floor(high) + 1) if k % every == 0]
-    size = 10.0 ** math.floor(math.log10((high - low) / about))
-    step = next(size * f for f in (1.0, 2.0, 5.0, 10.0) if (high - low) / (size * f) <= about)
-    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    return round_ticks(low, high, about)
 
 
-def _number(value: float, log: bool) -> str:
+def round_up(step: float) -> float:
+    """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
+    power = 10.0 ** math.floor(math.log10(step))
+    return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))
+
+
+def round_ticks(low: float, high: float, about: int) -> list[float]:
+    """At most `about` + 1 round numbers within an axis, zero among them where it is inside."""
+    step = round_up((high - low) / about)
+    return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+def tick_text(value: float) -> str:
+    """A tick's number with a true minus sign and no needless digits."""
+    return f"{round(value, 6) + 0.0:.6g}".replace("-", "−")
+
+
+def _tick_text(value: float, log: bool) -> str:
     if log and not 0.1 <= value <= 1e4:
         return "10" + f"{round(math.log10(value))}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{value:.6g}".replace("-", "−")
+    return tick_text(value)
 
 
 def _text(x: float, y: float, words: str, anchor: str = "middle") -> str:

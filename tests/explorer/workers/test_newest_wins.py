@@ -1,0 +1,257 @@
+"""Updates of many pages on a few threads: newest state, frames first, what can wait in steps."""
+
+import itertools
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from explorer.workers import newest_wins
+from explorer.workers.newest_wins import NewestWins, UpdatePool
+
+LONG = 60.0
+"""[s]; how long a step of another thread may take before a test gives up: far more than on a busy machine."""
+
+
+def until(true: Callable[[], bool]) -> None:
+    """Wait for what another thread brings about."""
+    end = time.monotonic() + LONG
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
+def blocked(pool: UpdatePool) -> tuple[NewestWins, threading.Event]:
+    """A page that keeps a thread of the pool until the event is set."""
+    begun, go = threading.Event(), threading.Event()
+
+    def update() -> None:
+        begun.set()
+        assert go.wait(LONG)
+
+    worker = NewestWins(update, fail, pool)
+    worker.wake()
+    assert begun.wait(LONG)
+    return worker, go
+
+
+def fail(error: Exception) -> None:
+    raise error
+
+
+class TestNewest:
+    def test_works_on_the_newest_and_never_queues(self):
+        state, seen, gate, begun = [0], list[int](), threading.Event(), threading.Event()
+
+        def update() -> None:
+            seen.append(state[0])
+            begun.set()
+            gate.wait(LONG)
+
+        worker = NewestWins(update, fail, UpdatePool(1))
+        worker.wake()
+        assert begun.wait(LONG)
+        for value in range(1, 50):
+            state[0] = value
+            worker.wake()
+        gate.set()
+        until(lambda: len(seen) == 2)
+        worker.stop()
+        assert seen == [0, 49]
+
+    def test_the_last_change_is_always_seen(self):
+        state, seen = [0], [0]
+
+        def update() -> None:
+            seen[0] = state[0]
+
+        worker = NewestWins(update, fail, UpdatePool(2))
+        for k in range(200):
+            state[0] = k
+            worker.wake()
+        until(lambda: seen[0] == 199)
+        worker.stop()
+
+    def test_an_update_learns_that_it_is_superseded(self):
+        worker, go = blocked(UpdatePool(1))
+        assert not worker.superseded
+        worker.wake()
+        assert worker.superseded
+        go.set()
+        worker.stop()
+
+    def test_an_error_is_reported_and_survived(self):
+        errors, turns = list[Exception](), itertools.count()
+
+        def update() -> Iterator[float]:
+            if next(turns) == 0:
+                raise RuntimeError("broken")
+            return steps()
+
+        def steps() -> Iterator[float]:
+            yield 0.0
+            raise RuntimeError("broken step")
+
+        def report(error: Exception) -> None:
+            errors.append(error)
+            worker.wake()
+
+        worker = NewestWins(update, report, UpdatePool(1))
+        worker.wake()
+        until(lambda: len(errors) >= 3)
+        worker.stop()
+        assert [str(error) for error in errors][:3] == ["broken", "broken step", "broken step"]
+
+    def test_stop_waits_for_the_update_that_runs_and_none_begins_after_it(self):
+        worker, go = blocked(UpdatePool(1))
+        threading.Timer(0.05, go.set).start()
+        worker.wake()
+        worker.stop(LONG)
+        assert go.is_set()
+        assert worker._state != "running"
+
+
+class TestSteps:
+    def test_they_follow_the_frame_each_after_its_pause(self):
+        order = list[tuple[str, float]]()
+
+        def note(name: str) -> None:
+            order.append((name, time.monotonic()))
+
+        def steps() -> Iterator[float]:
+            note("first")
+            yield 0.05
+            note("second")
+
+        def update() -> Iterator[float]:
+            note("frame")
+            return steps()
+
+        worker = NewestWins(update, fail, UpdatePool(1))
+        worker.wake()
+        until(lambda: len(order) == 3)
+        worker.stop()
+        assert [name for name, _ in order] == ["frame", "first", "second"]
+        assert order[2][1] - order[1][1] >= 0.05
+
+    def test_a_newer_update_takes_their_place_at_once(self):
+        order, turns = list[str](), iter("ab")
+
+        def steps(name: str) -> Iterator[float]:
+            order.append(f"{name}1")
+            yield 10.0 * LONG if name == "a" else 0.0
+            order.append(f"{name}2")
+
+        worker = NewestWins(lambda: steps(next(turns)), fail, UpdatePool(1))
+        worker.wake()
+        until(lambda: order == ["a1"])
+        worker.wake()
+        until(lambda: order == ["a1", "b1", "b2"])
+        worker.stop()
+
+    def test_an_update_without_any_leaves_those_that_wait(self):
+        order, go = list[str](), threading.Event()
+
+        def steps() -> Iterator[float]:
+            order.append("first")
+            assert go.wait(LONG)
+            yield 0.0
+            order.append("second")
+
+        turns = iter((steps(), None))
+        worker = NewestWins(lambda: next(turns), fail, UpdatePool(1))
+        worker.wake()
+        until(lambda: order == ["first"])
+        worker.wake()
+        go.set()
+        until(lambda: order == ["first", "second"])
+        worker.stop()
+
+
+class TestCrowd:
+    def test_only_the_given_number_runs_at_once(self):
+        pool, lock, now, most = UpdatePool(2), threading.Lock(), 0, 0
+        pair = threading.Barrier(2, timeout=LONG)
+        done = list[int]()
+
+        def update() -> None:
+            nonlocal now, most
+            with lock:
+                now += 1
+                most = max(most, now)
+            pair.wait()  # Two do run at once, however slowly threads start.
+            with lock:
+                now -= 1
+                done.append(1)
+
+        for _ in range(12):
+            NewestWins(update, fail, pool).wake()
+        until(lambda: len(done) == 12)
+        assert most == 2
+
+    def test_twenty_busy_pages_get_equal_shares(self):
+        """All want to work all the time: the rounds done by each differ by one or two."""
+        pool, rounds = UpdatePool(1), [0] * 20
+        workers: list[NewestWins] = []
+
+        def update(k: int) -> None:
+            rounds[k] += 1
+            if max(rounds) < 20:
+                workers[k].wake()
+
+        workers += [NewestWins(lambda k=k: update(k), fail, pool) for k in range(20)]
+        _, go = blocked(pool)
+        for worker in workers:
+            worker.wake()
+        go.set()
+        until(lambda: max(rounds) == 20)
+        assert min(rounds) >= 18
+
+    def test_frames_go_before_steps_but_do_not_starve_them(self, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setattr(newest_wins, "_FRAMES_IN_A_ROW", 5)
+        pool, order = UpdatePool(1), list[str]()
+
+        def steps() -> Iterator[float]:
+            order.append("step")
+            yield 0.0
+            order.append("step")
+
+        waiting = NewestWins(steps, fail, pool)
+        pages = [NewestWins(lambda: order.append("frame"), fail, pool) for _ in range(12)]
+        _, go = blocked(pool)
+        waiting.wake()
+        for page in pages:
+            page.wake()
+        assert pool.waiting == 13
+        go.set()
+        until(lambda: len(order) == 14)
+        assert order.index("step") >= 3
+        assert order.index("step") < 6
+        assert order[-3:] == ["frame"] * 3
+
+    def test_of_slow_pages_one_computes_at_a_time(self, monkeypatch: pytest.MonkeyPatch):
+        """So a quick page finds the other thread free."""
+        monkeypatch.setattr(newest_wins, "_SLOW", 0.01)
+        pool, lock, now, most, ended = UpdatePool(2), threading.Lock(), 0, 0, threading.Event()
+        slow: list[NewestWins] = []
+        rounds = [0, 0, 0]
+
+        def update(k: int) -> None:
+            nonlocal now, most
+            with lock:
+                now += rounds[k] > 0
+                most = max(most, now)
+            time.sleep(0.02)
+            with lock:
+                now -= rounds[k] > 0
+                rounds[k] += 1
+            if not ended.is_set():
+                slow[k].wake()
+
+        slow += [NewestWins(lambda k=k: update(k), fail, pool) for k in range(3)]
+        for worker in slow:
+            worker.wake()
+        until(lambda: min(rounds) >= 5)
+        ended.set()
+        assert most == 1
