@@ -18,11 +18,11 @@ from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter
 from explorer.hosting.seats import SeatQueue
 from explorer.hosting.served_page import with_loading_screen
-from explorer.interface import SharedServices
+from explorer.model.inputs import OPENING, Inputs
 from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
-from explorer.state import OPENING, Inputs
+from explorer.tabs.context import SharedServices
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout
 from explorer.workers.pool import Pool

@@ -1,6 +1,6 @@
 """One browser's session: its page, its worker thread, and the path from a slider to the picture.
 
-A slider step takes these steps; `_update` is the path, the page implements `explorer.interface.SessionPage`:
+A slider step takes these steps; `_update` is the path, the page implements `explorer.model.session_state.SessionPage`:
 
 1. A widget's callback calls `wake`, on a thread of viser's. Nothing else happens there.
 2. `NewestWins` runs `_update` on the session's thread when its turn comes; wakes in between need only one more run.
@@ -14,7 +14,8 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 10. follow: `page.show_results` updates status, numbers, charts and the panels of long work; where other pages wait for
    their frames, it does so once nothing moves, in a drag now and then, and `page.show_power_number` at each step.
 11. follow: `page.follow` updates all other tabs.
-12. follow: once nothing moves, `page.settle` draws finely; the power curve is swept; `page.rest` does what can wait.
+12. follow: once nothing moves, `page.refine` draws finely; the power curve is swept; `page.solve_deferred` does
+    what can wait.
 """
 
 import logging
@@ -28,9 +29,11 @@ import viser
 from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.browser import PageFacts
-from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
+from explorer.model.inputs import Inputs, baseline_of, with_optimum
+from explorer.model.session_state import Failure, Frame, Reading, SessionState
 from explorer.page import Page
-from explorer.state import Inputs, baseline_of, with_optimum
+from explorer.tabs.context import SharedServices
+from explorer.tabs.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
 from explorer.workers.scheduler import SCHEDULER
@@ -75,16 +78,15 @@ class Session:
         self._worker = NewestWins(self._update, self._failed, f"session-{client.client_id}", self._freeing(idle))
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
-        self._page: SessionPage = self.page
 
     def start(self) -> None:
-        self._page.start()
+        self.page.start()
         self._worker.start()
         self._wake()
 
     def stop(self) -> None:
         self._all_changed = True
-        self._page.stop()
+        self.page.stop()
         self._pool.leave()
         self._worker.stop()
 
@@ -105,7 +107,7 @@ class Session:
 
     def _read(self) -> Reading:
         """Widgets → design."""
-        page = self._page
+        page = self.page
         inputs, view = page.read()
         try:
             sliders = inputs.design()
@@ -124,13 +126,13 @@ class Session:
         elif self._latest is None or self._latest.design != design:
             pause = superseded.pause if isinstance(superseded, Superseded) else None
             options = replace(DEFAULT_OPTIONS, stop=lambda: superseded() and self._all_changed, pause=pause)
-            found = solve(design, self._good, options)
-            if not found.converged and self._overtaken():
+            answer = solve(design, self._good, options)
+            if not answer.converged and self._overtaken():
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-            self._latest = found
+            self._latest = answer
         solution = self._latest
         inputs = with_optimum(reading.inputs, design) if design and reading.previewed else reading.inputs
-        if self._page.pin_or_swap(inputs, solution):
+        if self.page.pin_or_swap(inputs, solution):
             return None
         if solution is None or not solution.converged:
             self._show_failure(Failure(reading, solution, self._good))
@@ -141,12 +143,12 @@ class Session:
     def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
         """Solution → the frame. A is solved before the frame only where the scene shows it."""
         wanted = reading.view.difference or reading.view.beside
-        pinned = self._page.solve_pinned(solution.design, self._overtaken()) if wanted else None
-        self._page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
+        pinned = self.page.solve_pinned(solution.design, self._overtaken()) if wanted else None
+        self.page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
 
     def _follow(self, reading: Reading, solution: Solution, everything: bool, superseded: Callable[[], bool]) -> None:
         """Everything else, in order of how soon it is needed; stops early when the sliders move on."""
-        page, design = self._page, solution.design
+        page, design = self.page, solution.design
         baseline = self._baseline.solve(baseline_of(design))
         pinned = page.solve_pinned(design, self._overtaken())
         state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, page.pin)
@@ -178,23 +180,23 @@ class Session:
         self._shown.set()
         self._worker.pause(_STILL)
         if not stop():
-            page.settle(state)
+            page.refine(state)
         elif self._curves.recent:
             return
         # On a test stand measured points take the place of power over µ.
         swept = set_shown(solution) is not None or self._curves.sweep(design, state.reference.design, stop, show_power)
         if swept and not stop():
-            page.rest(state, stop)
+            page.solve_deferred(state, stop)
             if self._curves.widen(design, stop):
                 show_power()
 
     def _show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, with the sentence."""
-        self._page.show_failure(failure)
+        self.page.show_failure(failure)
         self._shown.set()
         if (last := self._state) is not None:
             curve = self._curves.known(last.solution.design, last.reference.design)
-            self._page.show_power(last, curve, failed=True)
+            self.page.show_power(last, curve, failed=True)
 
     def _wake(self) -> None:
         """Something changed."""
@@ -218,4 +220,4 @@ class Session:
     def _failed(self, error: Exception) -> None:
         self._shown.set()
         _log.error("an update failed", exc_info=error)
-        self._page.show_error(f"This update failed ({error}): move any slider to go on.")
+        self.page.show_error(f"This update failed ({error}): move any slider to go on.")

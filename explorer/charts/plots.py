@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from explorer.model.units import KILOWATT, Unit
 from explorer.picture.polar import stall_angles
-from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

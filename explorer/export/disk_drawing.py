@@ -4,11 +4,11 @@ import math
 from html import escape
 
 from explorer.charts import svg
+from explorer.model.units import SI, Units
 from explorer.picture import disk_image as image
 from explorer.picture.fields import Field, tick_text, ticks
 from explorer.picture.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.picture.picture import OUTLINE_COLOURS, disk_png
-from explorer.text.units import SI, Units
 from explorer.theme.colours import RIM, VOID, colour_map, css
 from rotor.arrays import Array
 from rotor.trim.solution import Solution

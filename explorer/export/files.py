@@ -10,16 +10,15 @@ from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.sheet import DiskContent, Paper
-from explorer.interface import SessionState
-from explorer.picture.fields import FIELDS
+from explorer.export.sheet import Paper, disk_sheet, shown
+from explorer.model.inputs import baseline_title
+from explorer.model.session_state import SessionState
+from explorer.model.undo import KeptDesign
+from explorer.model.units import UNITS
+from explorer.picture.fields import shown_field
 from explorer.scene.still_scene import EmbeddedViewer, scene_page
-from explorer.state import baseline_title
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
-from explorer.text.units import UNITS
-from explorer.undo import KeptDesign
-from rotor.trim.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -111,7 +110,9 @@ def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
     return File(f"{name}.html", report_html(report, stage, curves).encode("utf-8"))
 
 
-def picture_name(solution: Solution, shown: DiskContent, what: str, paper: Paper, ending: str) -> str:
-    """Name of a picture: design, content of the disk, size."""
-    field = next((title for title in FIELDS if title == shown.field.title), "difference")
-    return f"{file_stem(solution.design, what, field, f'{paper.width}x{paper.height}')}.{ending}"
+def disk_drawing_file(state: SessionState, colour_range: Range) -> File:
+    """The disk from above as SVG, as the page colours and marks it."""
+    view, solution = state.view, state.solution
+    field = shown_field(view, state.pinned)
+    drawing = disk_sheet(solution, shown(view, field, colour_range), Paper(2000, 2000))
+    return File(f"{file_stem(solution.design, 'disk', field.title)}.svg", drawing.encode("utf-8"))

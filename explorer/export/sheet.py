@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from explorer.charts import svg
 from explorer.export.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
 from explorer.export.provenance import PROGRAM, versions
+from explorer.model.inputs import ViewState
+from explorer.model.units import SI, UNITS, Units
 from explorer.picture.fields import FIELDS, Field
-from explorer.state import ViewState
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
-from explorer.text.units import SI, UNITS, Units
 from explorer.theme.colours import PARTS
 from rotor.trim.solution import Solution
 

@@ -1,4 +1,4 @@
-"""The reference blade of one client as something that can be grabbed; `explorer.grab` says what a drag means."""
+"""The reference blade of one client as something that can be grabbed; `explorer.model.drag` says what a drag means."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import viser
 
-from explorer.grab import BestTurn, Grab, begin, movement
-from explorer.interface import TabContext
+from explorer.model.drag import BestTurn, Grab, begin, movement
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import DesignAccess
+from explorer.model.units import number
 from explorer.picture.blade_mesh import drawn_pitch
 from explorer.picture.poses import flown_twist
 from explorer.scene.scene import ROTOR
-from explorer.state import Inputs, ViewState
-from explorer.text.units import number
 from rotor.trim.solution import Solution
 
 _ARC = 3.0
@@ -30,12 +30,11 @@ class BladeGrab:
     def __init__(
         self,
         blade: viser.MeshHandle,
-        context: TabContext,
-        free: Callable[[], bool],
+        access: DesignAccess,
         changed: Callable[[bool], None],
     ) -> None:
-        """`free`: whether the design is the user's to move. `changed`: the blade was taken (True) or let go."""
-        self._context, self._free, self._changed = context, free, changed
+        """`changed`: the blade was taken (True) or let go."""
+        self._access, self._changed = access, changed
         self._grab: Grab | None = None
         self._best = BestTurn()
         self._place = ""
@@ -71,7 +70,7 @@ class BladeGrab:
         before, now = (
             math.degrees(float(twist(np.array([r]))[0])) for twist in (grab.inputs.design().twist, design.twist)
         )
-        best, turn = self._best.turn, grab.turn_to(self._context.inputs())
+        best, turn = self._best.turn, grab.turn_to(self._access.inputs())
         if turn is None:
             return None
         # Twist is measured from 0.75 R: a station near it turns against its neighbours without turning itself.
@@ -104,12 +103,12 @@ class BladeGrab:
                 self._end()
 
     def _begin(self, event: viser.SceneNodeDragEvent[Any]) -> None:
-        state = self._context.state()
-        if state is None or not self._free():
+        state = self._access.state()
+        if state is None or self._access.held:
             return
         self._start, self._radius = event.start_position, state.solution.design.rotor.radius
         r = float(np.linalg.norm(self._start)) / self._radius
-        self._grab = begin(self._context.inputs(), r, event.modifier == "shift")
+        self._grab = begin(self._access.inputs(), r, event.modifier == "shift")
         if self._grab is not None:
             self._best = BestTurn()
             self._place = self._grab.place(self._grab.inputs)
@@ -125,8 +124,8 @@ class BladeGrab:
         self._grab = self._grab.decided(move, event.modifier == "shift")
         inputs: Inputs = self._grab.moved(move, self._best.turn)
         self._place = self._grab.place(inputs if self._grab.slides is not None else self._grab.inputs)
-        if inputs != self._context.inputs():
-            self._context.set_inputs(inputs)
+        if inputs != self._access.inputs():
+            self._access.drag_to(inputs)
 
     def _end(self) -> None:
         if self._grab is not None:

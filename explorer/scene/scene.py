@@ -6,6 +6,7 @@ import numpy as np
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.camera_views import LETTER_SIZE, letter_place
@@ -24,7 +25,6 @@ from explorer.picture.poses import Pose, about
 from explorer.picture.rotor_head import mast, rotor_head, size
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Faces, Mesh, joined
-from explorer.state import ViewState
 from explorer.theme.colours import Rgb
 from rotor.arrays import Array
 from rotor.design.blade import Rotor

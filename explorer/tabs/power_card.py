@@ -1,18 +1,17 @@
-"""The power card of the scene, and the worth of a step beside each slider."""
+"""The power card of the scene, and the power sensitivity beside each slider."""
 
 from collections.abc import Callable
 from typing import Any
 
-from explorer.interface import SessionState
+from explorer.model.inputs import Inputs, baseline_of
+from explorer.model.session_state import SessionState
+from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
+from explorer.model.undo import PowerTracker
+from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.overlay.bridge import Bridge
 from explorer.picture.camera_views import LETTER_SIZE
-from explorer.power_tracker import PowerTracker
-from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natural_step, twist_sensitivities
-from explorer.sliders import SLIDERS, slider
-from explorer.state import Inputs, baseline_of
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions
-from explorer.text.units import BLANK, SI, UNITS, Units, number
 from explorer.text.validated import validated
 from explorer.text.why import why
 from rotor.design.design import Design
@@ -23,12 +22,7 @@ _HALF = 6e3
 """Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
 
 
-def place(name: str) -> str:
-    """The empty row below a slider that the arrow goes into, as HTML."""
-    return f'<div class="rxp-worth" data-worth="{name}"></div>'
-
-
-class SliderWorth:
+class SliderSensitivities:
     """One session's. Twist sliders follow at once, exactly; flight sliders once the page rests."""
 
     def __init__(self, bridge: Bridge) -> None:
@@ -37,7 +31,7 @@ class SliderWorth:
         self._flight: dict[str, SliderSensitivity] = {}
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
-        """Follow a converged state; what flight sliders are worth is not known yet."""
+        """Follow a converged state; those of flight sliders are not known yet."""
         own = gradient is not None and state.solution.design == state.inputs.design()
         self._twist = twist_sensitivities(state.inputs, gradient) if gradient is not None and own else {}
         self._flight = {}
@@ -48,11 +42,11 @@ class SliderWorth:
         """Change of power for a unit of each twist slider [W]."""
         return {name: one.slope for name, one in self._twist.items()}
 
-    def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
-        """Compute what the flight sliders are worth, unless newer input comes."""
-        found = flight_sensitivities(state.solution, superseded)
+    def solve_flight(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+        """Compute those of the flight sliders, unless newer input comes."""
+        flight = flight_sensitivities(state.solution, superseded)
         if not superseded():
-            self._flight = found
+            self._flight = flight
             self._send(state)
 
     def clear(self) -> None:
@@ -78,7 +72,7 @@ def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dic
     if one.name in inputs.idle:
         value = "no effect while both changes are 0"
     title = SLIDERS[one.name].label.partition(" [")[0]
-    step = natural_step(one.name, units).unit.removeprefix("/").strip("()")
+    step = slider(one.name, units).per.removeprefix("/").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"
     sentence = (
         f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
@@ -104,9 +98,8 @@ _STALLED = 0.025
 class PowerCard:
     """One session's. It keeps the solution before a grab, so that it can say why power changed."""
 
-    def __init__(self, bridge: Bridge) -> None:
-        self._bridge = bridge
-        self.tracker = PowerTracker()
+    def __init__(self, bridge: Bridge, tracker: PowerTracker) -> None:
+        self._bridge, self._tracker = bridge, tracker
         self._last: Solution | None = None
         self._before: Solution | None = None
         """The solution that the change since the grab counts from."""
@@ -117,10 +110,10 @@ class PowerCard:
     def show(self, state: SessionState, pause: float) -> None:
         """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
         solution, units = state.solution, UNITS[state.view.units]
-        self.tracker.solved(state.inputs, solution.power.total, pause)
-        if self.tracker.reference != self._counted_from:
-            first = self.tracker.reference == solution.power.total
-            self._counted_from, self._before = self.tracker.reference, solution if first else self._last
+        self._tracker.solved(state.inputs, solution.power.total, pause)
+        if self._tracker.reference != self._counted_from:
+            first = self._tracker.reference == solution.power.total
+            self._counted_from, self._before = self._tracker.reference, solution if first else self._last
         self._last = solution
         self._content = {
             **_numbers(state, units),
@@ -145,14 +138,9 @@ class PowerCard:
         problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
         self._bridge.set(power={**self._content, "problem": problem, "status": status})
 
-    def forget(self) -> None:
-        """Another design came, by undo, link, file or menu: what was grabbed before does not count."""
-        self.tracker.reset()
-        self._before = self._counted_from = None
-
     def hand(self, units: Units) -> dict[str, str] | None:
         """Power and its change for the tag beside the pointer; None before the first solution."""
-        last, change = self._last, self.tracker.change
+        last, change = self._last, self._tracker.change
         if last is None:
             return None
         return {
@@ -162,26 +150,21 @@ class PowerCard:
         }
 
     def _change(self, state: SessionState, units: Units) -> dict[str, Any]:
-        solution, reference = state.solution, state.reference
-        change, before = self.tracker.change, self._before
-        if change is not None and before is not None:
-            value = units.watts(change, fineness(solution.power), sign=True)
-            since = {"value": value, "words": "since grabbed", "kind": _kind(change, solution.power.total)}
-            return {"since": since, "rest": "", "why": why(before, solution, units)}
-        if solution.design == reference.design or not reference.converged:
-            return {
-                "since": None,
-                "rest": "as built" if state.pinned is None else "same as A",
-                "why": "Drag the twist to change it.",
-            }
-        apart = solution.power.total - reference.power.total
-        value = units.watts(apart, fineness(solution.power), sign=True)
-        since = {
-            "value": value,
-            "words": "vs. as built" if state.pinned is None else "vs. A",
-            "kind": _kind(apart, solution.power.total),
-        }
-        return {"since": since, "rest": "", "why": why(reference, solution, units)}
+        """Change since the grab, else from the reference, and why."""
+        solution, reference, pinned = state.solution, state.reference, state.pinned is not None
+        change, before, words = self._tracker.change, self._before, "since grabbed"
+        if change is None or before is None:
+            if solution.design == reference.design or not reference.converged:
+                return {
+                    "since": None,
+                    "rest": "same as A" if pinned else "as built",
+                    "why": "Drag the twist to change it.",
+                }
+            change, before = solution.power.total - reference.power.total, reference
+            words = "vs. A" if pinned else "vs. as built"
+        value = units.watts(change, fineness(solution.power), sign=True)
+        since = {"value": value, "words": words, "kind": _kind(change, solution.power.total)}
+        return {"since": since, "rest": "", "why": why(before, solution, units)}
 
 
 def beside_labels(state: SessionState) -> list[dict[str, Any]]:

@@ -3,22 +3,17 @@
 import math
 from collections.abc import Callable
 
-import viser
-
-from explorer.charts.plots import PowerCurve
-from explorer.interface import SessionState
-from explorer.overlay.bridge import Bridge
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS
 from explorer.picture.blade_inset import inset
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
-from explorer.tabs.charts import ChartStrip
-from explorer.tabs.layout import Layout
-from explorer.tabs.power_card import PowerCard, SliderWorth, against
-from explorer.tabs.twist_curve import TwistCurveEditor
+from explorer.tabs.chart_strip import ChartStrip
+from explorer.tabs.context import TabContext
+from explorer.tabs.power_card import PowerCard, SliderSensitivities, against
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel, trust_page
-from explorer.text.units import SI, UNITS, Units
 from rotor.analysis.series import between_drag_areas
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
@@ -27,12 +22,12 @@ from rotor.trim.solution import Solution
 class ResultsPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, bridge: Bridge, layout: Layout) -> None:
+    def __init__(self, context: TabContext) -> None:
+        gui, bridge, layout = context.gui, context.bridge, context.layout
         self._bridge, self._layout = bridge, layout
-        self.card = PowerCard(bridge)
+        self.card = PowerCard(bridge, context.tracker)
         self.strip = ChartStrip(bridge)
-        self.worth = SliderWorth(bridge)
-        self.curve = TwistCurveEditor(bridge)
+        self.sliders = SliderSensitivities(bridge)
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
@@ -51,8 +46,7 @@ class ResultsPanel:
         self.card.show(state, pause)
         self._show_inset(state)
         gradient = self._gradient_of(state.solution)
-        self.curve.show(state)
-        self.worth.show(state, gradient)
+        self.sliders.show(state, gradient)
         self.strip.show(state, gradient)
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
@@ -65,31 +59,22 @@ class ResultsPanel:
             self._show_inset(state)
         self.strip.turn(state)
 
-    def show_power(self, state: SessionState, curve: PowerCurve, lost: bool = False) -> None:
-        """Change of power over µ."""
-        self.strip.show_power(state, curve, lost)
-
-    def rest(self, superseded: Callable[[], bool]) -> None:
+    def solve_deferred(self, superseded: Callable[[], bool]) -> None:
         """The page rests: compute what can wait."""
         if self._state is not None:
-            self.worth.rest(self._state, superseded)
-            self.strip.rest(self._state, superseded)
-            self._rest_band(self._state, superseded)
+            self.sliders.solve_flight(self._state, superseded)
+            self.strip.solve_measured(self._state, superseded)
+            self._solve_band(self._state, superseded)
 
     def problem(self, sentence: str) -> None:
         """Keep the last converged numbers, greyed, with the sentence that says why there are none."""
         self.card.show_problem(sentence)
         self.strip.fade()
-        self.worth.clear()
+        self.sliders.clear()
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
             numbers = _numbers(self._state, self._band_words(self._state))
             self._power.content, self._trim.content = map(readout.faded, numbers)
-
-    @property
-    def units(self) -> Units:
-        """Those of the last state."""
-        return SI if self._state is None else UNITS[self._state.view.units]
 
     def _show_inset(self, state: SessionState) -> None:
         solution, psi = state.solution, math.radians(state.view.azimuth_deg)
@@ -112,7 +97,7 @@ class ResultsPanel:
         shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
         self._bridge.set(inset={**shown, **names})
 
-    def _rest_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+    def _solve_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """Power between the drag areas of the sources: two more trims."""
         solution = state.solution
         if superseded() or readout.open_drag_area(solution.design) is None:

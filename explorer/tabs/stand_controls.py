@@ -6,9 +6,10 @@ from typing import Any
 
 import viser
 
-from explorer.interface import SessionState
-from explorer.sliders import Slider
-from explorer.stand import (
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.model.sliders import Slider
+from explorer.model.stand import (
     LOAD_TITLES,
     TRIM_TITLES,
     MeasuredCondition,
@@ -18,7 +19,6 @@ from explorer.stand import (
     opening,
     stand_like,
 )
-from explorer.state import Inputs
 from explorer.text.glossary import hint
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.stand import STAND_TRIMS, Flapping
@@ -45,39 +45,37 @@ class StandControls:
     def __init__(
         self,
         gui: viser.GuiApi,
-        start: Inputs,
-        moved: Callable[[], None],
         inputs: Callable[[], Inputs],
         set_inputs: Callable[[Inputs], None],
-        add_flight: Callable[[], None] = lambda: None,
+        moved: Callable[[], None],
+        state: Callable[[], SessionState | None],
     ) -> None:
-        """`moved`: called after a change by hand. `inputs`, `set_inputs`: of all widgets of the page.
+        """`inputs`, `set_inputs`: of all sliders of the page. `moved`: called after a change by hand.
 
-        `add_flight`: adds the sliders of flight, which come before those of the test.
+        `state`: the last converged state of the session, from which a test begins.
         """
-        self._moved, self._inputs, self._set_inputs = moved, inputs, set_inputs
-        self.state: Callable[[], SessionState | None] = lambda: None
-        """The last converged state of the session, from which a test begins."""
-        self.stand = start.stand
+        self._inputs, self._set_inputs, self._moved, self._state = inputs, set_inputs, moved, state
+        self.stand: StandInputs | None = None
+        self._sliders: dict[str, Any] = {}
         self._trim = gui.add_dropdown("Flight or test", tuple(TRIM_TITLES.values()), hint=hint("trim"))
         self._test = gui.add_dropdown("Measured in", (_NONE,), visible=False, hint=hint("measured_test"))
         self._point = gui.add_dropdown("Point", (_NONE,), visible=False, hint=hint("measured_point"))
-        add_flight()
+
+    def add_sliders(self, gui: viser.GuiApi, start: Inputs) -> None:
+        """Those of the test, which come after those of flight."""
         self._load = gui.add_dropdown("Given", tuple(LOAD_TITLES.values()), visible=False, hint=hint("stand_load"))
         self._flapping = gui.add_dropdown(
             "Flapping", tuple(_FLAPPING.values()), visible=False, hint=hint("stand_flapping")
         )
-        self._sliders: dict[str, Any] = {
-            name: gui.add_slider(s.label, s.low, s.high, s.step, s.low, visible=False, hint=hint(name))
-            for name, s in _SLIDERS.items()
-        }
+        for name, s in _SLIDERS.items():
+            handle = gui.add_slider(s.label, s.low, s.high, s.step, s.low, visible=False, hint=hint(name))
+            handle.on_update(self._slid(name))
+            self._sliders[name] = handle
         self._trim.on_update(self._trim_chosen)
         self._test.on_update(self._test_chosen)
         self._point.on_update(self._point_chosen)
         self._load.on_update(self._load_chosen)
         self._flapping.on_update(self._flapping_chosen)
-        for name, handle in self._sliders.items():
-            handle.on_update(self._slid(name))
         self.place(start)
 
     @property
@@ -136,7 +134,7 @@ class StandControls:
 
     def _solution(self) -> Any:
         """The last solution, if it is of the present rotor."""
-        state = self.state()
+        state = self._state()
         same = state is not None and state.inputs.aircraft == self._inputs().aircraft
         return state.solution if same and state is not None else None
 
@@ -182,8 +180,8 @@ class StandControls:
     def _test_chosen(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is None or event.target.value == _NONE:
             return
-        found = [one for one in measured_conditions(self._inputs().rotor) if one.test == event.target.value]
-        self.set_measured(opening(found))
+        points = [one for one in measured_conditions(self._inputs().rotor) if one.test == event.target.value]
+        self.set_measured(opening(points))
 
     def _point_chosen(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is None:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import StripChart, StripLine
-from explorer.grab import place_of, slid, stations, turned
-from explorer.interface import SessionState, TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.state import Inputs
+from explorer.model.drag import place_of, slid, stations, turned
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.tabs.context import TabContext
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS as DATUM
@@ -26,37 +26,33 @@ _LEAST_SPAN = 14.0
 class TwistCurveEditor:
     """One session's."""
 
-    def __init__(self, bridge: Bridge) -> None:
-        self._bridge = bridge
+    def __init__(self, context: TabContext, changed: Callable[[bool], None]) -> None:
+        """`changed`: a handle was taken (True) or let go."""
+        self._context, self._changed = context, changed
         self._held: Inputs | None = None
         """The inputs when a handle was taken."""
         self._place = ""
         self._range: tuple[float, float] | None = None
+        context.bridge.on("knot", self._act)
 
-    def bind(self, context: TabContext, free: Callable[[], bool], changed: Callable[[bool], None]) -> None:
-        """Let handles move the design; `free`: whether the design is the user's to move. `changed`: a handle was taken
-        (True) or let go."""
-
-        def act(value: list[Any]) -> None:
-            name, change = value
-            if change == "start":
-                self._held, self._place = context.inputs(), ""
-                changed(True)
-            elif change == "end":
-                self._held = None
-                changed(False)
-            elif free():
-                self._move(context, name, float(change[0]), float(change[1]))
-
-        self._bridge.on("knot", act)
+    def _act(self, value: list[Any]) -> None:
+        name, change = value
+        if change == "start":
+            self._held, self._place = self._context.inputs(), ""
+            self._changed(True)
+        elif change == "end":
+            self._held = None
+            self._changed(False)
+        elif not self._context.held:
+            self._move(name, float(change[0]), float(change[1]))
 
     @property
     def place(self) -> str:
         """The handle that is held, in words; empty while none is."""
         return self._place if self._held is not None else ""
 
-    def _move(self, context: TabContext, name: str, r: float, theta: float) -> None:
-        start = self._held or context.inputs()
+    def _move(self, name: str, r: float, theta: float) -> None:
+        start = self._held or self._context.inputs()
         station = next((one for one in stations(start) if str(one.index) == name), None)
         if station is None:
             return
@@ -68,7 +64,7 @@ class TwistCurveEditor:
         moved = inputs if station.division is None else slid(inputs, station, r)
         if self._held is not None:
             self._place = place_of(moved, stations(moved)[station.index])
-        context.set_inputs(moved)
+        self._context.drag_to(moved)
 
     def show(self, state: SessionState) -> None:
         """Draw the jig twist over what it is compared with, as the pitch less that at 0.75 R, and the flown twist."""
@@ -93,7 +89,7 @@ class TwistCurveEditor:
             {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
             for k in movable
         ]
-        self._bridge.set(
+        self._context.bridge.set(
             twist={**chart, "pinned": state.pinned is not None, "knots": handles, "key": key, "band": band}
         )
 

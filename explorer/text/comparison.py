@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from explorer.model.units import SI, Units, number
 from explorer.text.glossary import tip
 from explorer.text.readout import (
     band_line,
@@ -15,7 +16,6 @@ from explorer.text.readout import (
     part_titles,
     total_line,
 )
-from explorer.text.units import SI, Units, number
 from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor.trim.solution import PowerBudget, Solution
 

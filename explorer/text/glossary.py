@@ -157,21 +157,13 @@ CONTROLS: dict[str, Term] = {
     "export_table": Term(
         "Every quantity over the disk, the blade at the present azimuth, or power over µ, with units."
     ),
-    "export_picture": Term(
-        "The disk from above, or the rotor as shown, with flight condition, power, scale and caveats."
-    ),
-    "export_size": Term("Width and height of the picture; the text scales with it."),
-    "export_own": Term("Width and height [px], 300 to 4096; aspect ratio at most 2.5."),
-    "export_clear": Term("Transparent background, for slides."),
-    "export_kind": Term("Pixels, or a vector drawing of the disk."),
+    "export_picture": Term("The disk from above as a vector drawing, or the scene as the page shows it, as pixels."),
     "export_scene": Term("The 3D scene as one HTML file that opens without a server and can be turned."),
     "export_report": Term("This design, A and all bookmarks in one file that opens without a server."),
-    "export_text": Term("A script or a command that reproduces the power of this design to the last digit."),
     "close": Term("Closes this window."),
     "pin": Term("Undo, redo; pin: this design becomes A, and every change is B beside it."),
     "pinned": Term("Swap A and B, or return the sliders to A."),
     "along": Term("On: A flies at the speed, mass, altitude and climb of the sliders. Off: A stays as it was pinned."),
-    "tour": Term("Six stops of ten seconds: the sliders move by themselves, and a caption says what to see."),
     "lecture": Term("Seven steps that set the page and say what to watch. Keys: Page Down, Page Up."),
     "big_type": Term("Larger text, for a lecture room."),
     "lecture_flights": Term("Sets the advance ratio.", section=1),

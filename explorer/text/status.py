@@ -5,10 +5,10 @@ from collections.abc import Iterable
 from html import escape
 from itertools import groupby
 
+from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.readout import open_drag_area
-from explorer.text.units import number
 from explorer.text.validated import validated
 from rotor.aero.problem import grid_of
 from rotor.reproduce.report import typographic

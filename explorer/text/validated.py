@@ -4,11 +4,12 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.stand import POWER_REPORTS, airload_cases, as_measured, measured_powers
-from explorer.text.units import number
+from explorer.model.stand import airload_cases, as_measured, flight_powers
+from explorer.model.units import number
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
 from rotor.validation.airloads import REPORTS
+from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.measured import MeasuredSet, sets_of
 from rotor.validation.trust import TrustRow, trust_rows
 
@@ -64,7 +65,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
     """What was measured of this rotor in flight, or of its airloads in a tunnel; None where neither was."""
     design = solution.design
     key, blade = design.aircraft.key, "" if as_measured(design) else " Measured with the twist as built."
-    powers, cases = measured_powers(key), airload_cases(key)
+    powers, cases = flight_powers(key), airload_cases(key)
     airloads = "" if not cases else " The probe shows its measured airloads."
     if powers and not design.hovering and design.condition.stand is None:
         report = POWER_REPORTS[key]

@@ -14,17 +14,15 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.charts.plots import Plot
+from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.picture import make_picture
-from explorer.state import ViewState, baseline_of
-from explorer.tabs.actuator import controls as actuator_plots
-from explorer.tabs.actuator import controls as actuator_table
-from explorer.tabs.actuator import cut as actuator_cut
-from explorer.tabs.actuator import cut as actuator_view
-from explorer.tabs.actuator import readout as actuator_readout
+from explorer.tabs.actuator import actuator_controls as actuator_plots
+from explorer.tabs.actuator import actuator_controls as actuator_table
+from explorer.tabs.actuator import actuator_words as actuator_readout
+from explorer.tabs.actuator import cut_blade as actuator_cut
 from explorer.tabs.actuator import study as actuator_study
-from explorer.tabs.actuator.picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
-from explorer.tabs.actuator.state import (
+from explorer.tabs.actuator.actuator_inputs import (
     CONCEPTS,
     MOST_SEGMENTS,
     ActuatorInputs,
@@ -33,6 +31,7 @@ from explorer.tabs.actuator.state import (
     question_of,
     swing_of,
 )
+from explorer.tabs.actuator.cut_picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
 from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
 from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
 from explorer.workers.pool import Pool
@@ -173,7 +172,7 @@ def test_leads_run_from_the_box_to_every_segment():
 
 @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.6])
 def test_the_close_up_holds_the_whole_blade(aspect: float):
-    camera = actuator_view.fit_cut(DESIGN.rotor.radius, aspect)
+    camera = actuator_cut.fit_cut(DESIGN.rotor.radius, aspect)
     inputs = ActuatorInputs(drives=FULL)
     picture = cut_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
     points = np.concatenate([mesh.vertices for mesh, _ in picture.solids]) - camera.position

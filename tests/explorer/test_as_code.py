@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from explorer.export.as_code import CASE_FILE, as_command_line, as_python, exact_spec
-from explorer.state import Inputs, preset_inflow
+from explorer.model.inputs import Inputs, preset_inflow
 from rotor.__main__ import main
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design

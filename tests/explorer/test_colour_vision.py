@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from explorer.picture.picture import OUTLINE_COLOURS
-from explorer.tabs.probe.readout import ALPHA, DRAG, LIFT
+from explorer.tabs.probe.probe_drawing import ALPHA, DRAG, LIFT
 from explorer.theme import colours
 from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from rotor.arrays import Array

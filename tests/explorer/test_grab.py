@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from explorer.grab import (
+from explorer.model.drag import (
     DEGREES_PER_RADIUS,
     DETENT,
     PIECES,
@@ -23,11 +23,10 @@ from explorer.grab import (
     stations,
     turned,
 )
-from explorer.sensitivity import twist_sensitivities
-from explorer.sliders import limits
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
+from explorer.model.sliders import limits, twist_sensitivities
+from explorer.model.undo import History
 from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.undo import History
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 
@@ -298,11 +297,11 @@ class TestTwistCurve:
 
     def test_a_held_handle_has_a_place_that_ends_with_the_drag(self):
         bridge, now = _Bridge(), [Inputs(law="two")]
-        page: Any = SimpleNamespace(inputs=lambda: now[0], set_inputs=lambda new: now.__setitem__(0, new), wake=int)
-        frame: Any = bridge
+        page: Any = SimpleNamespace(
+            inputs=lambda: now[0], drag_to=lambda new: now.__setitem__(0, new), held=False, bridge=bridge
+        )
         took: list[bool] = []
-        editor = TwistCurveEditor(frame)
-        editor.bind(page, lambda: True, took.append)
+        editor = TwistCurveEditor(page, took.append)
         drag = bridge.actions["knot"]
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
         assert editor.place == ""

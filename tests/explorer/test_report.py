@@ -24,12 +24,12 @@ from explorer.export.report import command as report_command
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.export.sheet import SIZES, Paper, disk_sheet, shown, view_sheet, window
+from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
-from explorer.state import Inputs, ViewState, baseline_of
 from explorer.web import json_block
 from rotor.design.design import Design
 from rotor.trim.solution import Status

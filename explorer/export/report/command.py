@@ -7,9 +7,9 @@ from pathlib import Path
 
 from explorer.export.report.contents import ReportEntry, report_of
 from explorer.export.report.document import report_html
+from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import make_stage
-from explorer.state import ViewState, baseline_of, baseline_title
 from rotor.files.design_file import load_design
 from rotor.terminal import run_command
 from rotor.trim.solve import solve

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
-from explorer.tabs.actuator.state import Question
+from explorer.tabs.actuator.actuator_inputs import Question
 from explorer.workers.job import JobFailed
 from explorer.workers.newest_wins import NewestWins
 from explorer.workers.pool import PoolClient

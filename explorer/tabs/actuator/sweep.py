@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.tabs.actuator.state import ActuatorInputs
-from explorer.text.units import number
+from explorer.model.units import number
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.workers.job import JobFailed
 from explorer.workers.newest_wins import NewestWins
 from explorer.workers.pool import PoolClient

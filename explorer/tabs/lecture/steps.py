@@ -8,10 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from explorer.interface import SessionState
-from explorer.state import INPUT_NAMES, LAWS, Inputs, ViewState, preset_inflow
+from explorer.model.inputs import INPUT_NAMES, LAWS, Inputs, ViewState, preset_inflow
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS, number
 from explorer.text.readout import PART_TITLES
-from explorer.text.units import UNITS, number
 from rotor.trim.solution import PowerBudget
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}

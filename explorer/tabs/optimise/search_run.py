@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal
 
-from explorer.text.units import SI, Units
+from explorer.model.units import SI, Units
 from explorer.workers.job import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import ReferencePower, StartPower
 from rotor.design.design import Design
@@ -30,6 +30,37 @@ class SearchFrame:
     power: float
     """By the objective of the search [W]."""
     design: Design
+
+
+StartState = Literal["waiting", "running", "finished", "not run"]
+
+
+@dataclass(frozen=True)
+class StartTrace:
+    """One start of a search at one time."""
+
+    number: int
+    """From 1."""
+    powers: tuple[float, ...]
+    """Power of every design tried [W]."""
+    best: tuple[float, ...]
+    """The least so far after each of them [W]."""
+    state: StartState
+    gap: float | None
+    """Its best above the best of all starts [W]; None before its first design."""
+
+    @property
+    def is_best(self) -> bool:
+        """Whether the best of all starts is its own."""
+        return self.gap == 0.0
+
+    def legend(self, units: Units = SI) -> str:
+        """Its line in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
+        if self.gap is None:
+            return f"Start {self.number}: {'no trim' if self.state == 'finished' else self.state}"
+        behind = units.watts(self.gap, 1, sign=True)
+        # As printed: what is less than the last digit is no difference.
+        return f"Start {self.number}: {'best' if self.is_best else behind if behind.startswith('+') else 'equal'}"
 
 
 class SearchRun:
@@ -144,6 +175,24 @@ class SearchRun:
         """The concept's first may be no better than the blade it began from; it is shown all the same."""
         self.frames.append(SearchFrame(evaluation, power, design))
 
+    def starts(self) -> tuple[StartTrace, ...]:
+        """How far each start is. A snapshot: the run may be written meanwhile."""
+        traces = [tuple(trace) for trace in self.traces]
+        progress = self.progress
+        current = -1 if progress is None else progress.start
+        searching = progress is None or progress.phase != "band"
+        bests = [tuple(accumulate(trace, min)) for trace in traces]
+        least = min((best[-1] for best in bests if best), default=0.0)
+        starts: list[StartTrace] = []
+        for k, (trace, best) in enumerate(zip(traces, bests, strict=True)):
+            state: StartState = "finished"
+            if searching and self.under_way:
+                state = "finished" if k < current else "running" if k == current else "waiting"
+            elif searching and self.state != "done" and k > current:
+                state = "not run"
+            starts.append(StartTrace(k + 1, trace, best, state, best[-1] - least if best else None))
+        return tuple(starts)
+
     def matches(self, design: Design) -> bool:
         """Whether this is the design that the search began from."""
         return design == self.search.design
@@ -197,100 +246,3 @@ class Playback:
             self.cursor += 1 if self.thorough else max(1, behind - _CATCH_UP)
             self.since = now
         return frames[min(self.cursor, last)]
-
-
-StartState = Literal["waiting", "running", "finished", "not run"]
-
-
-@dataclass(frozen=True)
-class Start:
-    """One start of the search."""
-
-    number: int
-    """From 1."""
-    powers: tuple[float, ...]
-    """Power of every design tried [W]."""
-    best: tuple[float, ...]
-    """The least so far after each of them [W]."""
-    state: StartState
-    gap: float | None
-    """Its best above the best of all starts [W]; None before its first design."""
-
-    @property
-    def is_best(self) -> bool:
-        """Whether the best of all starts is its own."""
-        return self.gap == 0.0
-
-    def legend(self, units: Units = SI) -> str:
-        """Its line in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
-        if self.gap is None:
-            return f"Start {self.number}: {'no trim' if self.state == 'finished' else self.state}"
-        behind = units.watts(self.gap, 1, sign=True)
-        # As printed: what is less than the last digit is no difference.
-        return f"Start {self.number}: {'best' if self.is_best else behind if behind.startswith('+') else 'equal'}"
-
-
-@dataclass(frozen=True)
-class Starts:
-    """All starts of a search at one time."""
-
-    each: tuple[Start, ...]
-    start_power: float | None
-    """Of the design the search began from [W]."""
-    best_power: float | None
-    """The least so far [W]."""
-    evaluations: int
-
-    @property
-    def best_start(self) -> Start | None:
-        """The start with the least power; the first of several."""
-        return next((one for one in self.each if one.is_best), None)
-
-    @property
-    def change(self) -> float | None:
-        """The best less the design it began from [W]: negative once the search has saved power."""
-        if self.best_power is None or self.start_power is None:
-            return None
-        return self.best_power - self.start_power
-
-    def headline(self, units: Units = SI) -> str:
-        """The large line: `841.2 kW, −9.1 kW vs. starting design`."""
-        if self.best_power is None:
-            return "Trimming the starting design …"
-        change = self.change
-        tail = "" if change is None else f", {units.watts(change, 1, sign=True)} vs. starting design"
-        return units.watts(self.best_power, 1) + tail
-
-    def axis(self) -> tuple[float, float]:
-        """Range of power [W] that shows where the starts end, not the worst designs tried on the way."""
-        ends = [one.best[-1] for one in self.each if one.best]
-        if not ends:
-            return 0.0, 1.0
-        low = min(ends)
-        high = max(1.01 * low, self.start_power or 0.0)
-        margin = 0.05 * (high - low)
-        return low - margin, high + margin
-
-    def above_axis(self) -> int:
-        """How many designs tried lie above the axis: to be said beside a chart that clips them."""
-        top = self.axis()[1]
-        return sum(power > top for one in self.each for power in one.powers)
-
-
-def starts_of(run: SearchRun) -> Starts:
-    """Where a search stands. Reads a snapshot: the run may be written meanwhile."""
-    traces = [tuple(trace) for trace in run.traces]
-    current = run.progress.start if run.progress is not None else -1
-    searching = run.under_way and (run.progress is None or run.progress.phase != "band")
-    cut_short = run.state in ("stopped", "late", "broken") and (run.progress is None or run.progress.phase != "band")
-    bests = [tuple(accumulate(trace, min)) for trace in traces]
-    least = min((best[-1] for best in bests if best), default=None)
-    starts: list[Start] = []
-    for k, (trace, best) in enumerate(zip(traces, bests, strict=True)):
-        state: StartState = "finished" if k < current or not searching else "running" if k == current else "waiting"
-        if cut_short and k > current:
-            state = "not run"
-        gap = best[-1] - least if best and least is not None else None
-        starts.append(Start(k + 1, trace, best, state, gap))
-    tried = run.optimum.evaluations if run.optimum is not None else run.progress.evaluation if run.progress else 0
-    return Starts(tuple(starts), run.start_power, least, tried)

@@ -1,21 +1,20 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
-from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import viser
 
-from explorer.overlay.bridge import Bridge
-from explorer.tabs.actuator import controls as plots
-from explorer.tabs.actuator import controls as table
-from explorer.tabs.actuator import readout
-from explorer.tabs.actuator.controls import ActuatorControls
-from explorer.tabs.actuator.picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
-from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
+from explorer.tabs.actuator import actuator_controls as plots
+from explorer.tabs.actuator import actuator_controls as table
+from explorer.tabs.actuator import actuator_words as words
+from explorer.tabs.actuator.actuator_controls import ActuatorControls
+from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
+from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
+from explorer.tabs.context import TabContext
 from explorer.workers import solver
-from explorer.workers.pool import PoolClient
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
@@ -27,28 +26,18 @@ from rotor.trim.solution import Solution
 class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
-    def __init__(
-        self,
-        client: viser.ClientHandle,
-        bridge: Bridge,
-        pool: PoolClient,
-        changed: Callable[[], None],
-        fly: Callable[[float], None],
-    ) -> None:
-        """`changed`: something moved. `fly`: set the page's advance ratio."""
-        self._changed = changed
-        self._fly = fly
-        self._client = client
+    def __init__(self, context: TabContext) -> None:
+        self._context, client = context, context.client
         self._touched = False
-        self._cut = CutScene(client.scene, bridge)
-        self._study = VerdictWorker(CachedVerdicts(pool), changed, f"study-{client.client_id}")
-        self._sweep = SweepWorker(pool, changed, f"sweep-{client.client_id}")
-        self._rest = solver.BaselineCache()
-        self._told: dict[str, str] = {}
+        self._cut = CutScene(client.scene, context.bridge)
+        self._study = VerdictWorker(CachedVerdicts(context.pool), context.wake, f"study-{client.client_id}")
+        self._sweep = SweepWorker(context.pool, context.wake, f"sweep-{client.client_id}")
+        self._undriven = solver.BaselineCache()
+        self._sent: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
         self._asked: Question | None = None
         self._before: tuple[object, ...] = ()
-        self._controls = ActuatorControls(client.gui, self._moved)
+        self._controls = ActuatorControls(context.gui, self._moved)
         self._controls.fly_buttons.on_click(self._fly_clicked)
         self.shown = self._controls.shown
         self.inputs = self._controls.inputs
@@ -73,17 +62,17 @@ class ActuatorPanel:
         except ValueError as error:
             self._cut.hide()
             self._drawn = None
-            self.show_failure(str(error))
+            self.show_problem(str(error))
             return
         self._controls.arrange(inputs, installed)
-        rest = self._rest.solve(design) if inputs.driven else None
-        self._draw(inputs, installed, design, psi, solution, rest or solution)
-        change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
-        self._tell("now", self._controls.now, readout.now_panel(inputs, installed, change, solution))
+        alone = self._undriven.solve(design) if inputs.driven else None
+        self._draw(inputs, installed, design, psi, solution, alone or solution)
+        change = solution.power.total - alone.power.total if alone is not None and alone.converged else None
+        self._set("now", self._controls.now, words.now_panel(inputs, installed, change, solution))
         self._show_sweep(inputs, design)
-        self._tell("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
+        self._set("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
         self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
-        self._tell("bar", self._controls.bar, readout.voltage_bar(installed.actuator))
+        self._set("bar", self._controls.bar, words.voltage_bar(installed.actuator))
         self._asked = question
         now = (inputs, design)
         self._study.ask(question, wanted=self._touched, stirred=now != self._before)
@@ -92,38 +81,33 @@ class ActuatorPanel:
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
-        found = self._sweep.ask(task)
+        answer = self._sweep.ask(task)
         if not inputs.per_rev:
             return
-        self._tell("swept", self._controls.swept, readout.sweep_panel(sweep_sentence(found, inputs, design)))
-        drawn = found if isinstance(found, PowerMap) else None
+        self._set("swept", self._controls.swept, words.sweep_panel(sweep_sentence(answer, inputs, design)))
+        drawn = answer if isinstance(answer, PowerMap) else None
         for chart, plot in (
             (self._controls.over_phase, phase_plot),
             (self._controls.over_amplitude, amplitude_plot),
         ):
             chart.show(plot(drawn, inputs, chart.y_range if drawn is not None else None))
 
-    def show_failure(self, problem: str) -> None:
+    def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
-        self._tell("verdict", self._controls.verdict, readout.problem_panel(problem))
+        self._set("verdict", self._controls.verdict, words.problem_panel(problem))
 
-    def rest(self) -> None:
-        """Let go of the blade."""
-        self._controls.rest()
-
-    def leave_cut(self) -> None:
-        """Back to the rotor."""
-        if self.shown.value:
-            self.shown.value = False
+    def reset(self) -> None:
+        """Nothing driven."""
+        self._controls.reset()
 
     def _judge(self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float) -> None:
         findings = self._study.findings
         verdict = findings.verdict if findings.question == question else None
-        tell, places = self._tell, self._controls
-        tell("verdict", places.verdict, readout.verdict_panel(findings, question))
-        tell("numbers", places.numbers, readout.fit_panel(inputs, installed, verdict))
-        tell("segments", places.segments, readout.segments_panel(installed, inputs.share, verdict))
-        tell("limits", places.limits, readout.limits_panel(verdict))
+        tell, places = self._set, self._controls
+        tell("verdict", places.verdict, words.verdict_panel(findings, question))
+        tell("numbers", places.numbers, words.fit_panel(inputs, installed, verdict))
+        tell("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
+        tell("limits", places.limits, words.limits_panel(verdict))
         tell("table", places.table, table.table_panel(findings, question))
         places.chart.show(plots.reach_plot(inputs, installed, verdict, root, places.chart.y_range))
 
@@ -134,7 +118,7 @@ class ActuatorPanel:
         design: Design,
         psi: float,
         solution: Solution,
-        rest: Solution,
+        alone: Solution,
     ) -> None:
         if not inputs.shown:
             self._cut.hide()
@@ -145,14 +129,14 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, rest, psi))
-        with self._client.atomic():
+        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
+        with self._context.client.atomic():
             self._cut.show(picture)
-        self._client.flush()
+        self._context.client.flush()
 
-    def _tell(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
-        if self._told.get(name) != content:
-            self._told[name] = content
+    def _set(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
+        if self._sent.get(name) != content:
+            self._sent[name] = content
             handle.content = content
 
     def _fly_clicked(self, event: viser.GuiEvent[Any]) -> None:
@@ -164,12 +148,15 @@ class ActuatorPanel:
         findings = self._study.findings
         verdict = findings.verdict
         if verdict is None or findings.question != self._asked:
-            self._changed()
-            self._client.add_notification("No verdict yet", "Its voltages are being computed.", auto_close_seconds=4)
+            self._context.wake()
+            self._context.client.add_notification(
+                "No verdict yet", "Its voltages are being computed.", auto_close_seconds=4
+            )
             return
-        self._controls.take(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
-        self._fly(verdict.baseline.pair.advance_ratios[which])
+        self._controls.drive_as(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
+        mu = verdict.baseline.pair.advance_ratios[which]
+        self._context.set_inputs(replace(self._context.inputs(), advance_ratio=mu))
 
     def _moved(self, by_hand: bool) -> None:
         self._touched = self._touched or by_hand
-        self._changed()
+        self._context.wake()

@@ -8,12 +8,12 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.charts.svg import Point
+from explorer.model.units import degrees, number
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
-from explorer.tabs.probe.measured import lift_curve, public_table
+from explorer.tabs.probe.probe_measured import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.text.units import degrees, number
 from explorer.theme.colours import NOW, THIS
 from rotor.arrays import Array
 from rotor.trim.solution import Solution

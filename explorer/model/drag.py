@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from explorer.sliders import limits, slider
-from explorer.state import LAWS, Inputs
-from explorer.text.units import SI
+from explorer.model.inputs import LAWS, Inputs
+from explorer.model.sliders import limits, slider
+from explorer.model.units import SI
 from rotor.arrays import Array
 
 DEGREES_PER_RADIUS = 12.0

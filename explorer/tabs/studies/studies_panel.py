@@ -15,14 +15,13 @@ from typing import Any
 
 import viser
 
-from explorer.hosting.browser import call
-from explorer.interface import SessionState, TabContext
+from explorer.model.inputs import inputs_of
+from explorer.model.units import number
 from explorer.sharing import share
-from explorer.state import inputs_of
-from explorer.tabs.studies import charts
-from explorer.tabs.studies import charts as study_charts
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.studies import study_charts
+from explorer.tabs.studies.study_charts import FIELD, axis_names, title, value_text
 from explorer.text.glossary import hint
-from explorer.text.units import number
 from rotor.assets import asset_path
 from rotor.study.bounded_reading import read_bounded
 from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
@@ -48,7 +47,7 @@ class FoundStudy:
 
 def find_studies(root: Path) -> tuple[FoundStudy, ...]:
     """Folders that hold a study, at most so deep beneath `root`, which itself may be one; in order of their names."""
-    found: list[FoundStudy] = []
+    studies: list[FoundStudy] = []
     looked, level = 0, [root]
     for _ in range(_DEPTH + 1):
         below: list[Path] = []
@@ -57,12 +56,12 @@ def find_studies(root: Path) -> tuple[FoundStudy, ...]:
             if looked > _MOST_FOLDERS:
                 break
             if is_file(folder / ABOUT):
-                found.append(FoundStudy(folder, _title(folder)))
+                studies.append(FoundStudy(folder, _title(folder)))
                 continue  # A study has nothing beneath it.
             with suppress(OSError):
                 below += [one for one in sorted(folder.iterdir()) if one.is_dir() and one.name[0] not in "._"]
         level = below
-    return tuple(sorted(found, key=lambda one: one.path))
+    return tuple(sorted(studies, key=lambda one: one.path))
 
 
 def open_study(path: Path) -> Results:
@@ -90,8 +89,8 @@ def summary(results: Results) -> str:
     words = [f"{number(results.rows)} of {number(results.points)} points"]
     if failed:
         words.append(f"{number(failed)} failed")
-    if results.rows - failed > charts.MOST_POINTS:
-        words.append(f"{number(charts.MOST_POINTS)} drawn")
+    if results.rows - failed > study_charts.MOST_POINTS:
+        words.append(f"{number(study_charts.MOST_POINTS)} drawn")
     return f"{results.about.get('title', '')}: {', '.join(words)}."
 
 
@@ -106,10 +105,11 @@ def point_line(results: Results, row: int | None, heading: str) -> str:
     """A small table of a point: power, and the value of every axis."""
     if row is None:
         return ""
-    names = [
-        name for name in dict.fromkeys(("power_total_w", "hover_power_w", *results.axes)) if name in results.columns
-    ]
-    cells = "".join(_line(results, name, row) for name in names)
+    cells = "".join(
+        f"<tr><td>{escape(title(results, name))}</td>"
+        f'<td class="rx-num">{escape(value_text(results, name, row))}</td></tr>'
+        for name in axis_names(results, "power_total_w", "hover_power_w")
+    )
     head = f"<b>{escape(heading)}: point {results.columns['point'][row]:.0f}</b>"
     return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
 
@@ -119,20 +119,9 @@ def problem_line(sentence: str) -> str:
     return f'<div class="rx rx-small rx-broken" data-explorer="study-point">{escape(sentence)}</div>'
 
 
-def _line(results: Results, name: str, row: int) -> str:
-    value = (
-        charts.plain(charts.shown(results, name)[row])
-        if results.numeric(name)
-        else escape(str(results.columns[name][row]))
-    )
-    return f'<tr><td>{escape(charts.title(results, name))}</td><td class="rx-num">{value}</td></tr>'
-
-
 _log = logging.getLogger(__name__)
 
-FIELD = "Point no."
-"""The label of the text field that a click writes to."""
-SCATTER, FRONT, PARALLEL = "Scatter", "Hover against cruise", "Parallel coordinates"
+SCATTER, FRONT = "Scatter", "Hover against cruise"
 _NONE = "Choose …"
 _MISSING = (
     "The packages for studies are not installed here. Stop the page, run "
@@ -146,35 +135,31 @@ _HINT = (
     "Results of <code>python -m rotor study FILE.toml</code>. Click a point to put its blade and flight condition on "
     "the sliders."
 )
-_CONFIG = {"displayModeBar": False, "doubleClick": "reset+autosize"}
 
 
-class StudiesPanel:
+class StudiesPanel(Tab):
     """One session's."""
 
-    def __init__(self, client: viser.ClientHandle, context: TabContext, root: Path) -> None:
+    def __init__(self, context: TabContext, root: Path) -> None:
         """`root`: results beneath it are offered."""
-        self._client, self._context, self._root = client, context, root
+        self._context, self._root = context, root
         self._results: Results | None = None
-        self._chart: viser.GuiPlotlyHandle | None = None
         self._now: int | None = None
-        self._dark = False
         self._asked = 0
         """Counts what was asked to be opened: what comes late is passed over."""
         self._found: dict[str, FoundStudy] = {}
         self._lock = threading.RLock()
-        self._able = all(find_spec(name) for name in ("pyarrow", "plotly"))
-        gui = client.gui
-        if not self._able:
+        gui = context.gui
+        if find_spec("pyarrow") is None:
             gui.add_html(f'<div class="rx rx-small" data-explorer="studies-missing">{_MISSING}</div>')
             return
         gui.add_html(f'<div class="rx rx-dim rx-small">{_HINT}</div>')
         self._menu = _menu(gui, "Result", "study", visible=True)
         with gui.add_folder("Not in the list?", expand_by_default=False):
-            self._look = gui.add_button(
+            look = gui.add_button(
                 "Look for new results", icon=viser.Icon.REFRESH, color="gray", hint=hint("study_look")
             )
-            self._file = gui.add_upload_button(
+            file = gui.add_upload_button(
                 "Open a Parquet file", icon=viser.Icon.UPLOAD, color="gray", mime_type=".parquet",
                 hint=hint("study_file"),
             )  # fmt: skip
@@ -184,17 +169,15 @@ class StudiesPanel:
         self._y = _menu(gui, "Vertical", "study_axis")
         self._colour = _menu(gui, "Colour", "study_colour")
         self._cruise = _menu(gui, "Cruise at", "study_cruise")
-        self._place = gui.add_folder(None)
-        """Where the chart goes, once there is one: Plotly is 1.7 MB for the browser."""
+        self._chart = gui.add_html("")
         self._point = gui.add_text(FIELD, "", visible=False, hint=hint("study_point"))
-        self._said = gui.add_html("")
+        self._point_row = gui.add_html("")
         self._menu.on_update(self._by_browser(self._chosen))
-        self._look.on_click(lambda _: self.look())
-        self._file.on_upload(lambda event: self._uploaded(event.target.value))
-        self._kind.on_update(self._by_browser(self._draw))
-        for menu in (self._x, self._y, self._colour, self._cruise):
+        look.on_click(lambda _: self.look())
+        file.on_upload(lambda event: self._uploaded(event.target.value))
+        for menu in (self._kind, self._x, self._y, self._colour, self._cruise):
             menu.on_update(self._by_browser(self._draw))
-        self._point.on_update(self._by_browser(self._take))
+        self._point.on_update(self._by_browser(self._apply))
         threading.Thread(target=self.look, name="studies", daemon=True).start()
 
     def look(self) -> None:
@@ -216,7 +199,7 @@ class StudiesPanel:
         asked = self._asked
         self._say(f"Reading {name} …")
 
-        def evaluate_points() -> None:
+        def work() -> None:
             try:
                 results = read()
                 if not results.good.any():
@@ -232,17 +215,7 @@ class StudiesPanel:
                 if asked == self._asked:
                     self._say(brief(f"{name} cannot be shown ({error}): choose another result."), "problem")
 
-        threading.Thread(target=evaluate_points, name="studies", daemon=True).start()
-
-    def show(self, state: SessionState) -> None:
-        """Follow the page's theme."""
-        if self._dark != state.view.dark:
-            self._dark = state.view.dark
-            if self._results is not None:
-                self._draw()
-
-    def show_failure(self) -> None:
-        """A result does not depend on the sliders."""
+        threading.Thread(target=work, name="studies", daemon=True).start()
 
     def stop(self) -> None:
         """What is being read is no longer wanted."""
@@ -260,9 +233,9 @@ class StudiesPanel:
         """A new result: offer what can be drawn of it, and draw."""
         self._results, self._now = results, None
         names = study_charts.choices(results)
-        titles = [study_charts.title(results, name) for name in names]
+        titles = [title(results, name) for name in names]
         self._names = dict(zip(titles, names, strict=True))
-        power = study_charts.title(results, "power_total_w")
+        power = title(results, "power_total_w")
         first = [one for one in titles if one != power] or titles
         for menu, value in (
             (self._x, first[0]),
@@ -275,13 +248,12 @@ class StudiesPanel:
         self._speeds = {f"µ {speed:g}": speed for speed in speeds}
         self._cruise.options = tuple(self._speeds) or ("",)
         self._cruise.value = list(self._speeds)[-1] if self._speeds else ""
-        kinds = (SCATTER, *((FRONT,) if speeds else ()), PARALLEL)
-        self._kind.options = kinds
+        self._kind.options = (SCATTER, FRONT) if speeds else (SCATTER,)
         self._kind.value = FRONT if speeds else SCATTER
         self._kind.visible = self._point.visible = True
         self._say(summary(results), "done")
         self._point.value = ""
-        self._said.content = point_line(results, best_row(results, "power_total_w"), "Least power")
+        self._point_row.content = point_line(results, best_row(results, "power_total_w"), "Least power")
         self._draw()
 
     def _draw(self) -> None:
@@ -293,30 +265,15 @@ class StudiesPanel:
             self._x.visible = self._y.visible = kind == SCATTER
             self._colour.visible = kind != FRONT
             self._cruise.visible = kind == FRONT
-            colour = self._names[self._colour.value]
             if kind == FRONT:
                 speed = self._speeds[self._cruise.value]
-                figure = study_charts.front(results, hover_cruise_pairs(results, speed), speed, self._now, self._dark)
-            elif kind == PARALLEL:
-                figure = study_charts.parallel(results, colour, self._dark)
+                pairs = hover_cruise_pairs(results, speed)
+                self._chart.content = study_charts.front(results, pairs, speed, self._now)
             else:
-                x, y = self._names[self._x.value], self._names[self._y.value]
-                figure = study_charts.scatter(results, x, y, colour, self._now, self._dark)
-            self._chart_handle().figure = figure
+                x, y, colour = (self._names[menu.value] for menu in (self._x, self._y, self._colour))
+                self._chart.content = study_charts.scatter(results, x, y, colour, self._now)
 
-    def _chart_handle(self) -> viser.GuiPlotlyHandle:
-        """The chart's place on the page; made, and Plotly sent to the browser, when it is first needed."""
-        if self._chart is None:
-            with self._place:
-                self._chart = self._client.gui.add_plotly(
-                    study_charts.empty(self._dark),
-                    aspect=0.92,
-                    config=_CONFIG,
-                )
-            call(self._client, "RX.takePoints", FIELD)
-        return self._chart
-
-    def _take(self) -> None:
+    def _apply(self) -> None:
         """Put the point in the field onto the sliders."""
         results, text = self._results, self._point.value.strip()
         if results is None or not text:
@@ -330,10 +287,10 @@ class StudiesPanel:
             tell = partial(self._context.notify, share.RETIRED_TITLE)
             inputs = share.within(inputs_of(design_of_row(results, row, tell)))
         except ValueError as error:
-            self._said.content = problem_line(str(error))
+            self._point_row.content = problem_line(str(error))
             return
         self._now = row
-        self._said.content = point_line(results, row, "Applied")
+        self._point_row.content = point_line(results, row, "Applied")
         self._context.set_inputs(inputs)
         self._draw()
 

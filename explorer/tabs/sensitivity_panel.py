@@ -1,19 +1,18 @@
 """Where to twist: the change of power by pitch along the blade, as a chart and as colours on the reference blade."""
 
 import math
-from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-import viser
 from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.interface import SessionState, TabContext
+from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
-from explorer.tabs.charts import AB_KEY, Chart, Key, line, pinned_line
+from explorer.tabs.chart_strip import AB_KEY, Chart, Key, line, pinned_line
+from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS, colour_map
 from rotor.design.twist import TwistLaw
@@ -102,12 +101,11 @@ _INDUCED = ("induced", BASELINE, True)
 _KEY: Key = (("total", THIS), _INDUCED)
 
 
-class SensitivityPanel:
+class SensitivityPanel(Tab):
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, strip: Strip, context: TabContext, opened: Callable[[], bool]) -> None:
-        """`opened`: whether the chart is on the page; it costs an adjoint of its own."""
-        self._strip, self._opened = strip, opened
+    def __init__(self, context: TabContext, strip: Strip) -> None:
+        self._strip, self._layout, gui = strip, context.layout, context.gui
         self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
         gui.add_html(_WORDS)
         self._chart = Chart(
@@ -132,7 +130,7 @@ class SensitivityPanel:
         wanted = (solution, state.pinned, paint, exaggeration, state.view.azimuth_deg if turning else 0.0)
         if self._shown == wanted:
             return
-        if not (paint or self._opened()):
+        if not (paint or self._layout.drawer == "twist"):  # The chart costs an adjoint of its own.
             self.show_failure()  # What stands here is no longer this solution's.
             return
         plot = sensitivity_plot(solution, self._chart.y_range, state.pinned)
@@ -150,6 +148,3 @@ class SensitivityPanel:
         """The answer no longer holds."""
         self._shown = None
         self._strip.hide()
-
-    def stop(self) -> None:
-        """Nothing runs on."""

@@ -8,11 +8,11 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.charts.strip import round_ticks
-from explorer.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
+from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
+from explorer.model.units import number
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.text.units import number
 from explorer.theme.colours import LIMIT, NOW, THIS
 from rotor.airfoil.public_points import SOURCES, PublicPoint, nearest_points, points_near
 from rotor.arrays import Array

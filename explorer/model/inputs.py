@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from itertools import pairwise
 from typing import Any
 
-from explorer.stand import StandInputs, stand_of, tested
+from explorer.model.stand import StandInputs, stand_of, tested
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
@@ -257,7 +257,7 @@ class ViewState:
     drag_divergence: bool = True
     dark: bool = False
     units: str = "SI"
-    """A title of `explorer.text.units.UNITS`."""
+    """A title of `explorer.model.units.UNITS`."""
     wake: bool = True
     """Whether the tip vortices are drawn."""
     arrows: bool = False

@@ -14,17 +14,15 @@ from explorer.charts.strip import (
     alpha_chart,
     lift_chart,
     power_change_chart,
-    round_ticks,
     total_power_chart,
     where_to_twist_chart,
 )
-from explorer.interface import SessionState
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS, number
 from explorer.overlay.bridge import Bridge
-from explorer.tabs.optimise.run import Starts
 from explorer.tabs.power_card import against
 from explorer.text import readout
-from explorer.text.units import UNITS, Units, number
-from explorer.theme.colours import PINNED, PINNED_DASH, START_COLOURS, THIS, css
+from explorer.theme.colours import PINNED, PINNED_DASH, THIS
 from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
@@ -154,7 +152,7 @@ class ChartStrip:
             self._charts.pop("worth", None)
         self._show_measured(state.solution)
 
-    def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+    def solve_measured(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """The page rests: trim at the measured points of this rotor, of a test or in flight."""
 
         def shown() -> None:
@@ -211,12 +209,11 @@ class ChartStrip:
         self._charts["power"] = chart
         self._send()
 
-    def show_starts(self, starts: Starts | None, units: Units) -> None:
+    def show_starts(self, chart: dict[str, Any] | None) -> None:
         """The starts of a search in place of the charts along the blade; None: those again."""
-        if starts is None and self._starts is None:
-            return
-        self._starts = None if starts is None else starts_chart(starts, units)
-        self._send()
+        if chart is not None or self._starts is not None:
+            self._starts = chart
+            self._send()
 
     def fade(self) -> None:
         """The inputs have no solution."""
@@ -252,44 +249,3 @@ def band_words(design: Design, drawn: bool) -> str:
     if areas is None or not drawn:
         return ""
     return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², which the sources allow."
-
-
-def starts_chart(starts: Starts, units: Units) -> dict[str, Any]:
-    """The least power so far over the designs that each start has tried."""
-    unit = units.power[0]
-    low, high = (unit.of(end) for end in starts.axis())
-    longest = max([10, *(len(start.best) for start in starts.each)])
-    lines = [
-        {
-            "x": list(range(1, len(start.best) + 1)),
-            "y": [round(unit.of(power), 3) for power in start.best],
-            "role": "saving",
-            "colour": css(START_COLOURS[k]),
-            "width": 2.8 if start.is_best else 1.4,
-        }
-        for k, start in enumerate(starts.each)
-        if start.best
-    ]
-    if starts.start_power is not None:
-        level = round(unit.of(starts.start_power), 3)
-        lines.insert(0, {"x": [1, longest], "y": [level, level], "role": "reference"})
-    above = starts.above_axis()
-    best = starts.best_start
-    return {
-        "name": "starts",
-        "title": "Searches from several starts",
-        "unit": f"least {unit.symbol} so far over designs tried",
-        "x_range": [1, longest],
-        "y_range": [low, high],
-        "x_ticks": round_ticks(1.0, float(longest), 5),
-        "x_name": "",
-        "y_ticks": round_ticks(low, high, 4),
-        "lines": lines,
-        "dots": [],
-        "value": "" if best is None else f"start {best.number} is best",
-        "note": f"{above} designs lie above the axis." if above else "",
-        "kind": "",
-        "wide": True,
-        "faded": False,
-        "pinned": False,
-    }

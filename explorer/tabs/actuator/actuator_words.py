@@ -5,10 +5,10 @@ from html import escape
 
 import numpy as np
 
-from explorer.tabs.actuator.picture import drive_text, share_colour
-from explorer.tabs.actuator.state import ActuatorInputs, Question
+from explorer.model.units import number
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
+from explorer.tabs.actuator.cut_picture import drive_text, share_colour
 from explorer.tabs.actuator.study import Findings
-from explorer.text.units import number
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.harmonic import tip_response

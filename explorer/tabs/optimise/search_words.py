@@ -3,11 +3,13 @@
 from collections.abc import Callable
 from functools import lru_cache
 from html import escape
+from typing import Any
 
 import numpy as np
 
-from explorer.tabs.optimise.run import SearchRun, Starts
-from explorer.text.units import SI, Units, number
+from explorer.charts.strip import round_ticks
+from explorer.model.units import SI, Units, number
+from explorer.tabs.optimise.search_run import SearchRun, StartTrace
 from explorer.theme.colours import NOW, START_COLOURS, THIS, css
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.optimisation.concepts import Concept, Handle
@@ -76,25 +78,71 @@ def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> str:
     return f'<path d="M{x1},{y1} L{x2},{y2} {heads}" fill="none" stroke="{colour}" stroke-width="1.5"/>'
 
 
-def headline(starts: Starts, run: SearchRun, units: Units = SI) -> str:
-    """The power of the best so far as a large number, and how each start compares."""
-    if starts.best_power is None:
+def headline(run: SearchRun, units: Units = SI) -> str:
+    """The least power so far as a large number, and how each start compares."""
+    starts = run.starts()
+    ends = [one.best[-1] for one in starts if one.best]
+    if not ends:
         return ""
-    change = "" if starts.change is None else units.watts(starts.change, 1, sign=True)
-    kind = (
-        "" if starts.change is None or abs(starts.change) < 50.0 else " rx-less" if starts.change < 0.0 else " rx-more"
-    )
-    mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
+    change = None if run.start_power is None else min(ends) - run.start_power
+    kind = "" if change is None or abs(change) < 50.0 else "rx-less" if change < 0.0 else "rx-more"
+    objective = run.search.objective
+    several = objective is not None and len(objective.conditions) > 1
+    mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
     mean += ", best so far" if run.under_way else ", best found"
     rows = "".join(
-        f'<span><i style="background:{css(START_COLOURS[k])}"></i>{escape(start.legend(units))}</span>'
-        for k, start in enumerate(starts.each)
+        f'<span><i style="background:{css(START_COLOURS[k])}"></i>{escape(one.legend(units))}</span>'
+        for k, one in enumerate(starts)
     )
     return (
-        f'<div class="rxp-big" data-explorer="starts"><b data-explorer="best">{units.watts(starts.best_power, 1)}</b>'
-        f'<em class="{kind}">{change}</em>'
+        f'<div class="rxp-big" data-explorer="starts"><b data-explorer="best">{units.watts(min(ends), 1)}</b>'
+        f'<em class="{kind}">{"" if change is None else units.watts(change, 1, sign=True)}</em>'
         f'<div class="rx-dim">{mean}</div><div class="rxp-starts">{rows}</div></div>'
     )
+
+
+def starts_chart(run: SearchRun, units: Units) -> dict[str, Any]:
+    """The least power so far over the designs that each start has tried, for the strip below the scene."""
+    unit, starts = units.power[0], run.starts()
+    low, high = (unit.of(end) for end in power_axis(starts, run.start_power))
+    longest = max([10, *(len(one.best) for one in starts)])
+    lines: list[dict[str, Any]] = [
+        {
+            "x": list(range(1, len(one.best) + 1)),
+            "y": [round(unit.of(power), 3) for power in one.best],
+            "role": "saving",
+            "colour": css(START_COLOURS[k]),
+            "width": 2.8 if one.is_best else 1.4,
+        }
+        for k, one in enumerate(starts)
+        if one.best
+    ]
+    if run.start_power is not None:
+        level = round(unit.of(run.start_power), 3)
+        lines.insert(0, {"x": [1, longest], "y": [level, level], "role": "reference"})
+    above = sum(unit.of(power) > high for one in starts for power in one.powers)
+    best = next((one for one in starts if one.is_best), None)
+    return {
+        "name": "starts", "title": "Searches from several starts", "wide": True,
+        "unit": f"least {unit.symbol} so far over designs tried",
+        "x_range": [1, longest], "x_ticks": round_ticks(1.0, float(longest), 5), "x_name": "",
+        "y_range": [low, high], "y_ticks": round_ticks(low, high, 4),
+        "lines": lines, "dots": [],
+        "value": "" if best is None else f"start {best.number} is best",
+        "note": f"{above} designs lie above the axis." if above else "",
+        "kind": "", "faded": False, "pinned": False,
+    }  # fmt: skip
+
+
+def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tuple[float, float]:
+    """Range of power [W] that shows where the starts end, not the worst designs tried on the way."""
+    ends = [one.best[-1] for one in starts if one.best]
+    if not ends:
+        return 0.0, 1.0
+    low = min(ends)
+    high = max(1.01 * low, start_power or 0.0)
+    margin = 0.05 * (high - low)
+    return low - margin, high + margin
 
 
 def standing(run: SearchRun | None, problem: str = "") -> str:
@@ -138,7 +186,7 @@ def _where(run: SearchRun) -> str:
             return f"Ended early, {kept}"
 
 
-def found(run: SearchRun, units: Units = SI) -> str:
+def result(run: SearchRun, units: Units = SI) -> str:
     """The best so far, and what it saves."""
     best = run.best
     parts = []
@@ -163,14 +211,6 @@ def details(run: SearchRun, units: Units = SI) -> str:
 
 def _block(parts: list[str], name: str = "found") -> str:
     return f'<div class="rx rx-found" data-explorer="{name}">{"".join(parts)}</div>' if parts else ""
-
-
-def _legs(run: SearchRun) -> tuple[object, ...]:
-    return run.search.objective.conditions if run.search.objective is not None else (None,)
-
-
-def _quantity(run: SearchRun) -> str:
-    return run.search.objective.quantity if run.search.objective is not None else "total"
 
 
 def _saving(title: str, power: float, reference: float | None, units: Units) -> str:

@@ -9,11 +9,11 @@ from html import escape
 import numpy as np
 import viser
 
+from explorer.model.units import number
 from explorer.overlay.bridge import Bridge
 from explorer.picture.solids import Mesh
-from explorer.tabs.actuator import cut as actuator_cut
-from explorer.tabs.actuator.state import ActuatorInputs
-from explorer.text.units import number
+from explorer.tabs.actuator import cut_blade as actuator_cut
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.theme import colours
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import PiezoPly, TorqueTube

@@ -4,8 +4,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from explorer.state import Inputs
-from explorer.text.design_words import flight_name, twist_name
+from explorer.model.inputs import Inputs
 from explorer.workers.solver import BaselineCache
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist
@@ -31,21 +30,11 @@ class Pinned:
     """Its solution when it was pinned; converged."""
 
     @property
-    def title(self) -> str:
-        """A short name of the blade."""
-        return twist_name(self.inputs) + (", driven" if self.driven else "")
-
-    @property
     def driven(self) -> bool:
         """Whether an actuator also twists the blade, which the sliders cannot show."""
         design = self.solution.design
         added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
         return added or design.active_twist != self.inputs.design().active_twist
-
-    @property
-    def flight(self) -> str:
-        """Its flight condition when it was pinned."""
-        return flight_name(self.inputs)
 
     def design(self, present: Design) -> Design:
         """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
@@ -120,7 +109,7 @@ class Pinboard:
         """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
 
-    def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
+    def act(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
 
         Requests after a button that moves the sliders wait for the update in which they have moved.

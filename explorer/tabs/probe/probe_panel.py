@@ -2,27 +2,28 @@
 
 import math
 import threading
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import viser
 
-from explorer.interface import SessionState, TabContext
+from explorer.model.session_state import SessionState
+from explorer.model.units import number
 from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT
 from explorer.picture.poses import about, flown_twist
-from explorer.scene.page_scene import TURN_RATES, tie
+from explorer.scene.controller import SceneController
+from explorer.scene.page_scene import tie
+from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.keys import COARSE
 from explorer.tabs.probe.element import Probe, probe
-from explorer.tabs.probe.measured import BesideMeasured, beside_measured, measured_panel
-from explorer.tabs.probe.readout import outline, probe_panel
+from explorer.tabs.probe.probe_drawing import outline, probe_panel
+from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
-from explorer.text.units import number
 from explorer.theme import colours
 from explorer.workers.player import Player
 from rotor.arrays import Array
@@ -138,28 +139,15 @@ class _ProbePoint:
     opened: bool
 
 
-class ProbePanel:
+class ProbePanel(Tab):
     """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
 
-    def __init__(
-        self,
-        client: viser.ClientHandle,
-        bridge: Bridge,
-        context: TabContext,
-        playing: Callable[[bool], None],
-        opened: Callable[[], None],
-        turn_rate: Callable[[], float] = lambda: TURN_RATES["normal"],
-    ) -> None:
-        """`playing` is called with whether the rotor turns by itself, `opened` on a click on the disk.
-
-        `turn_rate`: of the rotor while it plays [rad/s].
-        """
-        self._playing, self._open, self._turn_rate = playing, opened, turn_rate
-        self._client, self._context = client, context
+    def __init__(self, context: TabContext, scene: SceneController) -> None:
+        client, self._context, self._scene = context.client, context, scene
         self._seen = True
         self._drawn: tuple[Solution, _ProbePoint, float | None, bool] | None = None
         self._html = ""
-        self._cursor = Cursor(client, bridge)
+        self._cursor = Cursor(client, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
@@ -181,7 +169,13 @@ class ProbePanel:
         for box in (self._follow, self._shown, self._opened):
             box.on_update(lambda event: context.wake() if event.client is not None else None)
         client.scene.on_click()(self._clicked)
-        self._bind()
+        context.bridge.on("play", lambda _: self.toggle())
+        bind = context.keyboard.bind
+        bind("play", self.toggle)
+        bind("probe_hide", self._hide)
+        for name, (r, psi) in _STEPS.items():
+            bind(f"probe_{name}", partial(self._step, r, psi))
+            bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
 
     def show(self, state: SessionState) -> None:
         """Follow a converged answer, or the reference blade."""
@@ -202,7 +196,7 @@ class ProbePanel:
         self._drawn = solution, place, pitch, rides
         self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
         self._panel.content = self._html
-        with self._client.atomic():
+        with self._context.client.atomic():
             if place.shown:
                 self._cursor.show(solution.design.rotor, here, pitch, rides)
             else:
@@ -237,13 +231,18 @@ class ProbePanel:
             return
         self._walked, self._left = None, LONGEST
         self._player.play()
-        self._playing(True)
+        self._set_playing(True)
 
     def _pause(self) -> None:
         if self._player.playing:
             self._player.pause()
             self._context.wake()  # What does not follow every turn of the blade follows now.
-        self._playing(False)
+        self._set_playing(False)
+
+    def _set_playing(self, playing: bool) -> None:
+        """The rotor turns by itself from now on, or stands."""
+        self._context.display.set_playing(playing)
+        self._scene.play(playing)
 
     def _walk(self, seconds: float) -> None:
         """A step of the clock."""
@@ -257,8 +256,8 @@ class ProbePanel:
         if (self._walked is not None and now != self._walked) or self._left <= 0.0:
             self._pause()  # The user has taken the blade, or gone.
             return
-        self._walked = (now + math.degrees(self._turn_rate()) * seconds) % 360.0
-        self._context.set_azimuth(self._walked)
+        self._walked = (now + math.degrees(self._context.display.turn_rate) * seconds) % 360.0
+        self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
         return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
@@ -279,7 +278,7 @@ class ProbePanel:
         if self._follow.value:
             with self._hand:  # No step of the clock comes between.
                 self._pause()
-                self._context.set_azimuth(psi_deg)
+                self._context.display.turn(psi_deg)
         self._psi.value = psi_deg
         self._moved()
 
@@ -298,18 +297,10 @@ class ProbePanel:
         state = self._context.state()
         if state is None or not self._seen:
             return
-        found = pick(state.solution, event.ray_origin, event.ray_direction)
-        if found is not None:
-            self._set(found[0], round(math.degrees(found[1])) % 360)
-            self._open()
-
-    def _bind(self) -> None:
-        bind = self._context.bind_command
-        bind("play", self.toggle)
-        for name, (r, psi) in _STEPS.items():
-            bind(f"probe_{name}", partial(self._step, r, psi))
-            bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
-        bind("probe_hide", self._hide)
+        picked = pick(state.solution, event.ray_origin, event.ray_direction)
+        if picked is not None:
+            self._set(picked[0], round(math.degrees(picked[1])) % 360)
+            self._context.layout.open_drawer("probe")
 
 
 def _innermost(rotor: Rotor) -> float:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from rotor.assets import asset_path, csv_rows
 from rotor.design.active_twist import Harmonic
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design
@@ -16,6 +15,7 @@ from rotor.trim.solution import Solution
 from rotor.validation import inflow
 from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, measured_curves
 from rotor.validation.compare import design_at
+from rotor.validation.flown import MeasuredPower, measured_powers
 from rotor.validation.measured import sets_of
 
 TRIM_TITLES: dict[str, str] = {
@@ -126,53 +126,10 @@ def stand_like(solution: Solution) -> StandInputs:
     )
 
 
-POWER_REPORTS = {
-    "gazelle": "NASA TM-88351 (1987), digitised by the authors of HEROES",
-    "bo105": "DLR flight test in Padfield, Helicopter Flight Dynamics (1996), figure 4.11; its mass is not stated, "
-    "2200 kg assumed",
-}
-"""Sources of the powers, by rotor."""
-
-
-@dataclass(frozen=True)
-class MeasuredPower:
-    """Main-rotor power of one flight in level flight."""
-
-    case: str
-    mu: float
-    mass: float
-    """[kg]"""
-    altitude: float
-    """Pressure altitude [m]."""
-    power: float
-    """[W]"""
-
-    def same_air(self, design: Design) -> bool:
-        """Whether a design has this mass and altitude and neither climbs nor descends."""
-        here = design.condition
-        pairs = ((here.mass, self.mass), (here.altitude, self.altitude), (here.climb_speed, 0.0))
-        return here.stand is None and all(math.isclose(one, other, abs_tol=1e-6) for one, other in pairs)
-
-    def same_flight(self, design: Design) -> bool:
-        """The same at this advance ratio too."""
-        return self.same_air(design) and math.isclose(design.condition.advance_ratio, self.mu, abs_tol=1e-9)
-
-    @property
-    def title(self) -> str:
-        """The flight in words."""
-        return f"{self.case}: µ {self.mu:g}, {self.mass:g} kg, {self.altitude:g} m"
-
-
 @cache
-def measured_powers(rotor: str) -> tuple[MeasuredPower, ...]:
-    """The powers of a shipped rotor in flight, by its name; none for a rotor without."""
-    return tuple(
-        MeasuredPower(
-            row["case"], float(row["mu"]), float(row["mass_kg"]), float(row["altitude_m"]), 1e3 * float(row["power_kw"])
-        )
-        for row in csv_rows(asset_path("measured/flown_power.csv"))
-        if row["rotor"] == rotor
-    )
+def flight_powers(rotor: str) -> tuple[MeasuredPower, ...]:
+    """The powers of a shipped rotor measured in flight, by its name; none for a rotor without."""
+    return tuple(one for one in measured_powers() if one.rotor == rotor)
 
 
 @cache
@@ -250,7 +207,7 @@ class MeasuredCondition:
 @cache
 def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
     """The measured points of a shipped rotor, by its name; none for a rotor that was not measured."""
-    found: list[MeasuredCondition] = []
+    conditions: list[MeasuredCondition] = []
     for measured in sets_of(rotor):
         if measured.against is not None:
             continue  # Its conditions are those of another set.
@@ -259,23 +216,23 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         for number, point in enumerate(measured.points, 1):
             words = ", ".join(f"{_SHORT[name]} {point[name]:.4g}" for name in several)
             title = _TITLES[measured.name]
-            found.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
+            conditions.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
     if rotor == inflow.ROTOR:
         for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
             solidity = make_design(rotor=rotor).rotor.solidity
             stand = StandInputs(value=ct / solidity, shaft_tilt_deg=tilt)
-            found.append(
+            conditions.append(
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
-    powers = measured_powers(rotor)
+    powers = flight_powers(rotor)
     flown = {one.case for one in powers}
-    found.extend(
+    conditions.extend(
         MeasuredCondition("Flight", one.title, one.mu, None, mass=one.mass, altitude=one.altitude) for one in powers
     )
     for number, case in enumerate(one for one in airload_cases(rotor) if one.name not in flown):
         title, label = _CASES.get(case.name, (case.test, case.name))
-        found.append(replace(_condition(title, label, case.design()), first=number == 0))
-    return tuple(found)
+        conditions.append(replace(_condition(title, label, case.design()), first=number == 0))
+    return tuple(conditions)
 
 
 def _condition(test: str, label: str, design: Design) -> MeasuredCondition:

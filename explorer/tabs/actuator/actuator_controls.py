@@ -9,9 +9,9 @@ import numpy as np
 import viser
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.tabs.actuator import readout
-from explorer.tabs.actuator.electrodes import ElectrodesPanel
-from explorer.tabs.actuator.state import (
+from explorer.model.units import number
+from explorer.tabs.actuator import actuator_words as words
+from explorer.tabs.actuator.actuator_inputs import (
     BLADES,
     CONCEPTS,
     HARMONICS,
@@ -20,12 +20,12 @@ from explorer.tabs.actuator.state import (
     Question,
     drive_of,
 )
+from explorer.tabs.actuator.electrodes import ElectrodesPanel
 from explorer.tabs.actuator.study import Findings, Outcome
 from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot
-from explorer.tabs.charts import Chart, line, points
+from explorer.tabs.chart_strip import Chart, line, points
 from explorer.tabs.controls import key_of
 from explorer.text.glossary import hint
-from explorer.text.units import number
 from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
@@ -219,7 +219,7 @@ class ActuatorControls:
             self.table = gui.add_html("")
         self.electrodes = ElectrodesPanel(gui)
         with gui.add_folder("Harmonic active twist"):
-            gui.add_html(readout.unmeasured())
+            gui.add_html(words.unmeasured())
             self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
             self._amplitude = watched(
                 gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint=hint("amplitude"))
@@ -297,12 +297,12 @@ class ActuatorControls:
         for chart in (self.over_phase, self.over_amplitude):
             chart.set_visible(turning)
 
-    def rest(self) -> None:
+    def reset(self) -> None:
         """Nothing driven."""
         self._per_rev.value = next(iter(HARMONICS))
         self.drive((0.0,) * MOST_SEGMENTS)
 
-    def take(
+    def drive_as(
         self,
         installed: InstalledActuator,
         swings: tuple[tuple[float, ...], ...],
