@@ -146,7 +146,6 @@ class Page:
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
-        self.actuator.start()
         self._refresh(Reading(self.controls.inputs(), self.display.view()))
 
     def stop(self) -> None:

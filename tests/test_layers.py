@@ -27,7 +27,7 @@ ORDER = {
     ),
     "explorer/tabs": (
         "layout", "keys", "display", "stand_controls", "controls", "context", "design_files", "history_panel",
-        "settings_panel", "top_bar", "waterfall", "power_card", "chart_strip", "twist_curve", "results", "export_panel",
+        "settings_panel", "top_bar", "waterfall", "power_card", "chart", "chart_strip", "twist_curve", "results", "export_panel",
         "sensitivity_panel", "probe", "actuator", "views", "optimise", "studies", "lecture",
     ),
 }  # fmt: skip

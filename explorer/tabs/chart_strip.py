@@ -1,14 +1,11 @@
-"""The live charts: uplots made once and then only given data, and the strip below the scene."""
+"""The strip of charts below the scene."""
 
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import viser
-from viser import uplot
-
 from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
-from explorer.charts.plots import Plot, PowerCurve, Range
+from explorer.charts.plots import PowerCurve, Range
 from explorer.charts.strip import (
     StripChart,
     alpha_chart,
@@ -21,98 +18,9 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.overlay.bridge import Bridge
 from explorer.tabs.power_card import against
-from explorer.text import readout
-from explorer.theme.colours import PINNED, PINNED_DASH, THIS
 from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
-
-_HEIGHT = 94
-_GRID = uplot.Axis_Grid(show=True, width=1)
-_TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
-_FONT = "11px sans-serif"
-
-Key = tuple[tuple[str, str] | tuple[str, str, bool], ...]
-"""Name, colour, and whether the line is dashed, of each series that is told apart."""
-AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
-"""While two designs are compared."""
-
-
-def line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
-    series = uplot.Series(label=label, stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
-    if dash is not None:
-        series["dash"] = dash
-    return series
-
-
-def pinned_line() -> uplot.Series:
-    """A, in any chart."""
-    return line("A", PINNED, 1.8, PINNED_DASH)
-
-
-def points(label: str, colour: str, size: float) -> uplot.Series:
-    return uplot.Series(
-        label=label, stroke=colour, width=0, points=uplot.Series_Points(show=True, size=size, fill=colour)
-    )
-
-
-class Chart:
-    """One titled chart with a key that also serves as axis label."""
-
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        title: str,
-        key: Key,
-        abscissa: str,
-        series: tuple[uplot.Series, ...],
-        plot: Plot,
-        x_range: Range,
-        height: int = _HEIGHT,
-        name: str = "",
-    ) -> None:
-        """`name`: of the chart in the glossary."""
-        self._title, self._key, self._name = title, key, name
-        self._heading = gui.add_html(readout.heading(title, key, name))
-        self._x_range = x_range
-        self._y_range = plot.y_range
-        self._handle = gui.add_uplot(
-            plot.data,
-            (uplot.Series(label=abscissa), *series),
-            scales=self._scales(),
-            axes=(
-                uplot.Axis(size=20, gap=2, space=45, grid=_GRID, ticks=_TICKS, font=_FONT),
-                uplot.Axis(size=42, gap=3, space=15, grid=_GRID, ticks=_TICKS, font=_FONT),
-            ),
-            legend=uplot.Legend(show=False),
-            cursor=uplot.Cursor(points=uplot.Cursor_Points(show=False), drag=uplot.Cursor_Drag(x=False, y=False)),
-            height=height,
-            padding=(8, 14, 0, 0),
-        )
-
-    def show(self, plot: Plot, key: Key | None = None, title: str = "") -> None:
-        """New data; `key`, `title`: others than before, where other series are filled or the unit has changed."""
-        named = title or self._title, key or self._key
-        if named != (self._title, self._key):
-            self._title, self._key = named
-            self._heading.content = readout.heading(*named, self._name)
-        x_range = plot.x_range or self._x_range
-        if (plot.y_range, x_range) != (self._y_range, self._x_range):
-            # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
-            self._y_range, self._x_range = plot.y_range, x_range
-            self._handle.scales = self._scales()
-        self._handle.data = plot.data
-
-    def set_visible(self, visible: bool) -> None:
-        self._heading.visible = self._handle.visible = visible
-
-    @property
-    def y_range(self) -> Range:
-        return self._y_range
-
-    def _scales(self) -> dict[str, uplot.Scale]:
-        return {"x": uplot.Scale(time=False, range=self._x_range), "y": uplot.Scale(range=self._y_range)}
-
 
 _BESIDE_STARTS = ("power", "lift")
 _ORDER = ("power", "alpha", "lift", "worth")

@@ -11,7 +11,7 @@ from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
-from explorer.tabs.chart_strip import AB_KEY, Chart, Key, line, pinned_line
+from explorer.tabs.chart import AB_KEY, Chart, Key, line, pinned_line
 from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS, colour_map
@@ -45,12 +45,6 @@ def sensitivity_plot(solution: Solution, previous: Range | None, pinned: Solutio
 def _of_pinned(solution: Solution) -> PitchGradient:
     """A stays while the sliders move: half the work of a round."""
     return power_along(Adjoint(solution), "total")
-
-
-def blank_sensitivity() -> Plot:
-    """The chart before the first answer; no answer has its range."""
-    none = np.full(2, np.nan)
-    return Plot((np.array([0.13, 1.0]), none, none, none, none), (-1e-3, 1e-3))
 
 
 def strip(
@@ -112,9 +106,7 @@ class SensitivityPanel(Tab):
             gui,
             "dP/dθ [kW/° per r/R]",
             _KEY,
-            "radius r/R",
-            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), pinned_line(), line("total", THIS)),
-            blank_sensitivity(),
+            (line(BASELINE, 0.7), line(BASELINE, 1.5, (5, 3)), pinned_line(), line(THIS)),
             (0.1, 1.02),
             _HEIGHT,
             name="chart_sensitivity",

@@ -348,9 +348,14 @@ class TestSchedule:
         assert progress.part_done == 1.0
 
     def test_charts_and_table(self, progress: schedule_view.PlanProgress):
-        for some in (progress, None, schedule_view.PlanProgress(progress.plan)):
-            assert finite(schedule_view.twist_plot(some, None))
-            assert finite(schedule_view.saving_plot(some, None))
+        twists, savings = schedule_view.twist_plot(progress, None), schedule_view.saving_plot(progress, None)
+        assert twists is not None
+        assert savings is not None
+        known = [bool(np.isfinite(values).all()) for values in twists.data]
+        assert known == [True, True, True, *(False,) * (schedule_view.LEGS - 2), True]
+        assert finite(savings)
+        empty = schedule_view.PlanProgress(progress.plan)
+        assert schedule_view.twist_plot(empty, None) is schedule_view.saving_plot(empty, None) is None
         table = schedule_view.table(progress)
         assert "Additional saving from variable twist" in table
         assert "nan" not in table.lower()
@@ -358,10 +363,13 @@ class TestSchedule:
 
     def test_legs_to_come_are_not_drawn(self, progress: schedule_view.PlanProgress):
         half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 1])
-        mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
+        whole, drawn = (schedule_view.saving_plot(one, None) for one in (progress, half))
+        assert whole is not None
+        assert drawn is not None
+        mu, _, fixed, moving = drawn.data
         np.testing.assert_allclose(mu, [0.3])
-        np.testing.assert_allclose(moving, schedule_view.saving_plot(progress, None).data[3][1:])
-        assert fixed[0] > 10.0  # Beyond the axis: not known yet.
+        np.testing.assert_allclose(moving, whole.data[3][1:])
+        assert np.isnan(fixed[0])  # Not known yet.
 
     def test_csv_reads_back(self, progress: schedule_view.PlanProgress):
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))

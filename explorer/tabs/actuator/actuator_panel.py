@@ -5,22 +5,27 @@ from typing import Any
 
 import viser
 
-from explorer.tabs.actuator import actuator_controls as plots
-from explorer.tabs.actuator import actuator_controls as table
 from explorer.tabs.actuator import actuator_words as words
-from explorer.tabs.actuator.actuator_controls import ActuatorControls
+from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
-from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
-from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
+from explorer.tabs.actuator.pool_answers import PoolAnswers
+from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot, sweep_sentence, sweep_task
+from explorer.tabs.actuator.verdict_task import VerdictTask, verdict_tasks
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
 from rotor.trim.solution import Solution
+
+_STILL = 0.4
+"""How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
+_IDLE = 2.5
+"""How long the page must have been still before work is begun that nobody asked for [s]."""
 
 
 class ActuatorPanel:
@@ -30,8 +35,11 @@ class ActuatorPanel:
         self._context, client = context, context.client
         self._touched = False
         self._cut = CutScene(client.scene, context.bridge)
-        self._study = VerdictWorker(CachedVerdicts(context.pool), context.wake, f"study-{client.client_id}")
-        self._sweep = SweepWorker(context.pool, context.wake, f"sweep-{client.client_id}")
+        # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
+        self._verdicts = PoolAnswers(context.pool, 5, context.wake)
+        self._maps = PoolAnswers(context.pool, 3, context.wake)
+        self._verdict: Verdict | None = None
+        """The last one that was shown."""
         self._undriven = solver.BaselineCache()
         self._sent: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
@@ -42,13 +50,10 @@ class ActuatorPanel:
         self.shown = self._controls.shown
         self.inputs = self._controls.inputs
 
-    def start(self) -> None:
-        self._study.start()
-        self._sweep.start()
-
     def stop(self) -> None:
-        self._study.stop()
-        self._sweep.stop()
+        """The browser has left."""
+        self._verdicts.stop()
+        self._maps.stop()
 
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
@@ -75,22 +80,22 @@ class ActuatorPanel:
         self._set("bar", self._controls.bar, words.voltage_bar(installed.actuator))
         self._asked = question
         now = (inputs, design)
-        self._study.ask(question, wanted=self._touched, stirred=now != self._before)
+        self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._judge(inputs, installed, question, design.rotor.blade.root_cutout)
+        self._show_verdict(inputs, installed, question, design.rotor.blade.root_cutout)
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
-        answer = self._sweep.ask(task)
+        self._maps.ask(() if task is None else (task,), _STILL)
         if not inputs.per_rev:
             return
+        answer = self._maps.answer(task)
         self._set("swept", self._controls.swept, words.sweep_panel(sweep_sentence(answer, inputs, design)))
-        drawn = answer if isinstance(answer, PowerMap) else None
         for chart, plot in (
             (self._controls.over_phase, phase_plot),
             (self._controls.over_amplitude, amplitude_plot),
         ):
-            chart.show(plot(drawn, inputs, chart.y_range if drawn is not None else None))
+            chart.show(plot(answer, inputs, chart.y_range) if isinstance(answer, PowerMap) else None)
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
@@ -100,16 +105,20 @@ class ActuatorPanel:
         """Nothing driven."""
         self._controls.reset()
 
-    def _judge(self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float) -> None:
-        findings = self._study.findings
-        verdict = findings.verdict if findings.question == question else None
-        tell, places = self._set, self._controls
-        tell("verdict", places.verdict, words.verdict_panel(findings, question))
-        tell("numbers", places.numbers, words.fit_panel(inputs, installed, verdict))
-        tell("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
-        tell("limits", places.limits, words.limits_panel(verdict))
-        tell("table", places.table, table.table_panel(findings, question))
-        places.chart.show(plots.reach_plot(inputs, installed, verdict, root, places.chart.y_range))
+    def _show_verdict(
+        self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float
+    ) -> None:
+        outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
+        outcome = outcomes[question.actuator]
+        verdict = outcome if isinstance(outcome, Verdict) else None
+        show, places = self._set, self._controls
+        show("verdict", places.verdict, words.verdict_panel(outcome, self._verdict))
+        show("numbers", places.numbers, words.fit_panel(inputs, installed, verdict))
+        show("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
+        show("limits", places.limits, words.limits_panel(verdict))
+        show("table", places.table, table_panel(outcomes, question))
+        places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
+        self._verdict = verdict or self._verdict
 
     def _draw(
         self,
@@ -145,13 +154,10 @@ class ActuatorPanel:
         if which < 0:
             self._controls.drive((0.0,) * MOST_SEGMENTS)
             return
-        findings = self._study.findings
-        verdict = findings.verdict
-        if verdict is None or findings.question != self._asked:
+        verdict = None if self._asked is None else self._verdicts.answer(VerdictTask(self._asked))
+        if not isinstance(verdict, Verdict):
             self._context.wake()
-            self._context.client.add_notification(
-                "No verdict yet", "Its voltages are being computed.", auto_close_seconds=4
-            )
+            self._context.notify("No verdict yet", "Its voltages are being computed.")
             return
         self._controls.drive_as(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
         mu = verdict.baseline.pair.advance_ratios[which]

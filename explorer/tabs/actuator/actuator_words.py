@@ -6,9 +6,9 @@ from html import escape
 import numpy as np
 
 from explorer.model.units import number
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.cut_picture import drive_text, share_colour
-from explorer.tabs.actuator.study import Findings
+from explorer.tabs.actuator.verdict_task import Outcome
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.harmonic import tip_response
@@ -141,22 +141,20 @@ def problem_panel(problem: str) -> str:
     return _box("wrong", "problem", escape(problem))
 
 
-def verdict_panel(findings: Findings, question: Question) -> str:
-    """The verdict's sentence, or that it is on its way."""
-    if findings.question != question or findings.outcome is None:
-        old = findings.verdict
-        before = "" if old is None else f'<div class="rx-faded">{escape(verdict_sentence(old))}</div>'
+def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
+    """The verdict's sentence, or that it is on its way, with the one before."""
+    if outcome is None:
+        old = "" if before is None else f'<div class="rx-faded">{escape(verdict_sentence(before))}</div>'
         return _box(
             "wait",
             "computing",
-            f"Net benefit? Computing the optimum twist at both conditions, then the best within reach.{before}",
+            f"Net benefit? Computing the optimum twist at both conditions, then the best within reach.{old}",
         )
-    if isinstance(findings.outcome, str):
-        return problem_panel(findings.outcome)
-    verdict = findings.outcome
-    lead, sentence = headline(verdict), verdict_sentence(verdict)
+    if isinstance(outcome, str):
+        return problem_panel(outcome)
+    lead, sentence = headline(outcome), verdict_sentence(outcome)
     text = f"<b>{escape(lead)}</b>{escape(sentence.removeprefix(lead))}"
-    return _box("yes" if verdict.pays else "no", "ready", text)
+    return _box("yes" if outcome.pays else "no", "ready", text)
 
 
 def _box(look: str, kind: str, text: str) -> str:

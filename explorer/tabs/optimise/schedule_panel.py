@@ -5,7 +5,7 @@ from typing import Any
 import viser
 
 from explorer.model.inputs import with_optimum
-from explorer.tabs.chart_strip import Chart, line
+from explorer.tabs.chart import Chart, line
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_request as mission
@@ -68,23 +68,18 @@ class SchedulePanel:
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
-        twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
         self._twists = Chart(
             gui,
             "Best twist [°] over r/R",
             (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
-            "radius r/R",
-            (*(line(f"leg {k + 1}", css(shades[k]), 1.5) for k in range(LEGS)), line("fixed", NOW, 2.0, (5, 3))),
-            twists,
+            (*(line(css(shades[k]), 1.5) for k in range(LEGS)), line(NOW, 2.0, (5, 3))),
             (0.1, 1.02),
         )
         self._savings = Chart(
             gui,
             "Saving [%] over µ",
             (("variable", THIS), ("fixed", NOW)),
-            "advance ratio µ",
-            (line("none", BASELINE, 0.7), line("fixed", NOW, 1.8, (5, 3)), line("variable", THIS)),
-            savings,
+            (line(BASELINE, 0.7), line(NOW, 1.8, (5, 3)), line(THIS)),
             (-0.012, 0.462),
         )
         self._begin.on_click(lambda _: self.begin())

@@ -46,36 +46,32 @@ class PlanProgress:
         return len(self.cells) / (len(self.plan.conditions) + 1)
 
 
-def twist_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
-    """Series: LEGS best twists and the best fixed one [°]; one that is not known lies outside the axis."""
+def twist_plot(progress: PlanProgress, previous: Range | None) -> Plot | None:
+    """Series: LEGS best twists and the best fixed one [°], gaps where not known; None before the first."""
     r = np.linspace(0.13, 1.0, 80)
-    optima = (
-        [] if progress is None else [*(progress.at(k) for k in range(len(progress.plan.conditions))), progress.at(None)]
-    )
-    known = [np.degrees(one.design.twist(r)) for one in optima if one is not None and one.best is not None]
-    y_range = (
-        held_range(previous, min(map(np.min, known)), max(map(np.max, known))) if known else previous or (-1.0, 1.0)
-    )
-    lines = [np.full(len(r), 1e3) for _ in range(LEGS + 1)]
-    for k, one in enumerate(optima):
+    lines = [np.full(len(r), np.nan) for _ in range(LEGS + 1)]
+    for k, leg in enumerate((*range(len(progress.plan.conditions)), None)):
+        one = progress.at(leg)
         if one is not None and one.best is not None:
-            lines[LEGS if k == len(optima) - 1 else k] = np.degrees(one.design.twist(r))
-    return Plot((r, *lines), y_range)
+            lines[LEGS if leg is None else k] = np.degrees(one.design.twist(r))
+    return _plot(r, lines, previous)
 
 
-def saving_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
+def saving_plot(progress: PlanProgress, previous: Range | None) -> Plot | None:
     """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ; legs that are known."""
-    legs = [] if progress is None else [(leg, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
-    points = sorted((leg.flight.advance_ratio, *saved) for leg, *saved in legs if math.isfinite(saved[0]))
-    mu, moving, fixed = np.array(points or [(0.0, math.nan, math.nan), (0.4, math.nan, math.nan)]).T
-    known = np.concatenate((fixed, moving))
-    known = known[np.isfinite(known)]
-    y_range = previous or (0.0, 1.0)
-    if len(known):
-        y_range = held_range(previous, min(0.0, float(known.min())), max(0.1, float(known.max())))
-    outside = 10.0 * y_range[1] + 10.0
-    lines = (np.where(np.isfinite(values), values, outside) for values in (fixed, moving))
-    return Plot((mu, np.zeros(len(mu)), *lines), y_range)
+    legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
+    mu, moving, fixed = np.array(sorted(one for one in legs if math.isfinite(one[1])) or [(math.nan,) * 3]).T
+    if not np.isfinite(moving).any():
+        return None
+    return _plot(mu, [np.zeros(len(mu)), fixed, moving], previous, 0.1)
+
+
+def _plot(x: Array, lines: list[Array], previous: Range | None, top: float = -math.inf) -> Plot | None:
+    """`top`: the axis reaches at least so high; None where nothing is known."""
+    seen = np.concatenate(lines)
+    if not np.isfinite(seen).any():
+        return None
+    return Plot((x, *lines), held_range(previous, float(np.nanmin(seen)), max(top, float(np.nanmax(seen)))))
 
 
 def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
