@@ -27,8 +27,8 @@ ORDER = {
     ),
     "explorer/tabs": (
         "layout", "keys", "display", "stand_controls", "controls", "context", "design_files", "history_panel",
-        "settings_panel", "top_bar", "waterfall", "power_card", "chart", "chart_strip", "twist_curve", "results", "export_panel",
-        "sensitivity_panel", "probe", "actuator", "views", "optimise", "studies", "lecture",
+        "settings_panel", "top_bar", "waterfall", "power_card", "chart", "chart_strip", "twist_curve", "results",
+        "export_panel", "sensitivity_panel", "probe", "actuator", "views", "optimise", "studies", "lecture",
     ),
 }  # fmt: skip
 """Folders and files of each package from the ground up: each imports only from itself and those before it."""

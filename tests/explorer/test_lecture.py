@@ -100,12 +100,12 @@ def test_a_step_says_what_is_seen(step: LectureStep):
     assert any(character.isdigit() for character in said)
     assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
     assert "nan" not in said
-    numbers = step.numbers(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
-    assert len({one.caption for one in numbers}) == 3
-    for one in numbers:
-        assert re.search(r"\d", one.value)
-        assert " " not in one.value
-        assert len(one.value) <= 12
+    figures = step.figures(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
+    assert len({caption for caption, _, _ in figures}) == 3
+    for _, value, _ in figures:
+        assert re.search(r"\d", value)
+        assert " " not in value
+        assert len(value) <= 12
     assert view_of(step, ViewState(dark=True)).dark
     assert step.field in FIELDS
 
@@ -134,12 +134,12 @@ def test_what_is_said_of_power_adds_up():
 def test_the_large_numbers_are_those_of_the_solutions():
     step = BY_TITLE["A wake that responds to loading"]
     flat, twisted = both(step.title)
-    numbers = step.numbers(SessionState(step.inputs, ViewState(), twisted, flat, flat))
-    changes = [float(one.value.removesuffix("\u00a0kW").replace("−", "-")) for one in numbers]
+    numbers = step.figures(SessionState(step.inputs, ViewState(), twisted, flat, flat))
+    changes = [float(value.removesuffix("\u00a0kW").replace("−", "-")) for _, value, _ in numbers]
     parts = [getattr(twisted.power, name) - getattr(flat.power, name) for name in ("induced", "profile", "total")]
     assert changes == pytest.approx([part / 1e3 for part in parts], abs=0.51)
-    imperial = step.numbers(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
-    assert all(one.value.endswith("\u00a0hp") for one in imperial)
+    imperial = step.figures(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
+    assert all(value.endswith("\u00a0hp") for _, value, _ in imperial)
 
 
 class TestBeside:

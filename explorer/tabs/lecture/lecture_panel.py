@@ -178,7 +178,7 @@ class LecturePanel(Tab):
                 "watch": watch,
                 "todo": step.do,
                 "said": "" if state is None else step.say(state),
-                "figures": [] if state is None else [(one.caption, one.value, "") for one in step.numbers(state)],
+                "figures": [] if state is None else step.figures(state),
                 "held": self._context.held,
             }
         )
