@@ -31,12 +31,7 @@ DETENT = 0.35
 """Half the width of the hold at the best angle of the grabbed station [°]."""
 _FARTHEST = 12.0
 """A best angle further away than this [°] is not foreseen."""
-PIECES = {
-    "linear": (("linear",), ()),
-    "builtin": (("built_inner", "built_outer"), ("built_division",)),
-    "two": (("two_inner", "two_outer"), ("two_division",)),
-    "three": (("three_inner", "three_middle", "three_outer"), ("three_first", "three_second")),
-}
+PIECES = {name: (LAWS[name].angles, LAWS[name].breaks) for name in ("linear", "builtin", "two", "three")}
 """Rates and divisions, root to tip, of the laws made of straight pieces: fields of `Inputs`."""
 
 
@@ -96,7 +91,11 @@ def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
 def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
     """By how much each input moves for a degree that a station is turned nose up."""
     if inputs.law == "quadratic":
-        return _quadratic_slopes(inputs, station)
+        root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
+        if station.index == 1:  # A parabola lies a quarter of its coefficient times its span squared below its chord.
+            return {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}
+        # The slider holds the difference over the whole radius, of which the blade covers a part.
+        return {"quadratic_difference": (1.0 if station.index else -1.0) / (1.0 - root)}
     rates = PIECES[inputs.law][0]
     places = [one.r for one in stations(inputs)]
     # Degrees per radius that a degree of this station means for the piece inboard of it and the one outboard.
@@ -114,17 +113,6 @@ def place_of(inputs: Inputs, station: Station) -> str:
     law = inputs.design().twist if isinstance(twist, str) else twist
     angle = math.degrees(float(law(np.array([station.r]))[0]))
     return f"{station.title} {station.r:.2f} R · θ {angle:+.1f}°".replace("-", "−")
-
-
-def _quadratic_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
-    """The ends change the twist from root to tip; the middle bends the blade away from its chord line."""
-    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
-    if station.index == 1:
-        # A parabola lies a quarter of its coefficient times the square of its span below its chord.
-        return {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}
-    # The slider holds the difference over the whole radius, of which the blade covers a part.
-    slope = 1.0 / (1.0 - root)
-    return {"quadratic_difference": slope if station.index else -slope}
 
 
 def _stepped(inputs: Inputs, slopes: dict[str, float], degrees: float) -> Inputs:

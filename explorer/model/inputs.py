@@ -183,57 +183,55 @@ OPENING = Inputs(law="builtin")
 
 @dataclass(frozen=True)
 class Law:
-    """A twist law of the menu and the inputs that belong to it."""
+    """A twist law of the menu, and the fields of `Inputs` that belong to it."""
 
     title: str
-    inputs: tuple[str, ...]
     make: Callable[[Inputs], TwistLaw | str]
+    angles: tuple[str, ...] = ()
+    """Degrees, or degrees per radius; of straight pieces from the root outboard."""
+    breaks: tuple[str, ...] = ()
+    """r/R where straight pieces meet."""
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """All of them, in the order of the page."""
+        return (*self.angles, *self.breaks)
 
 
-def _segments(rates: tuple[float, ...], breaks: tuple[float, ...]) -> PiecewiseLinearTwist:
+def _radians(inputs: Inputs) -> list[float]:
+    return [math.radians(getattr(inputs, name)) for name in LAWS[inputs.law].angles]
+
+
+def _segments(inputs: Inputs) -> PiecewiseLinearTwist:
+    breaks = tuple(getattr(inputs, name) for name in LAWS[inputs.law].breaks)
     if any(high - low < 0.02 for low, high in pairwise(breaks)):
         raise ValueError(
             f"The break points at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
             "keep the second at least 0.02 R outboard of the first."
         )
-    return PiecewiseLinearTwist(tuple(math.radians(rate) for rate in rates), breaks)
+    return PiecewiseLinearTwist(tuple(_radians(inputs)), breaks)
 
 
 def _built(inputs: Inputs) -> TwistLaw | str:
     """The blade as built, and on top of it a change in two straight pieces where there is one."""
     if inputs.built_inner == inputs.built_outer == 0.0:
         return "builtin"
-    change = _segments((inputs.built_inner, inputs.built_outer), (inputs.built_division,))
-    return SumTwist(_builtin_twist(inputs), change)
-
-
-def _given(inputs: Inputs) -> TwistLaw:
-    return inputs.given or inputs.aircraft.twist_for(inputs.preset)
+    return SumTwist(_builtin_twist(inputs), _segments(inputs))
 
 
 LAWS: dict[str, Law] = {
-    "builtin": Law(
-        "As built + two-segment change", ("built_inner", "built_outer", "built_division"), lambda i: _built(i)
-    ),
-    "linear": Law("Linear", ("linear",), lambda i: LinearTwist(math.radians(i.linear))),
+    "builtin": Law("As built + two-segment change", _built, ("built_inner", "built_outer"), ("built_division",)),
+    "linear": Law("Linear", lambda i: LinearTwist(*_radians(i)), ("linear",)),
     "quadratic": Law(
-        "Quadratic",
-        ("quadratic_curvature", "quadratic_difference"),
-        lambda i: QuadraticTwist(math.radians(i.quadratic_curvature), math.radians(i.quadratic_difference)),
+        "Quadratic", lambda i: QuadraticTwist(*_radians(i)), ("quadratic_curvature", "quadratic_difference")
     ),
-    "two": Law(
-        "Two segments",
-        ("two_inner", "two_outer", "two_division"),
-        lambda i: _segments((i.two_inner, i.two_outer), (i.two_division,)),
-    ),
+    "two": Law("Two segments", _segments, ("two_inner", "two_outer"), ("two_division",)),
     "three": Law(
-        "Three segments",
-        ("three_inner", "three_middle", "three_outer", "three_first", "three_second"),
-        lambda i: _segments((i.three_inner, i.three_middle, i.three_outer), (i.three_first, i.three_second)),
+        "Three segments", _segments, ("three_inner", "three_middle", "three_outer"), ("three_first", "three_second")
     ),
-    "ideal": Law("Ideal (θtip/r)", (), lambda i: "ideal"),
-    "given": Law("From the design file", (), _given),
-    "found": Law("From the optimiser", (), lambda i: i.found or i.aircraft.twist_for(i.preset)),
+    "ideal": Law("Ideal (θtip/r)", lambda i: "ideal"),
+    "given": Law("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
+    "found": Law("From the optimiser", lambda i: i.found or i.aircraft.twist_for(i.preset)),
 }
 NOT_ALWAYS = ("given", "found")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
@@ -325,24 +323,19 @@ def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
     """The inputs moved to the law that holds `twist`; None where none does."""
     match twist:
         case LinearTwist(rate):
-            return replace(inputs, law="linear", linear=_degrees(rate))
+            name, angles, breaks = "linear", (rate,), ()
         case QuadraticTwist(curvature, difference):
-            values = {"quadratic_curvature": _degrees(curvature), "quadratic_difference": _degrees(difference)}
-            return replace(inputs, law="quadratic", **values)
-        case PiecewiseLinearTwist((inner, outer), (division,)):
-            return replace(
-                inputs, law="two", two_inner=_degrees(inner), two_outer=_degrees(outer), two_division=division
-            )
-        case PiecewiseLinearTwist((inner, middle, outer), (first, second)):
-            rates = {"three_inner": _degrees(inner), "three_middle": _degrees(middle), "three_outer": _degrees(outer)}
-            return replace(inputs, law="three", three_first=first, three_second=second, **rates)
-        case SumTwist(base, PiecewiseLinearTwist((inner, outer), (division,))) if base == _builtin_twist(inputs):
-            rates = {"built_inner": _degrees(inner), "built_outer": _degrees(outer)}
-            return replace(inputs, law="builtin", built_division=division, **rates)
+            name, angles, breaks = "quadratic", (curvature, difference), ()
+        case PiecewiseLinearTwist(angles, breaks) if len(breaks) in (1, 2):
+            name = "two" if len(breaks) == 1 else "three"
+        case SumTwist(base, PiecewiseLinearTwist(angles, (_,) as breaks)) if base == _builtin_twist(inputs):
+            name = "builtin"
         case IdealTwist():
-            return replace(inputs, law="ideal")
+            name, angles, breaks = "ideal", (), ()
         case _:
             return None
+    values = dict(zip(LAWS[name].inputs, (*map(_degrees, angles), *breaks), strict=True))
+    return replace(inputs, law=name, **values)
 
 
 def _builtin_twist(inputs: Inputs) -> TwistLaw:
