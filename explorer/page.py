@@ -37,15 +37,13 @@ from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.power_card import beside_labels
 from explorer.tabs.probe.probe_panel import ProbePanel
-from explorer.tabs.results import ResultsPanel
+from explorer.tabs.results import ResultsPanel, beside_labels
 from explorer.tabs.sensitivity_panel import SensitivityPanel
-from explorer.tabs.settings_panel import SettingsPanel
-from explorer.tabs.studies.studies_panel import StudiesPanel
+from explorer.tabs.studies_panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
 from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.tabs.views import SceneViews
+from explorer.tabs.views import SceneViews, SettingsPanel
 from explorer.tabs.waterfall import WaterfallPanel
 from rotor.design.design import Design
 from rotor.trim.solution import Solution

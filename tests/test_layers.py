@@ -26,9 +26,9 @@ ORDER = {
         "export", "tabs", "page", "session", "connection", "app", "notebook",
     ),
     "explorer/tabs": (
-        "layout", "keys", "display", "stand_controls", "controls", "context", "design_files", "history_panel",
-        "settings_panel", "top_bar", "waterfall", "power_card", "chart", "chart_strip", "twist_curve", "results",
-        "export_panel", "sensitivity_panel", "probe", "actuator", "views", "optimise", "studies", "lecture",
+        "layout", "keys", "display", "controls", "context", "design_files", "history_panel", "top_bar", "waterfall",
+        "live_charts", "results", "twist_curve", "export_panel", "sensitivity_panel", "probe", "actuator", "views",
+        "optimise", "study_charts", "studies_panel", "lecture",
     ),
 }  # fmt: skip
 """Folders and files of each package from the ground up: each imports only from itself and those before it."""

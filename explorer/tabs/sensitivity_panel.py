@@ -11,8 +11,8 @@ from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
-from explorer.tabs.chart import AB_KEY, Chart, Key, line, pinned_line
 from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS, colour_map
 from rotor.design.twist import TwistLaw

@@ -29,10 +29,9 @@ from explorer.tabs.actuator.actuator_inputs import (
     question_of,
     swing_of,
 )
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers, answer, lean, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
 from explorer.tabs.actuator.cut_picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
-from explorer.tabs.actuator.pool_answers import PoolAnswers
-from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot, sweep_sentence, sweep_task
-from explorer.tabs.actuator.verdict_task import answer, lean, verdict_tasks
 from explorer.workers.job import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap

@@ -18,11 +18,10 @@ from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.tabs import sensitivity_panel as sensitivity
 from explorer.tabs.optimise import map_panel as power_map
 from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise import search_request as mission
+from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
-from explorer.tabs.optimise.search_run import SearchRun
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_words import concept_picture, starts_chart
 from explorer.workers.job import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask

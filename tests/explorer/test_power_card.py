@@ -8,7 +8,7 @@ import pytest
 from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.undo import PowerTracker
-from explorer.tabs.power_card import PowerCard, beside_labels
+from explorer.tabs.results import PowerCard, beside_labels
 from rotor.trim.solve import solve
 
 

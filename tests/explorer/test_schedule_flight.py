@@ -18,7 +18,7 @@ from explorer.tabs.optimise.schedule_view import (
     flown_legs,
     twist_between,
 )
-from explorer.tabs.optimise.search_request import SearchRequest
+from explorer.tabs.optimise.search_run import SearchRequest
 from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, TwistLaw
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS

@@ -11,7 +11,7 @@ from explorer.model.inputs import LAWS, Inputs, preset_inflow
 from explorer.model.pinned import FLIGHT
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
 from explorer.model.units import AVIATION, SI
-from explorer.tabs.power_card import sensitivity_row
+from explorer.tabs.results import sensitivity_row
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 

@@ -6,8 +6,7 @@ from typing import Any
 import pytest
 
 from explorer.model.units import SI
-from explorer.tabs.optimise.search_request import SearchRequest, legs
-from explorer.tabs.optimise.search_run import SearchRun, StartTrace
+from explorer.tabs.optimise.search_run import SearchRequest, SearchRun, StartTrace, legs
 from explorer.tabs.optimise.search_words import headline, power_axis, starts_chart
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import Progress, run_search

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from explorer.tabs.studies import study_charts
-from explorer.tabs.studies.studies_panel import StudiesPanel, find_studies, numbers, open_study, point_line, summary
+from explorer.tabs import study_charts
+from explorer.tabs.studies_panel import StudiesPanel, find_studies, numbers, open_study, point_line, summary
 from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs
@@ -140,7 +140,7 @@ def test_a_single_point_can_be_drawn(tmp_path: Path):
 
 def test_without_the_packages_the_tab_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):
     said: list[str] = []
-    monkeypatch.setattr("explorer.tabs.studies.studies_panel.find_spec", lambda name: None)
+    monkeypatch.setattr("explorer.tabs.studies_panel.find_spec", lambda name: None)
     context: Any = SimpleNamespace(gui=SimpleNamespace(add_html=said.append))
     state: Any = None
     panel = StudiesPanel(context, Path())

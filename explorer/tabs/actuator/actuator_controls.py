@@ -20,9 +20,9 @@ from explorer.tabs.actuator.actuator_inputs import (
     Question,
     drive_of,
 )
+from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.electrodes import ElectrodesPanel
-from explorer.tabs.actuator.verdict_task import Outcome
-from explorer.tabs.chart import Chart, line, points
+from explorer.tabs.live_charts import Chart, line, points
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator

@@ -8,10 +8,9 @@ import viser
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers, VerdictTask, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
 from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
-from explorer.tabs.actuator.pool_answers import PoolAnswers
-from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot, sweep_sentence, sweep_task
-from explorer.tabs.actuator.verdict_task import VerdictTask, verdict_tasks
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap

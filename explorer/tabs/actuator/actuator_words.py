@@ -1,20 +1,23 @@
-"""Words and numbers of the Actuator tab, as HTML; degrees, volts and kW begin here."""
+"""Words, numbers and chart data of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
 from html import escape
 
 import numpy as np
 
+from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
+from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.cut_picture import drive_text, share_colour
-from explorer.tabs.actuator.verdict_task import Outcome
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
-from rotor.actuator.harmonic import tip_response
+from rotor.actuator.harmonic import PowerMap, tip_response
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict, headline, verdict_sentence
+from rotor.arrays import Array
+from rotor.design.design import Design
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
 
@@ -204,3 +207,69 @@ def _limit(limit: Limit) -> str:
 
 def _kw(power: float | None) -> str:
     return _NONE if power is None else f"{number(1e-3 * power, 1, sign=True)} kW"
+
+
+FLAT = 50.0
+"""Changes of power below this are called none [W]."""
+_POINTS = 73
+
+
+def phase_plot(power: PowerMap, inputs: ActuatorInputs, previous: Range | None) -> Plot:
+    """Change of power [kW] over phase [°]: at full amplitude, at this one, and now."""
+    phases = np.linspace(0.0, 2.0 * math.pi, _POINTS)
+    share, phase = 0.01 * inputs.amplitude, math.radians(inputs.phase)
+    largest = float(power.shares[-1])
+    now = _single(phases, phase, float(power.change(share, phase)))
+    return _plot(np.degrees(phases), [power.change(largest, phases), power.change(share, phases), now], previous)
+
+
+def amplitude_plot(power: PowerMap, inputs: ActuatorInputs, previous: Range | None) -> Plot:
+    """Change of power [kW] over amplitude [%]: best phase, this phase, the limit beyond which more costs, now."""
+    shares = np.linspace(0.0, 1.0, _POINTS)
+    share, phase = 0.01 * inputs.amplitude, math.radians(inputs.phase)
+    shown = np.where(shares <= power.shares[-1] + 1e-9, shares, np.nan)
+    limit = power.limit(phase)
+    series = [
+        power.change(shown, power.best()[1]),
+        power.change(shown, phase),
+        _single(shares, limit, float(power.change(limit, phase))),
+        _single(shares, share, float(power.change(share, phase))),
+    ]
+    return _plot(100.0 * shares, series, previous)
+
+
+def _single(x: Array, at: float, value: float) -> Array:
+    """One point, at the nearest abscissa."""
+    points = np.full(len(x), np.nan)
+    points[int(np.abs(x - at).argmin())] = value
+    return points
+
+
+def _plot(x: Array, series: list[Array], previous: Range | None) -> Plot:
+    kilowatts = [1e-3 * values for values in series]
+    seen = np.concatenate(kilowatts)
+    low, high = min(float(np.nanmin(seen)), -0.5), max(float(np.nanmax(seen)), 0.5)
+    return Plot((x, *kilowatts), held_range(previous, low, high))
+
+
+def sweep_sentence(power: PowerMap | str | None, inputs: ActuatorInputs, design: Design) -> str:
+    """What the charts say: the least power, and the limit beyond which more twist costs at this phase."""
+    if design.hovering:
+        return "Off in hover: fly faster."
+    if power is None:
+        return "Trimming amplitudes and phases…"
+    if isinstance(power, str):
+        return power
+    share, phase, change = power.best()
+    limit, most = power.limit(math.radians(inputs.phase)), float(power.shares[-1])
+    here = "At this phase "
+    if limit <= 0.005:
+        here += "every amplitude costs power."
+    elif limit >= most - 0.005:
+        here += f"more twist saves more, up to {number(100.0 * most)} %."
+    else:
+        here += f"twist beyond {number(100.0 * limit)} % costs power again."
+    if change > -FLAT:
+        return f"No amplitude saves power at {inputs.per_rev}/rev. {here}"
+    least = f"{number(100.0 * share)} % at {number(math.degrees(phase))}°: {number(1e-3 * change, 1, sign=True)} kW"
+    return f"Least power: {least}, before the actuator's mass and losses. {here}"

@@ -12,9 +12,8 @@ from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.units import number
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise import search_words as text
-from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
-from explorer.tabs.optimise.search_request import legs as mission_legs
-from explorer.tabs.optimise.search_run import FRAME, TRACES, SearchRun
+from explorer.tabs.optimise.search_run import FRAME, OBJECTIVES, TRACES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
 from explorer.workers.job import Job, JobEvent, JobProgress
 from explorer.workers.tasks import SearchTask

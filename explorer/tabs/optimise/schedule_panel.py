@@ -5,10 +5,10 @@ from typing import Any
 import viser
 
 from explorer.model.inputs import with_optimum
-from explorer.tabs.chart import Chart, line
 from explorer.tabs.context import TabContext
+from explorer.tabs.live_charts import Chart, line
 from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise import search_request as mission
+from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
 from explorer.text.glossary import hint

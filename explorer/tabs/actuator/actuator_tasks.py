@@ -1,12 +1,97 @@
-"""Answers of the worker processes to what the Actuate mode asks; one that is known serves every page."""
+"""Verdicts and power maps of Actuate as tasks of the worker processes; an answer that is known serves every page."""
 
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed
 from explorer.workers.pool import PoolClient
+from rotor.actuator.catalogue import actuators, find_actuator
+from rotor.actuator.harmonic import PowerMap, power_map
+from rotor.actuator.verdict import Verdict, judge
+from rotor.design.design import Design
+from rotor.optimisation.concepts import find_concept
+
+Outcome = Verdict | str
+"""A verdict, or the sentence that says why there is none."""
+
+
+@dataclass(frozen=True)
+class VerdictTask:
+    """One actuator judged. It pickles."""
+
+    question: Question
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Outcome:
+        """The verdict without its fields over the disk, of which the page shows none."""
+        del tell, stop  # A second at most.
+        outcome = answer(self.question)
+        return outcome if isinstance(outcome, str) else lean(outcome)
+
+
+def answer(question: Question) -> Outcome:
+    """The verdict on the actuator asked about."""
+    try:
+        return judge(
+            find_actuator(question.actuator),
+            question.pair,
+            find_concept(question.concept),
+            question.placement,
+            question.host,
+            counted=question.share,
+        )
+    except (ValueError, RuntimeError) as error:
+        return str(error)
+
+
+def lean(verdict: Verdict) -> Verdict:
+    """The same verdict, its trims left behind: a few kilobytes for three megabytes."""
+    base = verdict.baseline
+    first, second = (replace(best, solutions=()) for best in base.best)
+    fixed = replace(base.fixed, solutions=())
+    base = replace(base, best=(first, second), fixed=fixed)
+    resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
+    return replace(verdict, baseline=base, resting=resting, optimum=optimum)
+
+
+def verdict_tasks(question: Question) -> tuple[VerdictTask, ...]:
+    """The chosen actuator first, then all others."""
+    others = (id for id in actuators() if id != question.actuator)
+    return tuple(VerdictTask(replace(question, actuator=id)) for id in (question.actuator, *others))
+
+
+@dataclass(frozen=True)
+class SweepTask:
+    """The map of one design and actuator. It pickles."""
+
+    design: Design
+    """Without the harmonic; a steady voltage has twisted it already."""
+    inputs: ActuatorInputs
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PowerMap | str:
+        """The map, or the sentence that says why there is none."""
+        del tell, stop  # It takes a second.
+        try:
+            made = self.inputs.turning(self.inputs.installed(self.design.rotor), self.design.elastic)
+            if made is None or not made.amplitude:
+                return f"This actuator cannot respond at {self.inputs.per_rev}/rev."
+            return power_map(self.design, made)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
+
+
+def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
+    """What must be trimmed, whatever amplitude and phase are set; None with the harmonic off and in hover."""
+    if not inputs.per_rev or design.hovering:
+        return None
+    plain = ActuatorInputs()
+    steady = replace(inputs, amplitude=0.0, phase=0.0, shown=False, magnified=plain.magnified)
+    steady = replace(steady, advance_ratios=plain.advance_ratios)
+    return SweepTask(replace(steady.apply(design), active_twist=None), steady)
+
 
 _KEPT = 64
 _STOPPED = "This was stopped: change any setting to try again."

@@ -18,9 +18,9 @@ import viser
 from explorer.model.inputs import inputs_of
 from explorer.model.units import number
 from explorer.sharing import share
+from explorer.tabs import study_charts
 from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.studies import study_charts
-from explorer.tabs.studies.study_charts import FIELD, axis_names, title, value_text
+from explorer.tabs.study_charts import FIELD, axis_names, title, value_text
 from explorer.text.glossary import hint
 from rotor.assets import asset_path
 from rotor.study.bounded_reading import read_bounded
