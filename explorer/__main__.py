@@ -43,7 +43,7 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.allowed_hosts import is_loopback, warning
     from explorer.hosting.limits import ServerLimits, few_pools, limit_log
-    from explorer.state import OPENING, inputs_of
+    from explorer.model.inputs import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import load_design
 

@@ -16,11 +16,11 @@ from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter, with_loading_screen
-from explorer.interface import SharedServices
+from explorer.model.inputs import OPENING, Inputs
 from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
-from explorer.state import OPENING, Inputs
+from explorer.tabs.context import SharedServices
 from explorer.workers import solver
 from explorer.workers.pool import Pool
 

@@ -6,7 +6,7 @@ import webbrowser
 
 from explorer.app import App
 from explorer.hosting.limits import ServerLimits
-from explorer.state import inputs_of
+from explorer.model.inputs import inputs_of
 from rotor.design.design import Design, require_design
 
 _LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")

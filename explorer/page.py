@@ -1,7 +1,6 @@
-"""The page of one client: the arrangement of its panels, and the actions of its buttons on each other.
+"""The page of one client: where its parts stand, and what each of them does when the session calls.
 
-Building and wiring are one file, because every button acts on panels that are made here.
-The panels themselves are in `explorer/tabs`, the scene in `explorer/scene`.
+The parts themselves are in `explorer/tabs`, the scene in `explorer/scene`.
 """
 
 import math
@@ -9,19 +8,14 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import viser
 
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import PageFacts, set_query
-from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionState, SharedServices, Tab, TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.picture import disk_image
-from explorer.picture.camera_views import View
-from explorer.picture.fields import shown_field
-from explorer.picture.plan import plan
-from explorer.pinned import Pinned
+from explorer.model.inputs import Inputs, ViewState, with_optimum
+from explorer.model.pinned import Pinned
+from explorer.model.session_state import Failure, Frame, Reading, SessionState
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.grab import BladeGrab
@@ -30,46 +24,38 @@ from explorer.sharing import share, stored_history
 from explorer.sharing.address import Address
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.view_code import VIEW, view_from
-from explorer.stand import condition_of
-from explorer.state import Inputs, ViewState, with_optimum
-from explorer.tabs.actuator.cut import fit_cut
-from explorer.tabs.actuator.panel import ActuatorPanel
-from explorer.tabs.controls import DesignControls, PerRevControls
+from explorer.tabs.actuator.actuator_panel import ActuatorPanel
+from explorer.tabs.actuator.per_rev import PerRevControls
+from explorer.tabs.context import SharedServices, Tab, TabContext
+from explorer.tabs.controls import DesignControls, SessionCallbacks
+from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
-from explorer.tabs.export_panel import ExportPanel, ExportSources
-from explorer.tabs.file_panel import FilePanel
-from explorer.tabs.history.panel import HistoryPanel
-from explorer.tabs.keys import Actions, Keyboard, bind_commands
-from explorer.tabs.layout import MODES, Layout, Sections
-from explorer.tabs.lecture.panel import LecturePanel
-from explorer.tabs.lecture.presence import Presence, PresentationHooks
+from explorer.tabs.export_panel import ExportPanel
+from explorer.tabs.history_panel import HistoryPanel
+from explorer.tabs.layout import Layout, Sections
+from explorer.tabs.lecture.lecture_panel import LecturePanel
+from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.optimise.sensitivity import SensitivityPanel
-from explorer.tabs.power_card import beside_labels
-from explorer.tabs.probe.panel import ProbePanel
-from explorer.tabs.results import ResultsPanel
-from explorer.tabs.rotors import RotorUpload
-from explorer.tabs.settings_panel import SettingsPanel
-from explorer.tabs.studies.panel import StudiesPanel
+from explorer.tabs.probe.probe_panel import ProbePanel
+from explorer.tabs.results import ResultsPanel, beside_labels
+from explorer.tabs.sensitivity_panel import SensitivityPanel
+from explorer.tabs.studies_panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
+from explorer.tabs.twist_curve import TwistCurveEditor
+from explorer.tabs.views import SceneViews, SettingsPanel
 from explorer.tabs.waterfall import WaterfallPanel
-from explorer.text.units import UNITS
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-_UNTOLD = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
-VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
-"""Views of the buttons over the scene, and their titles."""
-PLAN_PIXELS = 720
-"""Along each edge of the plan's picture once nothing moves."""
+_NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
 class Page:
-    """Built once for a client. It is the session's `SessionPage`."""
+    """Built once for a client; the session calls it from its worker thread."""
 
     def __init__(
         self,
@@ -80,95 +66,80 @@ class Page:
         callbacks: SessionCallbacks,
     ) -> None:
         """`start`: where the page's address holds no design."""
-        self._client, self._callbacks, self._dark = client, callbacks, facts.dark
         address = Address(facts.query, partial(set_query, client))
-        problems: list[tuple[str, str]] = [] if facts.query is not None else [_UNTOLD]
-        inputs_from = partial(
-            share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=partial(share.tell_retired, problems)
-        )
+        problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
+        retired = partial(share.tell_retired, problems)
+        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=retired)
         start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
-        gui = client.gui
-        self._theme()
-        gui.set_panel_label("Rotor explorer")
-        self.bridge = bridge = Bridge(client)
-        self._presence = Presence(client, shared.presentations, address, facts.kept.get(PRESENT, ""))
-        self.layout = layout = Layout(client, bridge)
-        self.top = TopBar(bridge, layout, callbacks.wake)
-        self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
-        with layout.in_mode("explore"):
-            self.controls = DesignControls(gui, start, callbacks.wake)
-            self.controls.stand.state = callbacks.state
-        self._start, self._touched, self._held, self._pause = start, False, False, 0.0
-        self._view: View = "3d"
-        self._planned: tuple[object, ...] | None = None
-        """What the page's plan of the disk shows at rest."""
-        rotor = start.aircraft.rotor_for(start.preset)
-        self._radius = rotor.radius
-        self.scene = SceneController(client, rotor, self.display, facts.dark)
-        self._keyboard = Keyboard(client)
-        context = self.context = TabContext(
-            inputs=self.controls.inputs,
-            set_inputs=self._put,
-            view=self.display.view,
-            set_view=self.display.set_view,
-            set_azimuth=self.display.turn,
-            wake=callbacks.wake,
-            download=self._download,
-            notify=self._notify,
-            state=callbacks.state,
-            pin=self.top.pin_inputs,
-            bind_command=self._keyboard.bind,
-        )
-        with layout.in_mode("optimise"):
-            tasks = Sections(gui, bridge, "task", ("Search", "Map", "Schedule"))
-            with tasks["Search"]:
-                self.optimise = OptimisePanel(
-                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design), self._preview_changed
-                )
-            with tasks["Map"]:
-                self.map = MapPanel(gui, shared.pool, context, self.optimise)
-            with tasks["Schedule"]:
-                self.schedule = SchedulePanel(
-                    gui, bridge, shared.pool, context, self.optimise.request, self._preview_changed
-                )
-        with layout.in_mode("actuate"):
-            self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
-            self._actuator_inputs = self.actuator.inputs()
-            self.per_rev = PerRevControls(gui, start, self.controls.inputs, self.controls.change)
-            self.controls.placed = self.per_rev.place
+        self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
+        self._pause, self._touched = 0.0, False
         self._followed: Reading | None = None
         """What all tabs but the actuator's have followed."""
-        self.results = ResultsPanel(gui, bridge, layout)
-        with layout.in_drawer("details"):
-            self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
-        with layout.in_drawer("twist"):
-            self.sensitivity = SensitivityPanel(gui, Strip(client.scene), context, lambda: layout.drawer == "twist")
-        with layout.in_drawer("probe"):
-            self.probe = ProbePanel(
-                client, bridge, context, self._set_playing, lambda: self._open("probe"), lambda: self.display.turn_rate
-            )
-        with layout.in_drawer("open"):
-            opened = Sections(gui, bridge, "opened", ("Studies", "Files", "History"))
-            with opened["Studies"]:
-                studies = StudiesPanel(client, context, shared.studies)
-            with opened["History"]:
-                self.history = HistoryPanel(client, context, start, facts.kept.get(stored_history.NAME))
-        with opened["Files"]:
-            RotorUpload(gui, context)
-        with layout.in_drawer("share"):
-            self.file = FilePanel(client, context, address, facts.kept, opened["Files"])
-            sources = ExportSources(lambda: self.history.kept, self.scene.held_range)
-            export = ExportPanel(client, context, sources, lambda: self._open("share"))
-        with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(gui, bridge, context, self._presence, self._set_stage)
-        with layout.in_drawer("settings"):
-            settings = SettingsPanel(gui, self.display, self._enlarge)
-        followers: tuple[Tab, ...] = (self.top, self.probe, self.sensitivity, self.waterfall, studies, settings)
-        self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
-        """Everything that only follows."""
+        self._theme()
+        client.gui.set_panel_label("Rotor explorer")
+        context = self.context = TabContext(client, shared.pool, callbacks)
+        bridge = context.bridge
+        self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""))
+        layout = context.layout = self.layout = Layout(client.gui, bridge)
+        self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
+        context.display = self.display
+        with layout.in_mode("explore"):
+            self.controls = DesignControls(client.gui, bridge, start, context.tracker, callbacks)
+            context.controls = self.controls
+        self.top = TopBar(context)
+        rotor = start.aircraft.rotor_for(start.preset)
+        self.scene = SceneController(client, rotor, self.display, facts.dark)
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
-        self._wire(problems)
+        with layout.in_mode("optimise"):
+            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
+            with tasks["Search"]:
+                self.optimise = OptimisePanel(context)
+            with tasks["Map"]:
+                self.map = MapPanel(context, self.optimise)
+            with tasks["Schedule"]:
+                self.schedule = SchedulePanel(context, self.optimise)
+        with layout.in_mode("actuate"):
+            self.actuator = ActuatorPanel(context)
+            self._actuator_inputs = self.actuator.inputs()
+            self.per_rev = PerRevControls(context)
+        self.results = ResultsPanel(context)
+        self._curve = TwistCurveEditor(context, self._blade_grabbed)
+        with layout.in_drawer("details"):
+            self.waterfall = WaterfallPanel(context)
+        with layout.in_drawer("twist"):
+            self._sensitivity = SensitivityPanel(context, Strip(client.scene))
+        with layout.in_drawer("probe"):
+            self.probe = ProbePanel(context, self.scene)
+        with layout.in_drawer("open"):
+            opened = Sections(client.gui, bridge, "opened", ("Studies", "Files", "History"))
+            with opened["Studies"]:
+                studies = StudiesPanel(context, shared.studies)
+            with opened["Files"]:
+                RotorUpload(context)
+            with opened["History"]:
+                self.history = HistoryPanel(context, start, facts.kept.get(stored_history.NAME))
+        with layout.in_drawer("share"):
+            self.file = FilePanel(context, address, facts.kept, opened["Files"])
+            export = ExportPanel(context, self.scene, self.history)
+        with layout.in_drawer("lecture"):
+            self.lecture = LecturePanel(context)
+            self._presence.begin(self.lecture, self._hold)
+        with layout.in_drawer("settings"):
+            settings = SettingsPanel(context)
+        self.tabs: tuple[Tab, ...] = (
+            self.top, self.probe, self._sensitivity, self.waterfall, studies, settings, self.history, self.file, export,
+            self.lecture, self._presence,
+        )  # fmt: skip
+        """Everything that only follows."""
+        BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self.camera.radius, self._curve.take)
+        self._views = SceneViews(context, self.scene, self.probe, self.actuator.shown)
+        self.controls.reset_button.on_click(lambda _: self._reset())
+        context.keyboard.bind("reset", self._reset)
+        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
+        bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
+        self.file.begin(problems, retired)
+        self.top.refresh()
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
@@ -177,103 +148,81 @@ class Page:
         self._refresh(Reading(self.controls.inputs(), self.display.view()))
 
     def stop(self) -> None:
-        """The browser has left."""
-        for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
-            tab.stop()
-        self.bridge.stop()
+        """The browser has left: end threads and jobs."""
+        for part in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
+            part.stop()
+        self.context.bridge.stop()
 
     def read(self) -> tuple[Inputs, ViewState]:
-        """What the widgets mean now."""
+        """What the widgets mean now. A change of inputs becomes a step of undo."""
         self._pause = self.controls.pauses.longest()
         return self.history.read(self._pause), self.display.view()
 
     def driven(self, design: Design) -> Design:
-        """The design with the actuator's twist; ValueError where it cannot drive this blade."""
+        """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
         self._actuator_inputs = self.actuator.inputs()
         return self._actuator_inputs.apply(design)
 
     def preview(self, design: Design) -> Design | None:
-        """The design of a search to show in place of the one on the sliders."""
-        return self.schedule.preview(design) or self.optimise.preview(design)
+        """The design of a search to show in place of the one on the sliders, which the search began from."""
+        return self.schedule.preview() or self.optimise.preview(design)
 
     @property
     def pin(self) -> Pinned | None:
         """A of A/B."""
-        return self.top.pinned
+        return self.context.pinboard.pinned
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
-        """Do what the A/B buttons asked for; whether that moves the sliders."""
-        moved = self.top.settle(inputs, solution, self.context)
-        self.display.allow_difference(self.top.pinned is not None)
+        """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
+        moved = self.top.pin_or_swap(inputs, solution)
+        self.display.allow_difference(self.pin is not None)
         return moved
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
-        """A beside the present design; None when nothing is pinned."""
+        """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
         return self.top.solve(present, hurried)
 
     def show_frame(self, frame: Frame) -> None:
-        """Rotor, disk and camera; the cut blade of the actuator where it is looked at or driven."""
+        """Draw the 3D picture and send it. Nothing else belongs here: it is the delay that the user feels."""
         reading, solution = frame.reading, frame.solution
-        ghost = ghost_of(reading.sliders if reading.previewed else None, self.top.pinned)
-        self._radius = solution.design.rotor.radius
-        self.camera.resize(self._radius)
+        ghost = ghost_of(reading.sliders if reading.previewed else None, self.pin)
+        self.camera.resize(solution.design.rotor.radius)
         self.scene.draw(solution, reading.view, ghost, frame.pinned)
         if not frame.only_azimuth:
-            self._show_plan(solution, reading.view, disk_image.MOVING)
+            self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
         turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
         if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
 
-    def _show_plan(self, solution: Solution, view: ViewState, pixels: int) -> None:
-        """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
-        answer = self.top.answer
-        pinned = answer if answer is not None and answer.converged else None
-        if self._view != "disk" or (view.beside and pinned is not None) or self.actuator.shown.value:
-            self._planned = None
-            self.bridge.set(plan=None)
-            return
-        field = shown_field(view, pinned)
-        colour_range = self.scene.held_range(field)
-        wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned
-        if pixels != PLAN_PIXELS and self._planned == wanted:
-            return  # It stands there already, finer.
-        self._planned = wanted if pixels == PLAN_PIXELS else None
-        self.bridge.set(plan=plan(solution, view, field, colour_range, pixels, pixels == PLAN_PIXELS, pinned))
-
-    def _fly_measured(self, case: str) -> None:
-        """Set a measured flight or test of this rotor, by its name."""
-        condition = condition_of(self.controls.inputs().rotor, case)
-        if condition is not None and not self._held:
-            self.controls.stand.set_measured(condition)
-
     def show_power_number(self, state: SessionState) -> None:
-        """Power, and what stands beside the hand: what a drag needs at each step."""
+        """Power and what stands beside the hand, of a step whose charts are left out."""
         self.results.card.show(state, self._pause)
         self._show_hand(state)
 
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
-        self.sensitivity.show(state)
+        self._sensitivity.show(state)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState) -> None:
-        """Numbers, charts, and the tabs that start long work."""
+        """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
+        self._curve.show(state)
         self._show_hand(state)
-        self.bridge.set(beside_labels=beside_labels(state))
+        self.context.bridge.set(beside_labels=beside_labels(state))
         self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
-        """Power over advance ratio."""
-        self.results.show_power(state, curve, failed)
+        """Draw power over advance ratio; `failed`: the present inputs have no solution."""
+        self.results.strip.show_power(state, curve, failed)
 
     def follow(self, reading: Reading, state: SessionState) -> None:
-        """All other tabs, and the address; the actuator's panel at rest, unless it is seen."""
+        """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
         self._followed = reading
         if not self._actuator_in_frame and self.layout.mode == "actuate":
             self._show_actuator(reading, state.solution)
@@ -281,35 +230,36 @@ class Page:
             tab.show(state)
         self.file.follow(state)
 
-    def settle(self, state: SessionState) -> None:
-        """The fine picture, the address, and what the page keeps of an own rotor and of the steps.
+    def refine(self, state: SessionState) -> None:
+        """Nothing moves: draw finely, and keep what must survive a reload.
 
         It comes before the power curve: an early reload must find it.
         """
         self.scene.settle()
-        self._show_plan(state.solution, state.view, PLAN_PIXELS)
+        self._views.show_plan(state.solution, state.view, at_rest=True)
         self.file.follow(state)
         self.file.keep()
         self.history.store()
 
-    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """What can wait: also the worth of flight sliders, and the waterfall."""
-        self.settle(state)
-        self.history.rest(stop)
+    def solve_deferred(self, state: SessionState, stop: Callable[[], bool]) -> None:
+        """Nothing has moved since: compute and save what could wait, until `stop`."""
+        self.refine(state)
+        self.history.solve_waiting(stop)
         if self._followed is not None and not self._actuator_in_frame and self.layout.mode != "actuate":
             self._show_actuator(self._followed, state.solution)
-        self.results.rest(stop)
-        self.waterfall.climb(stop)
+        self.results.solve_deferred(stop)
+        self.waterfall.solve_steps(stop)
 
     def show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
         self._refresh(reading)
-        self.actuator.show_failure(failure.message)
+        self.actuator.show_problem(failure.message)
         self.results.problem(failure.message)
         for tab in self.tabs:
             tab.show_failure()
-        self.scene.fade(failure.good, reading.view, self.top.answer if reading.view.difference else None)
+        pinned = self.context.pinboard.answer if reading.view.difference else None
+        self.scene.fade(failure.good, reading.view, pinned)
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
@@ -325,197 +275,72 @@ class Page:
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
+        inputs, context = reading.inputs, self.context
         self.controls.follow(_on_sliders(reading))
-        self.controls.refresh(reading.inputs, UNITS[reading.view.units])
+        self.controls.refresh(inputs, context.units)
+        self.per_rev.refresh(inputs)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
-        self.top.show_design(reading.inputs, self.history.steps)
-        self._touched = self._touched or reading.inputs != self._start
+        self.top.show_design(inputs, self.history.steps)
+        self._touched = self._touched or inputs != self._start
         self._prompt()
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-        self.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
-        searching = self.layout.mode == "optimise"
-        self.results.strip.show_starts(self.optimise.starts if searching else None, UNITS[reading.view.units])
-
-    def _wire(self, problems: list[tuple[str, str]]) -> None:
-        """Buttons to what they do, once everything stands; `problems` get what the page does not show as named."""
-        controls, context, bridge = self.controls, self.context, self.bridge
-        self.actuator.shown.on_update(self._cut_switched)
-        controls.reset_button.on_click(lambda _: self._reset())
-        controls.optimise_button.on_click(lambda _: self._optimise())
-        bridge.on("mode", self._set_mode)
-        bridge.on("drawer", self._toggle_drawer)
-        bridge.on("rotor", lambda name: None if self._held else controls.choose_rotor(name))
-        bridge.on("flown", self._fly_measured)
-        bridge.on("undo", lambda _: self._step(self.history.undo))
-        bridge.on("redo", lambda _: self._step(self.history.redo))
-        bridge.on("view", lambda name: self._look(name))
-        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
-        bridge.on("colours", self._colour)
-        bridge.on("play", lambda _: self.probe.toggle())
-        bridge.on("probe_at", lambda place: self.probe.point(float(place[0]), float(place[1])))
-        controls.touched = self.results.card.tracker.touch
-        bridge.on("hold", lambda held: None if self._held else self._took(bool(held)), at_once=True)
-        by_hand = replace(context, set_inputs=self._pull)
-        curve = self.results.curve
-        curve.bind(by_hand, lambda: not self._held, self._grabbed)
-        BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self._radius, curve.take)
-        bridge.on("grab_at", lambda r: curve.take(float(r)))
-        bridge.on("twist_by_hand", lambda r: curve.take(float(r), by_key=True))
-        context.bind_command("twist", partial(curve.take, 1.0, by_key=True))
-        self.top.bind(context)
-        self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
-        bind_commands(context, Actions(self._look, self._colour, self._reset, self.optimise.toggle))
-        self.file.begin(problems)
-        self._show_views()
-        self.top.refresh()
-
-    def _hold(self, held: bool) -> None:
-        """Leave what moves the page to a presenter, or give it back."""
-        self._held = held
-        for part in (self.controls, self.per_rev, self.display, self.top, self.lecture, self._keyboard):
-            part.hold(held)
-
-    def _put(self, inputs: Inputs) -> None:
-        """Another design comes by no hand: no change since an earlier grab counts."""
-        self.results.card.forget()
-        self.controls.set_inputs(inputs)
-
-    def _pull(self, inputs: Inputs) -> None:
-        """A hand moves the blade, or its twist curve."""
-        self.results.card.tracker.touch()
-        self.controls.set_inputs(inputs)
-
-    def _grabbed(self, held: bool) -> None:
-        """The blade or a handle of its twist curve was taken by the hand, or let go."""
-        self.camera.hold(held)
-        self._took(held)
-
-    def _took(self, held: bool) -> None:
-        """A slider, a station of the blade or nothing is held now."""
-        tracker = self.results.card.tracker
-        self.controls.pauses.hold(held, time.monotonic())
-        if held:
-            tracker.grab()
-            if (state := self.context.state()) is not None:
-                self.results.curve.learn(state.inputs, self.results.worth.slopes)
-        else:
-            tracker.release()
-            self.bridge.set(hand=None)
-        self.history.grab(held)
-        self._callbacks.wake()
-
-    def _show_hand(self, state: SessionState) -> None:
-        """Power and its change beside the pointer, while the blade or its twist curve is held."""
-        curve, hand = self.results.curve, self.results.card.hand(UNITS[state.view.units])
-        curve.learn(state.inputs, self.results.worth.slopes)
-        place, best = curve.place, curve.best
-        self.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
+        context.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
+        self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""
-        wanted = not (self._touched or self._held) and self.layout.mode == "explore"
-        tip = [0.97 * self._radius, 0.0, 0.0]
+        wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
+        tip = [0.97 * self.camera.radius, 0.0, 0.0]
         words = {"text": "Drag the twist", "node": "/rotor/blade_0", "at": tip} if wanted else None
-        self.bridge.set(prompt=words)
+        self.context.bridge.set(prompt=words)
 
-    def _step(self, step: Callable[[], None]) -> None:
-        if not self._held:
-            step()
-
-    def _set_playing(self, playing: bool) -> None:
-        """The rotor turns by itself from now on, or stands."""
-        self.display.set_playing(playing)
-        self.scene.play(playing)
-
-    def _set_mode(self, mode: str) -> None:
-        if mode in MODES:
-            if self.layout.mode == "actuate" and mode != "actuate":
-                self.actuator.leave_cut()
-            self.layout.show_mode(mode)
-            self.top.refresh()
-            self._callbacks.wake()
-
-    def _optimise(self) -> None:
-        self._set_mode("optimise")
-        self.optimise.begin()
-
-    def _preview_changed(self) -> None:
-        """A search or a playback begins, or its design was taken or left: no change since an earlier grab counts."""
-        self.results.card.forget()
-
-    def _toggle_drawer(self, name: str) -> None:
-        self.layout.show_drawer(name)
+    def _hold(self, held: bool) -> None:
+        """Leave what moves the page to a presenter, or give it back."""
+        self.context.held = held
+        for part in (self.controls, self.per_rev, self.display, self.lecture, self.context.keyboard):
+            part.hold(held)
         self.top.refresh()
-        self._callbacks.wake()
 
-    def _open(self, name: str) -> None:
-        if self.layout.drawer != name and self.lecture.step is None:
-            self._toggle_drawer(name)
+    def _blade_grabbed(self, held: bool) -> None:
+        """The blade or a handle of its twist curve was taken by the hand, or let go."""
+        self.camera.hold(held)
+        self._grabbed(held)
 
-    def _set_stage(self, mode: str) -> None:
-        """A step of the lecture stands, or it has ended."""
-        if mode:
-            self.layout.show_drawer("")
-        self._set_mode(mode or "explore")
+    def _grabbed(self, held: bool) -> None:
+        """A slider or a station of the blade was taken by the hand, or let go."""
+        self.controls.pauses.hold(held, time.monotonic())
+        if held:
+            self.context.tracker.grab()
+            if (state := self.context.state()) is not None:
+                self._curve.learn(state.inputs, self.results.sliders.slopes)
+        else:
+            self.context.tracker.release()
+            self.context.bridge.set(hand=None)
+        self.history.grab(held)
+        self._wake()
 
-    def _download(self, name: str, content: bytes) -> None:
-        self._client.send_file_download(name, content, save_immediately=True)
-
-    def _notify(self, title: str, sentence: str) -> None:
-        self._client.add_notification(title, brief(sentence), auto_close_seconds=6)
-
-    def _enlarge(self, big: bool) -> None:
-        """Big type in wider panels, or both as usual."""
-        self.bridge.set(big=big)
-        self.layout.enlarge(big)
+    def _show_hand(self, state: SessionState) -> None:
+        """Power and its change beside the pointer, while the blade or its twist curve is held."""
+        curve, hand = self._curve, self.results.card.hand(self.context.units)
+        curve.learn(state.inputs, self.results.sliders.slopes)
+        place, best = curve.place, curve.best
+        self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(
             dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
         )
 
-    def _fly(self, advance_ratio: float) -> None:
-        self._put(replace(self.controls.inputs(), advance_ratio=advance_ratio))
-
-    def _cut_switched(self, event: viser.GuiEvent[Any]) -> None:
-        """One blade, cut open, in place of the rotor."""
-        cut = bool(event.target.value)
-        self.scene.set_seen(not cut)
-        self.probe.set_seen(not cut)
-        if cut:
-            self.camera.aim_with(partial(fit_cut, self._radius))
-        else:
-            self.camera.aim(self._view)
-        self._show_views()
-
-    def _look(self, view: View) -> None:
-        self.actuator.leave_cut()
-        self._view = view
-        if view != "disk":
-            self._planned = None
-            self.bridge.set(plan=None)
-        self.scene.look(view)
-        self._show_views()
-        self._callbacks.wake()
-
-    def _show_views(self) -> None:
-        self.bridge.set(views={"all": VIEWS, "now": "" if self.actuator.shown.value else self._view})
-
-    def _colour(self, order: str) -> None:
-        self.display.order_range(order)
-        self.scene.order_range(order)
-        self._callbacks.wake()
-
     def _reset(self) -> None:
         """The design the page began with; what is shown in its place, a preview or a flight, ends."""
-        self.results.card.forget()
+        self.context.tracker.reset()
         self.schedule.land()
         self.optimise.withdraw()
-        self.actuator.rest()
+        self.actuator.reset()
         self.controls.reset()
 
 

@@ -1,6 +1,6 @@
 """One browser's session: its page, its worker thread, and the path from a slider to the picture.
 
-A slider step takes these steps; `_update` is the path, the page implements `explorer.interface.SessionPage`:
+A slider step takes these steps; `_update` is the path, the page implements `explorer.model.session_state.SessionPage`:
 
 1. A widget's callback calls `wake`, on a thread of viser's. Nothing else happens there.
 2. `NewestWins` runs `_update` on one of a few threads; wakes in between need only one more run.
@@ -30,9 +30,11 @@ import viser
 from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.browser import PageFacts
-from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
+from explorer.model.inputs import Inputs, baseline_of, with_optimum
+from explorer.model.session_state import Failure, Frame, Reading, SessionState
 from explorer.page import Page
-from explorer.state import Inputs, baseline_of, with_optimum
+from explorer.tabs.context import SharedServices
+from explorer.tabs.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor.blas_threads import one_blas_thread
@@ -67,15 +69,14 @@ class Session:
         self._worker = NewestWins(self._update, self._failed)
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
-        self._page: SessionPage = self.page
 
     def start(self) -> None:
-        self._page.start()
+        self.page.start()
         self._wake()
 
     def stop(self) -> None:
         self._all_changed = True
-        self._page.stop()
+        self.page.stop()
         self._worker.stop()
 
     def until_shown(self, patience: float) -> None:
@@ -93,14 +94,14 @@ class Session:
             return iter(())
         self._draw(reading, solution, everything)
         baseline = self._baseline.solve(baseline_of(solution.design))
-        pinned = self._page.solve_pinned(solution.design, self._overtaken())
-        state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self._page.pin)
+        pinned = self.page.solve_pinned(solution.design, self._overtaken())
+        state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self.page.pin)
         last, self._state = self._state, state
         if not everything and state.only_turned(last):
-            self._page.show_azimuth(state)
+            self.page.show_azimuth(state)
             return None
         if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
-            self._page.show_power_number(state)
+            self.page.show_power_number(state)
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 
     @staticmethod
@@ -115,7 +116,7 @@ class Session:
 
     def _read(self) -> Reading:
         """Widgets → design."""
-        page = self._page
+        page = self.page
         inputs, view = page.read()
         try:
             sliders = inputs.design()
@@ -132,13 +133,13 @@ class Session:
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
-            found = solve(design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken))
-            if not found.converged and self._overtaken():
+            answer = solve(design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken))
+            if not answer.converged and self._overtaken():
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-            self._latest = found
+            self._latest = answer
         solution = self._latest
         inputs = with_optimum(reading.inputs, design) if design and reading.previewed else reading.inputs
-        if self._page.pin_or_swap(inputs, solution):
+        if self.page.pin_or_swap(inputs, solution):
             return None
         if solution is None or not solution.converged:
             self._show_failure(Failure(reading, solution, self._good))
@@ -149,12 +150,12 @@ class Session:
     def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
         """Solution → the frame. A is solved before the frame only where the scene shows it."""
         wanted = reading.view.difference or reading.view.beside
-        pinned = self._page.solve_pinned(solution.design, self._overtaken()) if wanted else None
-        self._page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
+        pinned = self.page.solve_pinned(solution.design, self._overtaken()) if wanted else None
+        self.page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
 
     def _follow(self, reading: Reading, state: SessionState, dragged: bool) -> Iterator[float]:
         """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one."""
-        page, design, reference = self._page, state.solution.design, state.reference.design
+        page, design, reference = self.page, state.solution.design, state.reference.design
 
         def show_power() -> None:
             page.show_power(self._turned(state), self._curves.known(design, reference))
@@ -173,11 +174,11 @@ class Session:
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
-        page.settle(self._turned(state))
+        page.refine(self._turned(state))
         yield 0.0
         if sweep() and not self._overtaken():
             yield 0.0
-            page.rest(self._turned(state), self._overtaken)
+            page.solve_deferred(self._turned(state), self._overtaken)
             yield 0.0
             if self._curves.widen(design, self._overtaken):
                 show_power()
@@ -189,11 +190,11 @@ class Session:
 
     def _show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, with the sentence."""
-        self._page.show_failure(failure)
+        self.page.show_failure(failure)
         self._shown.set()
         if (last := self._state) is not None:
             curve = self._curves.known(last.solution.design, last.reference.design)
-            self._page.show_power(last, curve, failed=True)
+            self.page.show_power(last, curve, failed=True)
 
     def _wake(self) -> None:
         """Something changed."""
@@ -207,4 +208,4 @@ class Session:
     def _failed(self, error: Exception) -> None:
         self._shown.set()
         _log.error("an update failed", exc_info=error)
-        self._page.show_error(f"This update failed ({error}): move any slider to go on.")
+        self.page.show_error(f"This update failed ({error}): move any slider to go on.")

@@ -22,9 +22,13 @@ ORDER = {
         "validation", "actuator", "study", "reproduce", "command",
     ),
     "explorer": (
-        "web", "theme", "workers", "hosting", "stand", "state", "text", "undo", "power_tracker",
-        "sliders", "grab", "pinned", "sensitivity", "tour", "picture", "charts", "sharing", "interface",
-        "snapshot", "overlay", "scene", "export", "tabs", "page", "session", "connection", "app", "notebook",
+        "web", "theme", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "overlay", "scene",
+        "export", "tabs", "page", "session", "connection", "app", "notebook",
+    ),
+    "explorer/tabs": (
+        "layout", "keys", "display", "controls", "context", "design_files", "history_panel", "top_bar", "waterfall",
+        "live_charts", "results", "twist_curve", "export_panel", "sensitivity_panel", "probe", "actuator", "views",
+        "optimise", "study_charts", "studies_panel", "lecture",
     ),
 }  # fmt: skip
 """Folders and files of each package from the ground up: each imports only from itself and those before it."""
@@ -83,6 +87,17 @@ def test_only_some_folders_of_the_page_import_viser(path: Path):
     assert "viser" not in imports(path, lazy=True), f"{name(path)}: only {KNOW_VISER} may import viser"
 
 
+def test_the_model_of_the_page_is_far_from_viser():
+    """`model` imports neither viser nor a folder of the page that may."""
+    for path in sources("explorer/model"):
+        assert set(imported_parts(path, "explorer")) <= {"model", "workers"}, name(path)
+
+
+def test_no_two_files_of_the_page_have_one_name():
+    names = [path.name for path in sources("explorer") if path.name != "__init__.py"]
+    assert not {one for one in names if names.count(one) > 1}
+
+
 def test_one_file_uses_private_names_of_viser():
     users = [
         path.name for path in sources("explorer") if re.search(r"viser\.(\w+\.)*_", path.read_text(encoding="utf-8"))
@@ -99,18 +114,19 @@ def test_no_import_points_up(package: str):
             continue
         assert folder in order, f"{package}/{folder} has no place in ORDER"
         for used in imported_parts(path, package):
-            assert order.index(used) <= order.index(folder), f"{name(path)} imports {package}.{used}"
+            assert order.index(used) <= order.index(folder), f"{name(path)} imports {used} of {package}"
 
 
 def imported_parts(path: Path, package: str) -> Iterator[str]:
     """Folders and files of a package that a file imports, wherever in the file."""
+    inside = package.replace("/", ".")
     for node in nodes(path):
         if not isinstance(node, ast.ImportFrom) or not node.module:
             continue
-        if node.module == package:
+        if node.module == inside:
             yield from (alias.name for alias in node.names if alias.name in ORDER[package])
-        elif node.module.startswith(f"{package}."):
-            yield node.module.split(".")[1]
+        elif node.module.startswith(f"{inside}."):
+            yield node.module.removeprefix(f"{inside}.").split(".")[0]
 
 
 def test_no_modules_import_each_other_in_a_circle():

@@ -9,9 +9,9 @@ import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
-from explorer.stand import POWER_REPORTS, MeasuredPower, as_measured, measured_powers
+from explorer.model.stand import as_measured, flight_powers
+from explorer.model.units import Units, number
 from explorer.text.status import validated
-from explorer.text.units import Units, number
 from rotor.analysis.series import between_drag_areas
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
@@ -19,6 +19,7 @@ from rotor.design.stand import Stand
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare_point, design_at, quantity_of
+from rotor.validation.flown import POWER_REPORTS, MeasuredPower
 from rotor.validation.measured import MeasuredSet
 
 _AT_ONCE = ("cp", "cq_over_sigma", "cp_drag")
@@ -258,7 +259,7 @@ def _shown(design: Design) -> tuple[MeasuredPower, ...]:
     """The flights of this rotor; none on a stand, in climb, and with another blade."""
     here = design.condition
     level = here.stand is None and here.climb_speed == 0.0 and not design.pitch_per_rev
-    return measured_powers(design.aircraft.key) if level and as_measured(design) else ()
+    return flight_powers(design.aircraft.key) if level and as_measured(design) else ()
 
 
 def _any_flight(design: Design) -> Design:

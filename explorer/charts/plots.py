@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from explorer.model.units import KILOWATT, Unit
 from explorer.picture.polar import stall_angles
 from explorer.picture.poses import at_azimuth
-from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

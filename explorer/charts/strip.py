@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
-from explorer.text.units import KILOWATT, SI, Units, number
+from explorer.model.units import KILOWATT, SI, Units, number
 from rotor.arrays import Array
 from rotor.line_chart import round_ticks
 from rotor.trim.adjoint import PitchGradient

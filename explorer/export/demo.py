@@ -19,13 +19,13 @@ from tqdm import tqdm
 
 from explorer import web
 from explorer.export.provenance import PROGRAM, versions
+from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices, edge_pairs
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of
 from explorer.scene.still_scene import JIG_EDGES, still_page
-from explorer.state import ViewState
 from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
 from rotor.arrays import Array

@@ -11,15 +11,15 @@ from explorer.export.disk_drawing import disk_svg
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.interface import SessionState
+from explorer.model.inputs import baseline_title
+from explorer.model.session_state import SessionState
+from explorer.model.undo import KeptDesign
+from explorer.model.units import UNITS
 from explorer.picture.fields import shown_field
 from explorer.picture.picture import marks_of
 from explorer.scene.still_scene import EmbeddedViewer, scene_page
-from explorer.state import baseline_title
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
-from explorer.text.units import UNITS
-from explorer.undo import KeptDesign
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.model.inputs import ViewState
 from explorer.picture.polar import PolarGrid, polar_grid, refined
-from explorer.state import ViewState
 from explorer.theme.colours import Scheme
 from rotor.arrays import Array
 from rotor.design.blade import Rotor

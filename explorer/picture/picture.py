@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
@@ -24,7 +25,6 @@ from explorer.picture.poses import (
 )
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
 from explorer.picture.scene_theme import DiskInk, scene_theme
-from explorer.state import ViewState
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.files.make_design import make_design

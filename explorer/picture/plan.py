@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from explorer.model.inputs import ViewState
+from explorer.model.units import number
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.outlines import (
@@ -19,8 +21,6 @@ from explorer.picture.outlines import (
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import Single, polar_grid, refined
 from explorer.picture.regions import region_masks
-from explorer.state import ViewState
-from explorer.text.units import number
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

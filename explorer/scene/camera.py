@@ -27,7 +27,8 @@ class FittedCamera:
 
     def __init__(self, client: viser.ClientHandle, radius: float) -> None:
         self._client = client
-        self._radius = radius
+        self.radius = radius
+        """Of the rotor that is shown [m]."""
         self._view: View | None = "3d"
         """None while something else than the rotor is looked at."""
         self._azimuth = 0.0
@@ -51,13 +52,13 @@ class FittedCamera:
         self._aim(partial(self._fitted, view))
 
     def _fitted(self, view: View, aspect: float, cover: Cover | None = None) -> Camera:
-        return fit(view, self._radius, aspect, self._azimuth, self._tilt, cover or self._cover, self._beside)
+        return fit(view, self.radius, aspect, self._azimuth, self._tilt, cover or self._cover, self._beside)
 
     def resize(self, radius: float) -> None:
         """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
-        if radius == self._radius:
+        if radius == self.radius:
             return
-        self._radius = radius
+        self.radius = radius
         if self._view is not None:
             self.aim(self._view)
 

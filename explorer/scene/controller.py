@@ -4,10 +4,11 @@ While something moves, the disk is small and only the reference blade is bent. `
 """
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import viser
 
-from explorer.interface import RangeDisplay
+from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.camera_views import View, apart, reader
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
@@ -17,11 +18,20 @@ from explorer.scene.camera import FittedCamera
 from explorer.scene.overlays import AirLines, Ghost, OtherBlade
 from explorer.scene.page_scene import PageScene
 from explorer.scene.scene import Scene
-from explorer.state import ViewState, baseline_of
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
+
+
+class RangeDisplay(Protocol):
+    """The widgets that show the colour range of the disk."""
+
+    def show_range(
+        self, field: Field, colour_range: Range, faded: bool, beyond: tuple[bool, bool] = (False, False)
+    ) -> None:
+        """Show the colour bar of a field; `faded`: the disk no longer holds."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,14 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from explorer.model.inputs import ViewState
+from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
 from explorer.picture.poses import flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import inflow_arrows, tip_vortices
-from explorer.pinned import Pinned
 from explorer.scene.scene import ROTOR, set_mesh, solid
-from explorer.state import ViewState
 from explorer.theme import colours
 from rotor.design.blade import Rotor
 from rotor.design.design import Design

@@ -6,6 +6,7 @@ import numpy as np
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.camera_views import LETTER_SIZE, letter_place
@@ -23,7 +24,6 @@ from explorer.picture.picture import Blades, Picture
 from explorer.picture.poses import Pose, about
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Faces, Mesh, joined
-from explorer.state import ViewState
 from explorer.theme.colours import Rgb
 from rotor.arrays import Array
 from rotor.design.blade import Rotor

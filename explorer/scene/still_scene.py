@@ -10,11 +10,11 @@ import numpy as np
 
 from explorer import web
 from explorer.hosting import viser_compat
+from explorer.model.inputs import ViewState
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
 from explorer.picture.picture import make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.scene import ROTOR, Scene
-from explorer.state import ViewState
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from explorer.state import Inputs, ViewState
+from explorer.model.inputs import Inputs, ViewState
 
 _log = logging.getLogger(__name__)
 

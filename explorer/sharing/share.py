@@ -11,9 +11,9 @@ import re
 from dataclasses import replace
 from typing import Any
 
-from explorer.sliders import SLIDERS, limits, slider
-from explorer.state import LAWS, Inputs, inputs_of
-from explorer.text.units import SI
+from explorer.model.inputs import LAWS, Inputs, inputs_of
+from explorer.model.sliders import SLIDERS, limits, slider
+from explorer.model.units import SI
 from rotor.design.design import Design
 from rotor.design.retired import Tell, warn
 from rotor.files.design_file import design_from_record, parse_design

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from explorer.model.inputs import Inputs
 from explorer.sharing.share import code_of, inputs_from
-from explorer.state import Inputs
 
 NAME = "steps"
 """Under which the page keeps it."""

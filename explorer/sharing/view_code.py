@@ -8,10 +8,10 @@ import unicodedata
 from dataclasses import fields, replace
 from typing import Any
 
+from explorer.model.inputs import TWIST_SHOWN, ViewState
+from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing.share import cut
-from explorer.state import TWIST_SHOWN, ViewState
-from explorer.text.units import UNITS
 
 VERSION = 1
 VIEW = "v"

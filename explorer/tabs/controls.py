@@ -1,31 +1,263 @@
-"""The rail of the Explore mode, and n/rev pitch and twist of Actuate: widgets ↔ `Inputs`.
+"""The rail of the Explore mode: widgets ↔ `Inputs`.
 
-Callbacks only say that something changed.
-"""
+Callbacks only say that something changed. The widgets of the test stand are here too, because flight and test take each
+other's place."""
 
-import math
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import viser
 
 from explorer.hosting.viser_compat import quick
-from explorer.pinned import FLIGHT
-from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INFLOW_MENUS, INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
-from explorer.tabs import power_card as worth
-from explorer.tabs.stand_controls import StandControls
+from explorer.model.inputs import (
+    INFLOW_MENUS,
+    INPUT_NAMES,
+    LAWS,
+    NOT_ALWAYS,
+    PRESET_TITLES,
+    Inputs,
+    preset_inflow,
+    with_rotor,
+)
+from explorer.model.pinned import FLIGHT
+from explorer.model.session_state import SessionState
+from explorer.model.sliders import SLIDERS, Slider, meant, shown, slider
+from explorer.model.stand import (
+    LOAD_TITLES,
+    TRIM_TITLES,
+    MeasuredCondition,
+    StandInputs,
+    condition_of,
+    load_of,
+    measured_conditions,
+    opening,
+    stand_like,
+)
+from explorer.model.undo import Pauses, PowerTracker
+from explorer.model.units import SI, Units
+from explorer.overlay.bridge import Bridge
 from explorer.text import readout
-from explorer.text.design_words import harmonic_words
 from explorer.text.glossary import hint
-from explorer.text.units import SI, Units
-from explorer.undo import Pauses
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
-from rotor.design.active_twist import HIGHEST, LARGEST_PITCH, Harmonic
+from rotor.design.aircraft import Aircraft, FlightCondition
+from rotor.design.stand import STAND_TRIMS, Flapping
+
+_NONE = "–"
+"""In the menus of measured conditions: no measured condition is set."""
+_FLAPPING: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "For hub moments"}
+_SLIDERS = {
+    "shaft_tilt_deg": Slider("Shaft tilt [°]", -25.0, 25.0, 0.1),
+    "ct_over_sigma": Slider("CT/σ", 0.0, 0.2, 0.001),
+    "thrust_n": Slider("Thrust [N]", 0.0, 1e5, 100.0),
+    "collective_deg": Slider("Collective [°]", -10.0, 30.0, 0.1),
+    "cyclic_1c_deg": Slider("Cyclic θ1c [°]", -15.0, 15.0, 0.1),
+    "cyclic_1s_deg": Slider("Cyclic θ1s [°]", -15.0, 15.0, 0.1),
+    "tip_mach": Slider("Tip Mach", 0.05, 0.9, 0.005),
+    "density": Slider("Density [kg/m³]", 0.3, 1.6, 0.005),
+}
+"""By the field of `StandInputs`, or by what is given."""
+
+
+class StandControls:
+    """One client's. The value is `stand`; the widgets only show it, so that a measured condition stays exact."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        inputs: Callable[[], Inputs],
+        set_inputs: Callable[[Inputs], None],
+        moved: Callable[[], None],
+        state: Callable[[], SessionState | None],
+    ) -> None:
+        """`inputs`, `set_inputs`: of all sliders of the page. `moved`: called after a change by hand.
+
+        `state`: the last converged state of the session, from which a test begins.
+        """
+        self._inputs, self._set_inputs, self._moved, self._state = inputs, set_inputs, moved, state
+        self.stand: StandInputs | None = None
+        self._sliders: dict[str, Any] = {}
+        self._trim = gui.add_dropdown("Flight or test", tuple(TRIM_TITLES.values()), hint=hint("trim"))
+        self._test = gui.add_dropdown("Measured in", (_NONE,), visible=False, hint=hint("measured_test"))
+        self._point = gui.add_dropdown("Point", (_NONE,), visible=False, hint=hint("measured_point"))
+
+    def add_sliders(self, gui: viser.GuiApi, start: Inputs) -> None:
+        """Those of the test, which come after those of flight."""
+        self._load = gui.add_dropdown("Given", tuple(LOAD_TITLES.values()), visible=False, hint=hint("stand_load"))
+        self._flapping = gui.add_dropdown(
+            "Flapping", tuple(_FLAPPING.values()), visible=False, hint=hint("stand_flapping")
+        )
+        for name, s in _SLIDERS.items():
+            handle = gui.add_slider(s.label, s.low, s.high, s.step, s.low, visible=False, hint=hint(name))
+            handle.on_update(self._slid(name))
+            self._sliders[name] = handle
+        self._trim.on_update(self._trim_chosen)
+        self._test.on_update(self._test_chosen)
+        self._point.on_update(self._point_chosen)
+        self._load.on_update(self._load_chosen)
+        self._flapping.on_update(self._flapping_chosen)
+        self.place(start)
+
+    @property
+    def handles(self) -> tuple[Any, ...]:
+        """All widgets, to be taken from the user or given back."""
+        return (self._trim, self._test, self._point, self._load, self._flapping, *self._sliders.values())
+
+    def place(self, inputs: Inputs) -> None:
+        """Show these inputs."""
+        self.stand = stand = inputs.stand
+        aircraft = inputs.aircraft
+        titles = [title for key, title in TRIM_TITLES.items() if key != "flight" or not aircraft.isolated]
+        _choose(self._trim, titles, TRIM_TITLES["flight" if stand is None else stand.trim])
+        self.show_measured(inputs)
+        for handle in (self._load, self._flapping):
+            handle.visible = stand is not None and stand.trim != "controls"
+        seen = () if stand is None else _seen(stand)
+        for name, handle in self._sliders.items():
+            handle.visible = name in seen
+        if stand is None:
+            return
+        _choose(self._load, list(LOAD_TITLES.values()), LOAD_TITLES[stand.load])
+        _choose(self._flapping, list(_FLAPPING.values()), _FLAPPING[stand.flapping])
+        air = FlightCondition(0.0, 0.0, inputs.altitude_m, stand=stand.stand())
+        values = {
+            stand.load: stand.value,
+            "shaft_tilt_deg": stand.shaft_tilt_deg or 0.0,
+            "cyclic_1c_deg": stand.cyclic_1c_deg,
+            "cyclic_1s_deg": stand.cyclic_1s_deg,
+            "tip_mach": aircraft.rotor.tip_speed / air.sound_speed if stand.tip_mach is None else stand.tip_mach,
+            "density": air.density,
+        }
+        for name, value in values.items():
+            handle, form = self._sliders[name], _slider(name, aircraft)
+            handle.min, handle.max = min(form.low, value), max(form.high, value)
+            handle.step = form.step
+            if handle.value != round(value, 6):
+                handle.value = round(value, 6)
+
+    def show_measured(self, inputs: Inputs) -> None:
+        """The measured condition that is set, where one is; in flight those of flights."""
+        flown = inputs.stand is None
+        conditions = [one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown]
+        self._test.visible = bool(conditions)
+        now = next((one for one in conditions if _is_at(inputs, one)), None)
+        tests = list(dict.fromkeys(one.test for one in conditions))
+        _choose(self._test, [_NONE, *tests], _NONE if now is None else now.test)
+        self._point.visible = now is not None
+        if now is not None:
+            _choose(self._point, [one.label for one in conditions if one.test == now.test], now.label)
+
+    def _change(self, stand: StandInputs | None) -> None:
+        """By hand, all else unchanged."""
+        self.place(replace(self._inputs(), stand=stand))
+        self._moved()
+
+    def _solution(self) -> Any:
+        """The last solution, if it is of the present rotor."""
+        state = self._state()
+        same = state is not None and state.inputs.aircraft == self._inputs().aircraft
+        return state.solution if same and state is not None else None
+
+    def _trim_chosen(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is None:
+            return
+        trim = next(key for key, title in TRIM_TITLES.items() if title == event.target.value)
+        if trim == "flight":
+            self._change(None)
+            return
+        solution = self._solution()
+        begin = self.stand or (StandInputs() if solution is None else stand_like(solution))
+        collective = None if solution is None else load_of(solution, "collective_deg")
+        self._change(begin.with_trim(next(one for one in STAND_TRIMS if one == trim), collective))
+
+    def _load_chosen(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is None or self.stand is None:
+            return
+        load = next(key for key, title in LOAD_TITLES.items() if title == event.target.value)
+        solution = self._solution()
+        usual = {
+            "ct_over_sigma": 0.07,
+            "collective_deg": 8.0,
+            "thrust_n": 0.3 * _slider("thrust_n", self._inputs().aircraft).high,
+        }
+        value = usual[load] if solution is None else load_of(solution, load)
+        self._change(replace(self.stand, load=load, value=value))
+
+    def _flapping_chosen(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None and self.stand is not None:
+            chosen = next(name for name, title in _FLAPPING.items() if title == event.target.value)
+            self._change(replace(self.stand, flapping=chosen))
+
+    def _slid(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
+        def moved(event: viser.GuiEvent[Any]) -> None:
+            if event.client is not None and self.stand is not None:
+                field = "value" if name in LOAD_TITLES else name
+                self.stand = replace(self.stand, **{field: float(event.target.value)})
+                self._moved()
+
+        return moved
+
+    def _test_chosen(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is None or event.target.value == _NONE:
+            return
+        points = [one for one in measured_conditions(self._inputs().rotor) if one.test == event.target.value]
+        self.set_measured(opening(points))
+
+    def _point_chosen(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is None:
+            return
+        for one in measured_conditions(self._inputs().rotor):
+            if one.test == self._test.value and one.label == event.target.value:
+                self.set_measured(one)
+
+    def set_measured(self, condition: MeasuredCondition) -> None:
+        """Fly or test the rotor there, its blade unchanged."""
+        self._set_inputs(replace(self._inputs(), **condition.inputs))
+
+
+def _is_at(inputs: Inputs, condition: MeasuredCondition) -> bool:
+    return all(getattr(inputs, name) == value for name, value in condition.inputs.items())
+
+
+def _seen(stand: StandInputs) -> tuple[str, ...]:
+    """The sliders of a test: a free rotor finds its tilt, and cyclic is given where flapping is free."""
+    tilt = () if stand.trim == "free-rotor" else ("shaft_tilt_deg",)
+    cyclic = ("cyclic_1c_deg", "cyclic_1s_deg") if stand.flapping == "free" else ()
+    return (stand.load, *tilt, *cyclic, "tip_mach", "density")
+
+
+def _slider(name: str, aircraft: Aircraft) -> Slider:
+    """As it is for this rotor: thrust to a loading of 0.2 at sea level, in round numbers."""
+    form = _SLIDERS[name]
+    if name != "thrust_n":
+        return form
+    rotor = aircraft.rotor
+    most = 0.2 * rotor.solidity * 1.225 * rotor.disk_area * rotor.tip_speed**2
+    step = 10.0 ** (len(str(int(most))) - 3)
+    return replace(form, high=step * (most // step + 1.0), step=step)
+
+
+def _choose(handle: Any, options: list[str], value: str) -> None:
+    """Other options and their value; nothing is sent where both are as before."""
+    if handle.options != tuple(options):
+        handle.options = tuple(options)
+    if handle.value != value:
+        handle.value = value
+
+
+@dataclass(frozen=True)
+class SessionCallbacks:
+    """What the page calls in its session; safe from any thread."""
+
+    wake: Callable[[], None]
+    """Something changed: the session's worker does another update."""
+    azimuth_changed: Callable[[], None]
+    """Only the azimuth of the reference blade changed."""
+    state: Callable[[], SessionState | None]
+    """The last converged state; None before the first."""
 
 
 class InputHandle(Protocol):
@@ -42,18 +274,9 @@ class DesignControls:
     """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
     def __init__(
-        self,
-        gui: viser.GuiApi,
-        start: Inputs,
-        changed: Callable[[], None],
+        self, gui: viser.GuiApi, bridge: Bridge, start: Inputs, tracker: PowerTracker, callbacks: SessionCallbacks
     ) -> None:
-        """`changed`: something moved."""
-        self._start = start
-        self._changed = changed
-        self.touched: Callable[[], None] = lambda: None
-        """Called when a hand moves a widget."""
-        self.placed: Callable[[Inputs], None] = lambda inputs: None
-        """Called when the widgets are moved to these inputs, for widgets elsewhere on the page."""
+        self._start, self._tracker, self._changed = start, tracker, callbacks.wake
         self._inputs: dict[str, InputHandle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
@@ -65,7 +288,8 @@ class DesignControls:
         self._laws = _laws_of(start)
         self._units = SI
         """Of the sliders of mass, altitude and climb now."""
-        self._worths: dict[str, viser.GuiHtmlHandle] = {}
+        self._sensitivities: dict[str, viser.GuiHtmlHandle] = {}
+        """The row below each slider that the arrow of its power sensitivity goes into."""
         gui.add_html(
             '<div class="rxp-head">JIG TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
         )
@@ -75,14 +299,9 @@ class DesignControls:
         self._inputs["law"] = self._watched(self._law)
         self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         self._speed = gui.add_html(_flight_heading(0.0, SI))
-        self.stand = StandControls(
-            gui,
-            start,
-            self._hand_moved,
-            self.inputs,
-            self.set_inputs,
-            lambda: self._sliders(gui, FLIGHT),
-        )
+        self.stand = StandControls(gui, self.inputs, self.set_inputs, self._hand_moved, callbacks.state)
+        self._sliders(gui, FLIGHT)
+        self.stand.add_sliders(gui, start)
         with gui.add_folder("Model", expand_by_default=False):
             titles = tuple(PRESET_TITLES.values())
             preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
@@ -99,6 +318,8 @@ class DesignControls:
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
+        bridge.on("rotor", self._choose_rotor)
+        bridge.on("flown", self._set_measured)
 
     def inputs(self) -> Inputs:
         """What the widgets mean now, or what they meant before they followed a preview."""
@@ -135,7 +356,7 @@ class DesignControls:
         with self._moving:
             self._own = None
             changed = replace(self.inputs(), **changes)
-        self.touched()
+        self._tracker.touch()
         self.pauses.moved(time.monotonic())
         self.set_inputs(changed)
 
@@ -161,7 +382,6 @@ class DesignControls:
         self._fit("mass_t", inputs)
         self._fit("advance_ratio", inputs)
         self.stand.place(inputs)
-        self.placed(inputs)
         titles = {"law": self._laws, "preset": PRESET_TITLES, **INFLOW_MENUS}
         for name in INPUT_NAMES:
             if name in self._inputs:
@@ -180,11 +400,11 @@ class DesignControls:
             for name in law.inputs:
                 shown_now = key == shown_law
                 if self._inputs[name].visible != shown_now:
-                    self._inputs[name].visible = self._worths[name].visible = shown_now
+                    self._inputs[name].visible = self._sensitivities[name].visible = shown_now
         in_flight = inputs.stand is None
         for name, counts in {"mass_t": in_flight, "altitude_m": in_flight, "climb_m_s": inputs.climbs}.items():
             if self._inputs[name].visible != counts:
-                self._inputs[name].visible = self._worths[name].visible = counts
+                self._inputs[name].visible = self._sensitivities[name].visible = counts
         for name in LAWS[shown_law].inputs:
             inert = self._held or name in shown_inputs.idle
             if self._inputs[name].disabled != inert:
@@ -229,7 +449,9 @@ class DesignControls:
             shown_first = name not in _LAW_INPUTS or name in LAWS[self._start.law].inputs
             handle = gui.add_slider(s.label, s.low, s.high, s.step, value, visible=shown_first, hint=hint(name))
             self._inputs[name] = self._watched(handle)
-            self._worths[name] = gui.add_html(worth.place(name), visible=shown_first)
+            self._sensitivities[name] = gui.add_html(
+                f'<div class="rxp-worth" data-worth="{name}"></div>', visible=shown_first
+            )
 
     def _inflow_menu(self, gui: viser.GuiApi, name: str, label: str) -> None:
         titles = INFLOW_MENUS[name]
@@ -247,7 +469,7 @@ class DesignControls:
             return
         if by_hand:
             self._own = None  # Whoever moves a slider goes on from the preview.
-            self.touched()
+            self._tracker.touch()
         self.pauses.moved(time.monotonic())
         self._changed()
 
@@ -259,10 +481,17 @@ class DesignControls:
             for name, value in preset_inflow(self.inputs().preset).items():
                 self._inputs[name].value = INFLOW_MENUS[name][value]
 
-    def choose_rotor(self, name: str) -> None:
+    def _choose_rotor(self, name: str) -> None:
         """Another rotor of the menu, as it is built."""
-        self.pauses.moved(time.monotonic())
-        self.set_inputs(with_rotor(self.inputs(), name))
+        if not self._held:
+            self.pauses.moved(time.monotonic())
+            self.set_inputs(with_rotor(self.inputs(), name))
+
+    def _set_measured(self, case: str) -> None:
+        """Set a measured flight or test of this rotor, by its name."""
+        condition = condition_of(self.inputs().rotor, case)
+        if condition is not None and not self._held:
+            self.stand.set_measured(condition)
 
     def _fit(self, name: str, inputs: Inputs) -> None:
         """A slider whose ends depend on the rotor: weight about its own reference mass, speed as it can be tested."""
@@ -274,102 +503,6 @@ class DesignControls:
             handle.step, handle.precision = form.step, form.digits
             handle.value = shown(name, getattr(inputs, name), self._units)
             handle.min, handle.max = form.low, form.high
-
-
-_WAVES = {"pitch_per_rev": ("Pitch", 2), "twist_per_rev": ("Twist", 1)}
-"""By the field of `Inputs`: title, and the lowest harmonic."""
-_WAVE_DEG = round(math.degrees(LARGEST_PITCH), 6)
-"""Largest amplitude on the sliders; a design file may have more twist."""
-
-
-class PerRevControls:
-    """One client's. The menu says which harmonic the two sliders set; an amplitude of zero takes it away."""
-
-    def __init__(
-        self, gui: viser.GuiApi, start: Inputs, inputs: Callable[[], Inputs], change: Callable[..., None]
-    ) -> None:
-        """`inputs`: of the page. `change`: called with what a hand changed of them, by name."""
-        self._inputs, self._change = inputs, change
-        self._orders: dict[str, Any] = {}
-        self._sizes: dict[str, Any] = {}
-        self._phases: dict[str, Any] = {}
-        self._changing = False
-        with gui.add_folder("Pitch and twist at n/rev"):
-            self._words = gui.add_html("")
-            for name, (title, lowest) in _WAVES.items():
-                orders = tuple(f"{n}/rev" for n in range(lowest, HIGHEST + 1))
-                self._orders[name] = gui.add_dropdown(
-                    f"{title} harmonic", orders, initial_value="3/rev", hint=hint(name)
-                )
-                self._sizes[name] = gui.add_slider(
-                    f"{title} ampl. [°]", 0.0, _WAVE_DEG, 0.05, 0.0, hint=hint("wave_amplitude")
-                )
-                self._phases[name] = gui.add_slider(f"{title} phase [°]", 0.0, 360.0, 5.0, 0.0, hint=hint("wave_phase"))
-                self._orders[name].on_update(self._chosen(name))
-                for handle in (self._sizes[name], self._phases[name]):
-                    handle.on_update(quick(self._slid(name)))
-        self.place(start)
-
-    def place(self, inputs: Inputs) -> None:
-        """Show these inputs; a harmonic that is there, where the menu names one that is not."""
-        for name in _WAVES:
-            waves: tuple[Harmonic, ...] = getattr(inputs, name)
-            there = [one.per_rev for one in waves]
-            if there and self._order(name) not in there and not self._changing:
-                self._orders[name].value = f"{there[0]}/rev"
-            self._show(name, waves)
-        words = harmonic_words(inputs.twist_per_rev, inputs.pitch_per_rev) or "none set"
-        shaped = " The twist has the shape of its design file." if inputs.active_shape else ""
-        self._words.content = (
-            f'<div class="rx rx-dim rx-small" data-explorer="per-rev">{words[:1].upper()}{words[1:]}.{shaped}</div>'
-        )
-
-    def hold(self, held: bool) -> None:
-        """Take the widgets from the user, or give them back."""
-        for handles in (self._orders, self._sizes, self._phases):
-            for handle in handles.values():
-                handle.disabled = held
-
-    def _order(self, name: str) -> int:
-        return int(self._orders[name].value.partition("/")[0])
-
-    def _show(self, name: str, waves: tuple[Harmonic, ...]) -> None:
-        """The harmonic of the menu on its sliders; without it the phase stays as it was."""
-        wave = next((one for one in waves if one.per_rev == self._order(name)), None)
-        size, phase = self._sizes[name], self._phases[name]
-        degrees = 0.0 if wave is None else round(math.degrees(wave.amplitude), 6)
-        if degrees > size.max:  # From a design file.
-            size.max = degrees
-        if size.value != degrees:
-            size.value = degrees
-        if wave is not None and phase.value % 360.0 != (angle := round(math.degrees(wave.phase), 6)):
-            phase.value = angle
-
-    def _chosen(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
-        def moved(event: viser.GuiEvent[Any]) -> None:
-            if event.client is not None:
-                self._show(name, getattr(self._inputs(), name))
-
-        return moved
-
-    def _slid(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
-        def moved(event: viser.GuiEvent[Any]) -> None:
-            if event.client is None:
-                return
-            order, size = self._order(name), math.radians(float(self._sizes[name].value))
-            before: tuple[Harmonic, ...] = getattr(self._inputs(), name)
-            others = [one for one in before if one.per_rev != order]
-            own = [Harmonic(order, size, math.radians(float(self._phases[name].value)))] if size > 0.0 else []
-            after = tuple(sorted([*others, *own], key=lambda one: one.per_rev))
-            if after == before:
-                return
-            self._changing = True  # The menu stays on the harmonic that the hand moves.
-            try:
-                self._change(**{name: after})
-            finally:
-                self._changing = False
-
-        return moved
 
 
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:

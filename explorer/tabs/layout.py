@@ -1,7 +1,8 @@
 """Where the parts of the page stand: three modes in the rail on the right, and one drawer at a time on the left."""
 
+from collections.abc import Callable
 from html import escape
-from typing import Literal
+from typing import Any, Literal
 
 import viser
 
@@ -29,25 +30,31 @@ _WIDER = 1.22
 class Layout:
     """One session's. What is not shown is not in the page, so that it costs the browser nothing."""
 
-    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
-        self._gui, self._bridge = client.gui, bridge
+    def __init__(self, gui: viser.GuiApi, bridge: Bridge) -> None:
+        self._gui = gui
         self.mode: Mode = "explore"
         self.drawer = ""
         """The one that is open; empty: none."""
-        self._gui.main_panel.dock_right()
-        self._modes = {mode: self._gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
-        self._panel = self._gui.add_panel(visible=False)
+        self.drawers_locked = False
+        """Whether `open_drawer` does nothing: a step of the lecture is on the page."""
+        self.watchers: list[Callable[[], None]] = []
+        """Called after another mode or drawer is shown."""
+        gui.main_panel.dock_right()
+        self._modes = {mode: gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        self._panel = gui.add_panel(visible=False)
         self._drawers: dict[str, viser.GuiFolderHandle] = {}
         with self._panel.add_tab("Drawer"):
             for name, title in DRAWERS.items():
-                self._drawers[name] = self._gui.add_folder(None, visible=False)
+                self._drawers[name] = gui.add_folder(None, visible=False)
                 with self._drawers[name]:
-                    self._gui.add_html(
+                    gui.add_html(
                         f'<div class="rxp-title" data-explorer="drawer" data-name="{name}">{escape(title)}'
                         '<button data-do="drawer" data-value="" aria-label="Close" title="Close (Esc)">×</button></div>'
                     )
         self._panel.dock_left()
         self.enlarge(False)
+        bridge.on("mode", self.show_mode)
+        bridge.on("drawer", self.show_drawer)
 
     def in_mode(self, mode: Mode) -> viser.GuiFolderHandle:
         """Where the widgets of a mode go, as a context."""
@@ -57,11 +64,14 @@ class Layout:
         """Where the widgets of a drawer go, as a context; KeyError for a name without one."""
         return self._drawers[name]
 
-    def show_mode(self, mode: Mode) -> None:
-        """Change what the rail holds."""
+    def show_mode(self, mode: Any) -> None:
+        """Change what the rail holds; a name that is no mode is passed over."""
+        if mode not in MODES:
+            return
         self.mode = mode
         for name, folder in self._modes.items():
             folder.visible = name == mode
+        self._tell()
 
     def show_drawer(self, name: str) -> None:
         """Open a drawer in place of another; one that is open, or the empty name, closes it."""
@@ -71,10 +81,11 @@ class Layout:
             if one in (before, name):
                 folder.visible = one == name
         self._panel.visible = bool(name)
+        self._tell()
 
     def open_drawer(self, name: str) -> None:
-        """Open a drawer, unless it is open."""
-        if name != self.drawer:
+        """Open a drawer, unless it is open or drawers are locked."""
+        if name != self.drawer and not self.drawers_locked:
             self.show_drawer(name)
 
     def enlarge(self, big: bool) -> None:
@@ -82,6 +93,10 @@ class Layout:
         factor = _WIDER if big else 1.0
         self._gui.main_panel.set_width(factor * RAIL)
         self._panel.set_width(factor * DRAWER)
+
+    def _tell(self) -> None:
+        for watcher in self.watchers:
+            watcher()
 
 
 class Sections:

@@ -1,37 +1,268 @@
-"""What follows a solution on the frame and in the drawer of power and trim."""
+"""What follows a solution on the frame: power card, sensitivities beside the sliders, and the drawer of power."""
 
 import math
 from collections.abc import Callable
+from typing import Any
 
-import viser
-
-from explorer.charts.plots import PowerCurve
-from explorer.interface import SessionState
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
+from explorer.model.undo import PowerTracker
+from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_mesh import inset
+from explorer.picture.camera_views import LETTER_SIZE
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
-from explorer.tabs.charts import ChartStrip
-from explorer.tabs.layout import Layout
-from explorer.tabs.power_card import PowerCard, SliderWorth, against
-from explorer.tabs.twist_curve import TwistCurveEditor
+from explorer.tabs.context import TabContext
+from explorer.tabs.live_charts import ChartStrip, against
 from explorer.text import readout
-from explorer.text.status import status_panel, trust_page
-from explorer.text.units import SI, UNITS, Units
+from explorer.text.readout import fineness, ideal_induced, part_titles
+from explorer.text.status import cautions, status_panel, trust_page, validated
+from explorer.text.why import why
 from rotor.analysis.series import between_drag_areas
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
+
+_HALF = 6e3
+"""Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
+
+
+class SliderSensitivities:
+    """One session's. Twist sliders follow at once, exactly; flight sliders once the page rests."""
+
+    def __init__(self, bridge: Bridge) -> None:
+        self._bridge = bridge
+        self._twist: dict[str, SliderSensitivity] = {}
+        self._flight: dict[str, SliderSensitivity] = {}
+
+    def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
+        """Follow a converged state; those of flight sliders are not known yet."""
+        own = gradient is not None and state.solution.design == state.inputs.design()
+        self._twist = twist_sensitivities(state.inputs, gradient) if gradient is not None and own else {}
+        self._flight = {}
+        self._send(state)
+
+    @property
+    def slopes(self) -> dict[str, float]:
+        """Change of power for a unit of each twist slider [W]."""
+        return {name: one.slope for name, one in self._twist.items()}
+
+    def solve_flight(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+        """Compute those of the flight sliders, unless newer input comes."""
+        flight = flight_sensitivities(state.solution, superseded)
+        if not superseded():
+            self._flight = flight
+            self._send(state)
+
+    def clear(self) -> None:
+        """The inputs have no solution."""
+        self._twist, self._flight = {}, {}
+        self._bridge.set(worth={})
+
+    def _send(self, state: SessionState) -> None:
+        units = UNITS[state.view.units]
+        self._bridge.set(
+            worth={
+                name: sensitivity_row(state.inputs, one, units) for name, one in {**self._twist, **self._flight}.items()
+            }
+        )
+
+
+def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dict[str, Any]:
+    """The change of power by a step up, with its sign, where the arrow starts along the slider, and which way saves."""
+    form = slider(one.name, SI, inputs.aircraft)
+    at = (getattr(inputs, one.name) - form.low) / (form.high - form.low)
+    way = {1: "up", -1: "down", 0: ""}[one.saving_direction]
+    value = one.value_text(units) if way else "no effect"
+    if one.name in inputs.idle:
+        value = "no effect while both changes are 0"
+    title = SLIDERS[one.name].label.partition(" [")[0]
+    step = slider(one.name, units).per.removeprefix("/").strip("()")
+    step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"
+    sentence = (
+        f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
+        f"A {'higher' if way == 'up' else 'lower'} value saves power."
+        if way
+        else f"{title}: {step} more changes power by less than 0.05 kW."
+    )
+    size = abs(one.watts())
+    return {
+        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": one.unit_text(units),
+        "size": round(size / (size + _HALF), 3), "sentence": sentence,
+    }  # fmt: skip
+
+
+_NOTICEABLE = 0.05
+"""Changes below this [%] have no colour."""
+_TELLING = 0.1
+"""In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
+_STALLED = 0.025
+"""Fraction of the disk from which stall is named beside the power."""
+
+
+class PowerCard:
+    """One session's. It keeps the solution before a grab, so that it can say why power changed."""
+
+    def __init__(self, bridge: Bridge, tracker: PowerTracker) -> None:
+        self._bridge, self._tracker = bridge, tracker
+        self._last: Solution | None = None
+        self._before: Solution | None = None
+        """The solution that the change since the grab counts from."""
+        self._counted_from: float | None = None
+        """Its power [W]."""
+        self._content: dict[str, Any] | None = None
+
+    def show(self, state: SessionState, pause: float) -> None:
+        """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
+        solution, units = state.solution, UNITS[state.view.units]
+        self._tracker.solved(state.inputs, solution.power.total, pause)
+        if self._tracker.reference != self._counted_from:
+            first = self._tracker.reference == solution.power.total
+            self._counted_from, self._before = self._tracker.reference, solution if first else self._last
+        self._last = solution
+        self._content = {
+            **_numbers(state, units),
+            **self._change(state, units),
+            "problem": "",
+            "band": "",
+            "status": _status(state),
+        }
+        self._bridge.set(power=self._content)
+
+    def show_band(self, words: str) -> None:
+        """Say between which powers the drag area of the sources leaves the total."""
+        if self._content is not None and not self._content["problem"]:
+            self._content = {**self._content, "band": words}
+            self._bridge.set(power=self._content)
+
+    def show_problem(self, sentence: str) -> None:
+        """Keep the last numbers, greyed, beside the sentence that says why there are none."""
+        if self._content is None:
+            self._content = _EMPTY
+        status = {"kind": "problem", "words": "no trim", "title": sentence}
+        problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
+        self._bridge.set(power={**self._content, "problem": problem, "status": status})
+
+    def hand(self, units: Units) -> dict[str, str] | None:
+        """Power and its change for the tag beside the pointer; None before the first solution."""
+        last, change = self._last, self._tracker.change
+        if last is None:
+            return None
+        return {
+            "power": units.watts(last.power.total, fineness(last.power)),
+            "change": units.power[0].text(change or 0.0, fineness(last.power), sign=True),
+            "kind": _kind(change or 0.0, last.power.total),
+        }
+
+    def _change(self, state: SessionState, units: Units) -> dict[str, Any]:
+        """Change since the grab, else from the reference, and why."""
+        solution, reference, pinned = state.solution, state.reference, state.pinned is not None
+        change, before, words = self._tracker.change, self._before, "since grabbed"
+        if change is None or before is None:
+            if solution.design == reference.design or not reference.converged:
+                return {
+                    "since": None,
+                    "rest": "same as A" if pinned else "as built",
+                    "why": "Drag the twist to change it.",
+                }
+            change, before = solution.power.total - reference.power.total, reference
+            words = "vs. A" if pinned else "vs. as built"
+        value = units.watts(change, fineness(solution.power), sign=True)
+        since = {"value": value, "words": words, "kind": _kind(change, solution.power.total)}
+        return {"since": since, "rest": "", "why": why(before, solution, units)}
+
+
+def beside_labels(state: SessionState) -> list[dict[str, Any]]:
+    """Power at the letters of A and B where the two rotors stand beside each other; empty elsewhere."""
+    a, b, units = state.pinned, state.solution, UNITS[state.view.units]
+    if a is None or not (state.view.beside and a.converged):
+        return []
+    digits = fineness(b.power)
+    change = units.watts(b.power.total - a.power.total, digits, sign=True)
+    words = (f"A {units.watts(a.power.total, digits)}", f"B {units.watts(b.power.total, digits)} ({change})")
+    aft = 0.5 * LETTER_SIZE * b.design.rotor.radius  # The edge of the letter that is nearest to the reader.
+    return [{"text": text, "node": f"/letter_{text[0]}", "at": [aft, 0.0, 0.0], "below": True} for text in words]
+
+
+def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
+    solution, power = state.solution, state.solution.power
+    reference = state.reference.power if state.reference.converged else None
+    unit, digits = units.power[0], fineness(power)
+    whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
+    apart = percent = None
+    if reference is not None:
+        apart = units.watts(power.total - reference.total, digits, sign=True)
+        if reference.total > _TELLING * whole:
+            percent = 100.0 * (power.total / reference.total - 1.0)
+    parts = []
+    for name, words in part_titles(solution.design).items():
+        value = getattr(power, name)
+        title = f"{words} power {units.watts(value, digits)}"
+        if reference is not None:
+            title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
+        parts.append(
+            {
+                "part": name,
+                "name": words.removesuffix(" rotor"),
+                "value": number(unit.of(value), digits),
+                "share": round(value / whole, 5) if whole > 0.0 else 0.0,
+                "title": title,
+            }
+        )
+    ideal = ideal_induced(solution)
+    return {
+        "total": number(unit.of(power.total), digits),
+        "unit": unit.symbol,
+        "change": apart or BLANK if percent is None else f"{number(percent, 1, sign=True)} %",
+        "kind": "" if percent is None or abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad",
+        "against": against(solution.design, state.pinned is not None),
+        "parts": parts,
+        "ideal": None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
+        "ideal_title": "" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
+    }
+
+
+def _status(state: SessionState) -> dict[str, str]:
+    """The chip: trimmed, the stalled area or the number of caveats, and how well this rotor is validated here."""
+    reasons = cautions(state.solution, state.pinned)
+    stalled = state.solution.stalled_area
+    record = validated(state.solution)
+    title = " ".join([*reasons, record.sentence])
+    if state.solution.power.total < 0.0:
+        words = "autorotation"
+    elif stalled >= _STALLED:
+        words = f"{number(100.0 * stalled, 1)} % of disk stalled"
+    elif reasons:
+        words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
+    else:
+        title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
+        return {"kind": "converged", "words": "trimmed", "measured": record.words, "title": title}
+    return {"kind": "care", "words": words, "measured": record.words, "title": title}
+
+
+def _kind(change: float, total: float) -> str:
+    """Class of a change of power [W]."""
+    if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
+        return ""
+    return "good" if change < 0.0 else "bad"
+
+
+_EMPTY: dict[str, Any] = {
+    "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
+    "ideal_title": "", "since": None, "rest": "", "why": "", "band": "",
+}  # fmt: skip
 
 
 class ResultsPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, bridge: Bridge, layout: Layout) -> None:
+    def __init__(self, context: TabContext) -> None:
+        gui, bridge, layout = context.gui, context.bridge, context.layout
         self._bridge, self._layout = bridge, layout
-        self.card = PowerCard(bridge)
+        self.card = PowerCard(bridge, context.tracker)
         self.strip = ChartStrip(bridge)
-        self.worth = SliderWorth(bridge)
-        self.curve = TwistCurveEditor(bridge)
+        self.sliders = SliderSensitivities(bridge)
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
@@ -50,13 +281,12 @@ class ResultsPanel:
         self.card.show(state, pause)
         self._show_inset(state)
         gradient = self._gradient_of(state.solution)
-        self.curve.show(state)
-        self.worth.show(state, gradient)
+        self.sliders.show(state, gradient)
         self.strip.show(state, gradient)
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
-            self._power.content, self._trim.content = _numbers(state, self._band_words(state))
+            self._power.content, self._trim.content = _tables(state, self._band_words(state))
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
@@ -64,31 +294,22 @@ class ResultsPanel:
             self._show_inset(state)
         self.strip.turn(state)
 
-    def show_power(self, state: SessionState, curve: PowerCurve, lost: bool = False) -> None:
-        """Change of power over µ."""
-        self.strip.show_power(state, curve, lost)
-
-    def rest(self, superseded: Callable[[], bool]) -> None:
+    def solve_deferred(self, superseded: Callable[[], bool]) -> None:
         """The page rests: compute what can wait."""
         if self._state is not None:
-            self.worth.rest(self._state, superseded)
-            self.strip.rest(self._state, superseded)
-            self._rest_band(self._state, superseded)
+            self.sliders.solve_flight(self._state, superseded)
+            self.strip.solve_measured(self._state, superseded)
+            self._solve_band(self._state, superseded)
 
     def problem(self, sentence: str) -> None:
         """Keep the last converged numbers, greyed, with the sentence that says why there are none."""
         self.card.show_problem(sentence)
         self.strip.fade()
-        self.worth.clear()
+        self.sliders.clear()
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
-            numbers = _numbers(self._state, self._band_words(self._state))
+            numbers = _tables(self._state, self._band_words(self._state))
             self._power.content, self._trim.content = map(readout.faded, numbers)
-
-    @property
-    def units(self) -> Units:
-        """Those of the last state."""
-        return SI if self._state is None else UNITS[self._state.view.units]
 
     def _show_inset(self, state: SessionState) -> None:
         solution, psi = state.solution, math.radians(state.view.azimuth_deg)
@@ -111,7 +332,7 @@ class ResultsPanel:
         shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
         self._bridge.set(inset={**shown, **names})
 
-    def _rest_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+    def _solve_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """Power between the drag areas of the sources: two more trims."""
         solution = state.solution
         if superseded() or readout.open_drag_area(solution.design) is None:
@@ -121,7 +342,7 @@ class ResultsPanel:
         words = self._band_words(state)
         self.card.show_band(words)
         if self._layout.drawer == "details":
-            self._power.content = _numbers(state, words)[0]
+            self._power.content = _tables(state, words)[0]
 
     def _band_words(self, state: SessionState) -> str:
         """The band of this state as far as it is known."""
@@ -137,7 +358,7 @@ class ResultsPanel:
         return self._gradient[1]
 
 
-def _numbers(state: SessionState, band: str) -> tuple[str, str]:
+def _tables(state: SessionState, band: str) -> tuple[str, str]:
     """Power and trim: of this design, or of A and B."""
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:

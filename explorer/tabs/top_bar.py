@@ -1,72 +1,48 @@
 """The bar at the top: rotor, mode, undo, redo, and the design that is pinned as A with its menu."""
 
-from collections.abc import Callable
-
-from explorer.interface import SessionState, TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.pinned import Order, Pinboard, Pinned
-from explorer.state import Inputs, menu_titles
-from explorer.tabs.layout import Layout
-from explorer.text.units import SI, UNITS
+from explorer.model.inputs import Inputs, menu_titles
+from explorer.model.pinned import Order
+from explorer.model.session_state import SessionState
+from explorer.tabs.context import Tab, TabContext
+from explorer.text.design_words import flight_name, pinned_name
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
 
-class TopBar:
+class TopBar(Tab):
     """One session's."""
 
-    def __init__(self, bridge: Bridge, layout: Layout, wake: Callable[[], None]) -> None:
-        self._bridge, self._layout, self._wake = bridge, layout, wake
-        self._board, self._units = Pinboard(), SI
-        self._held, self._along = False, True
+    def __init__(self, context: TabContext) -> None:
+        self._context, self._board = context, context.pinboard
+        self._along = True
+        """Whether A flies in the present condition."""
         self._inputs = Inputs()
         self._steps = (False, False)
+        bridge, bind = context.bridge, context.keyboard.bind
         bridge.on("pin", lambda _: self._pin_or_release())
         bridge.on("swap", lambda _: self._ask("swap"))
         bridge.on("back", lambda _: self._ask("back"))
         bridge.on("along", self._set_along)
-
-    @property
-    def pinned(self) -> Pinned | None:
-        """A."""
-        return self._board.pinned
-
-    @property
-    def answer(self) -> Solution | None:
-        """A's, as last solved."""
-        return self._board.answer
+        bind("pin", self._pin_or_release)
+        bind("swap", lambda: self._ask("swap"))
+        bind("back", lambda: self._ask("back"))
+        context.layout.watchers.append(self.refresh)
 
     def solve(self, present: Design, hurried: bool = False) -> Solution | None:
         """A's answer beside the present design; None when nothing is pinned. `hurried`: newer input waits."""
         return self._board.solve(present, self._along, hurried)
 
-    def settle(self, inputs: Inputs, solution: Solution | None, context: TabContext) -> bool:
+    def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""
         able = solution if solution is not None and solution.converged else None
-        outcome = self._board.settle(inputs, able, self._along)
+        outcome = self._board.act(inputs, able, self._along)
         if outcome is None:
             return False
         if outcome.sentence:
-            context.notify("A and B", outcome.sentence)
+            self._context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
-            context.set_inputs(outcome.inputs)
+            self._context.set_inputs(outcome.inputs)
         return outcome.inputs is not None
-
-    def bind(self, context: TabContext) -> None:
-        """Its commands; undo and redo have theirs."""
-        context.bind_command("pin", self._pin_or_release)
-        context.bind_command("swap", lambda: self._ask("swap"))
-        context.bind_command("back", lambda: self._ask("back"))
-
-    def hold(self, held: bool) -> None:
-        """Take the buttons from the user, or give them back."""
-        self._held = held
-        self.refresh()
-
-    def pin_inputs(self, inputs: Inputs | None) -> None:
-        """Pin these inputs as A, whatever is on the sliders; None removes the pin."""
-        self._board.put(inputs)
-        self._wake()
 
     def show_design(self, inputs: Inputs, steps: tuple[bool, bool]) -> None:
         """What is on the sliders, and whether there is a step to undo and one to redo."""
@@ -75,29 +51,26 @@ class TopBar:
 
     def show(self, state: SessionState) -> None:
         """Follow a converged state."""
-        self._units = UNITS[state.view.units]
         self.refresh()
 
     def show_failure(self) -> None:
         """A holds all the same."""
         self.refresh()
 
-    def stop(self) -> None:
-        """Nothing runs on."""
-
     def refresh(self) -> None:
         """Send what the bar shows."""
         undo, redo = self._steps
-        self._bridge.set(
+        layout = self._context.layout
+        self._context.bridge.set(
             bar={
                 "rotors": list(menu_titles(self._inputs.own_rotor).items()),
                 "rotor": self._inputs.rotor,
-                "mode": self._layout.mode,
-                "drawer": self._layout.drawer,
+                "mode": layout.mode,
+                "drawer": layout.drawer,
                 "undo": undo,
                 "redo": redo,
                 "pinned": self._pinned(),
-                "held": self._held,
+                "held": self._context.held,
             }
         )
 
@@ -108,19 +81,19 @@ class TopBar:
         power = (
             "no trim at this condition"
             if answer is None or not answer.converged
-            else self._units.watts(answer.power.total)
+            else self._context.units.watts(answer.power.total)
         )
-        where = "" if self._along else f" at {pinned.flight}"
-        return {"title": pinned.title, "power": power + where, "along": self._along}
+        where = "" if self._along else f" at {flight_name(pinned.inputs)}"
+        return {"title": pinned_name(pinned), "power": power + where, "along": self._along}
 
     def _pin_or_release(self) -> None:
-        self._ask("pin" if self.pinned is None else "unpin")
+        self._ask("pin" if self._board.pinned is None else "unpin")
 
     def _set_along(self, along: bool) -> None:
         self._along = bool(along)
-        self._wake()
+        self._context.wake()
 
     def _ask(self, order: Order) -> None:
-        if not self._held:
+        if not self._context.held:
             self._board.ask(order)
-            self._wake()
+            self._context.wake()

@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from explorer.charts.strip import StripChart, StripLine
-from explorer.grab import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations
-from explorer.interface import SessionState, TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.state import Inputs
+from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.tabs.context import TabContext
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS as DATUM
@@ -28,21 +29,20 @@ _LEAST_SPAN = 14.0
 class TwistCurveEditor:
     """One session's: the handles of the curve, and the blade that is twisted by hand, move the same stations."""
 
-    def __init__(self, bridge: Bridge) -> None:
-        self._bridge = bridge
+    def __init__(self, context: TabContext, changed: Callable[[bool], None]) -> None:
+        """`changed`: a station was taken (True) or let go."""
+        self._context, self._changed = context, changed
         self._grab: Grab | None = None
         """While a station is held."""
         self._best = BestTurn()
         self._place = ""
         self._range: tuple[float, float] | None = None
-        self._bound: tuple[TabContext, Callable[[], bool], Callable[[bool], None]] | None = None
         self._presses = 0
-
-    def bind(self, context: TabContext, free: Callable[[], bool], changed: Callable[[bool], None]) -> None:
-        """Let handles move the design; `free`: whether the design is the user's to move. `changed`: a station was taken
-        (True) or let go."""
-        self._bound = context, free, changed
-        self._bridge.on("knot", self._act)
+        bridge = context.bridge
+        bridge.on("knot", self._act)
+        bridge.on("grab_at", lambda r: self.take(float(r)))
+        bridge.on("twist_by_hand", lambda r: self.take(float(r), by_key=True))
+        context.keyboard.bind("twist", partial(self.take, 1.0, by_key=True))
 
     @property
     def place(self) -> str:
@@ -51,16 +51,13 @@ class TwistCurveEditor:
 
     def take(self, r: float, by_key: bool = False) -> None:
         """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
-        if self._bound is None:
-            return
-        context, free, changed = self._bound
-        grab = begin(context.inputs(), r) if free() else None
+        grab = None if self._context.held else begin(self._context.inputs(), r)
         if grab is None:
             return
-        self._begin(grab, changed)
+        self._begin(grab)
         self._presses += 1
         places = stations(grab.inputs)
-        self._bridge.set(
+        self._context.bridge.set(
             rubber={
                 "press": self._presses,
                 "knot": str(grab.station.index),
@@ -82,36 +79,34 @@ class TwistCurveEditor:
     def best(self) -> dict[str, Any] | None:
         """Twist [°] of least power of the held station, and whether it is held there; None while it is not known."""
         grab, turn = self._grab, self._best.turn
-        if grab is None or turn is None or self._bound is None:
+        if grab is None or turn is None:
             return None
-        now = grab.turn_to(self._bound[0].inputs())
+        now = grab.turn_to(self._context.inputs())
         before, response = self._response(grab)
         return {"theta": round(before + turn * response, 2), "held": now is not None and abs(now - turn) < _AT}
 
     def _act(self, value: list[Any]) -> None:
-        assert self._bound is not None
-        context, free, changed = self._bound
         name, change = value
         if change == "start":
-            start = grabbed_inputs(context.inputs())
+            start = grabbed_inputs(self._context.inputs())
             station = next((one for one in stations(start) if str(one.index) == name), None)
-            if station is not None and free():
-                self._begin(Grab(start, station), changed)
+            if station is not None and not self._context.held:
+                self._begin(Grab(start, station))
         elif change == "end":
             if self._grab is not None:
                 self._grab, self._place = None, ""
-                self._bridge.set(rubber=None)
-                changed(False)
-        elif free():
-            self._move(context, name, change)
+                self._context.bridge.set(rubber=None)
+                self._changed(False)
+        elif not self._context.held:
+            self._move(name, change)
 
-    def _begin(self, grab: Grab, changed: Callable[[bool], None]) -> None:
+    def _begin(self, grab: Grab) -> None:
         self._grab, self._best, self._place = grab, BestTurn(), place_of(grab.inputs, grab.station)
-        changed(True)
+        self._changed(True)
 
-    def _move(self, context: TabContext, name: str, place: list[float | None]) -> None:
+    def _move(self, name: str, place: list[float | None]) -> None:
         """Move a station to r/R and to a twist [°] less that at 0.75 R, or to a twist alone."""
-        start = self._grab.inputs if self._grab is not None else context.inputs()
+        start = self._grab.inputs if self._grab is not None else self._context.inputs()
         station = next((one for one in stations(start) if str(one.index) == name), None)
         if station is None:
             return
@@ -123,8 +118,8 @@ class TwistCurveEditor:
             moved = slid(moved, station, r)
         if self._grab is not None:
             self._place = place_of(moved, stations(moved)[station.index])
-        if moved != context.inputs():
-            context.set_inputs(moved)
+        if moved != self._context.inputs():
+            self._context.drag_to(moved)
 
     @staticmethod
     def _response(grab: Grab) -> tuple[float, float]:
@@ -159,7 +154,7 @@ class TwistCurveEditor:
             {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
             for k in movable
         ]
-        self._bridge.set(
+        self._context.bridge.set(
             twist={**chart, "pinned": state.pinned is not None, "knots": handles, "key": key, "band": band}
         )
 

@@ -1,14 +1,13 @@
 """What each part of the physics costs: the waterfall of power, each switch off alone, and their panel."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 
-import viser
-
-from explorer.interface import SessionState
+from explorer.model.session_state import SessionState
+from explorer.model.units import SI, UNITS, Units, number
+from explorer.tabs.context import Tab, TabContext
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.text.units import SI, UNITS, Units, number
 from explorer.theme.colours import PARTS
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.analysis.series import WaterfallStep, switch_off_steps, switch_on_steps
@@ -178,12 +177,11 @@ _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 """Steps from everything off to everything on, and with each switch off alone."""
 
 
-class WaterfallPanel:
+class WaterfallPanel(Tab):
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, show_costs: Callable[[Mapping[str, str]], None]) -> None:
-        """`show_costs` is called with what each switch costs, in words, by its name."""
-        self._show_costs = show_costs
+    def __init__(self, context: TabContext) -> None:
+        self._controls, gui = context.controls, context.gui
         gui.add_html(_WORDS)
         self._chart = gui.add_html(waterfall_chart(()))
         self._table = gui.add_html("")
@@ -204,7 +202,7 @@ class WaterfallPanel:
         if units is not self._units and len(self._steps) == _ALL:
             self._draw()
 
-    def climb(self, superseded: Callable[[], bool]) -> None:
+    def solve_steps(self, superseded: Callable[[], bool]) -> None:
         """Compute the steps that are missing, until the page has something else to do; show them once all are there."""
         while self._design is not None and len(self._steps) < _ALL and not superseded():
             self._steps.append(next(self._coming))
@@ -216,14 +214,13 @@ class WaterfallPanel:
         self._design = None
         self._fade()
 
-    def stop(self) -> None:
-        """Nothing runs on."""
-
     def _draw(self) -> None:
         climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
         self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
         self._chart.content, self._table.content = self._drawn
-        self._show_costs({step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None})
+        self._controls.show_costs(
+            {step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None}
+        )
 
     def _fade(self) -> None:
         self._chart.content, self._table.content = map(readout.faded, self._drawn)

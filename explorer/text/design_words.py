@@ -2,9 +2,10 @@
 
 import math
 
-from explorer.stand import TRIM_TITLES, StandInputs, stand_of
-from explorer.state import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
-from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
+from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
+from explorer.model.pinned import Pinned
+from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
+from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
@@ -168,6 +169,11 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"
+
+
+def pinned_name(pinned: Pinned) -> str:
+    """A short name of A's blade."""
+    return twist_name(pinned.inputs) + (", driven" if pinned.driven else "")
 
 
 def _degrees(angle: float) -> str:

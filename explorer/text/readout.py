@@ -6,9 +6,9 @@ from html import escape
 
 import numpy as np
 
-from explorer.state import baseline_title
+from explorer.model.inputs import baseline_title
+from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
-from explorer.text.units import BLANK, SI, Units, number
 from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor.analysis.ideal_bound import ideal_factor, not_bounded
 from rotor.design.design import Design

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from html import escape
 from itertools import groupby
 
-from explorer.stand import POWER_REPORTS, airload_cases, as_measured, measured_powers
+from explorer.model.stand import airload_cases, as_measured, flight_powers
+from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.readout import open_drag_area
-from explorer.text.units import number
 from rotor.aero.problem import grid_of
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
 from rotor.validation.airloads import REPORTS
+from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.measured import MeasuredSet, sets_of
 from rotor.validation.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 
@@ -216,7 +217,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
     """What was measured of this rotor in flight, or of its airloads in a tunnel; None where neither was."""
     design = solution.design
     key, blade = design.aircraft.key, "" if as_measured(design) else " Measured with the twist as built."
-    powers, cases = measured_powers(key), airload_cases(key)
+    powers, cases = flight_powers(key), airload_cases(key)
     airloads = "" if not cases else " The probe shows its measured airloads."
     if powers and not design.hovering and design.condition.stand is None:
         report = POWER_REPORTS[key]

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from explorer.state import INFLOW_MENUS
+from explorer.model.inputs import INFLOW_MENUS
+from explorer.model.units import SI, Units, number
 from explorer.text.readout import part_titles
-from explorer.text.units import SI, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.arrays import Array, Booleans

@@ -44,11 +44,8 @@
       try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); } catch { sessionStorage.removeItem(KEPT); }
     },
     address(query) { history.replaceState(null, '', location.pathname + query); },
-    copyLink(query) { navigator.clipboard?.writeText(location.origin + location.pathname + query).catch(() => {}); },
-    // Clicks on points of Plotly's charts write their `customdata` into the field of that name, wherever it is.
-    takePoints(field) {
-      window.hearCharts(point => { if (point.customdata !== undefined) type(labels(document, field), String(point.customdata)); });
-    },
+    copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
+    copyLink(query) { RX.copy(location.origin + location.pathname + query); },
     // HTML over the page until Escape or a click beside it; a second time closes it.
     dialog(content) {
       const before = document.querySelector('dialog.rx-dialog');

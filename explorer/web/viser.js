@@ -34,22 +34,4 @@
   // A page that can be seen tries again, also where another window has the keyboard, as in front of a class.
   document.hasFocus = () => document.visibilityState === 'visible';
   document.addEventListener('visibilitychange', () => window.dispatchEvent(new Event('focus')));
-
-  // The client reports no click on a chart of Plotly's. Plotly itself does, but drops its listeners when a chart is
-  // drawn anew: so they are added after every drawing. `hear` gets the point that was clicked.
-  window.hearCharts = hear => {
-    const Plotly = window.Plotly;
-    if (!Plotly || Plotly.heard) return;
-    const clicked = event => { if (event.points?.[0]) hear(event.points[0]); };
-    const react = (node, ...rest) => {
-      const done = Plotly.react(node, ...rest);
-      Promise.resolve(done).then(() => {
-        if (!node.on) return;
-        node.removeAllListeners('plotly_click');
-        node.on('plotly_click', clicked);
-      });
-      return done;
-    };
-    window.Plotly = {...Plotly, heard: true, react};
-  };
 })();

@@ -8,6 +8,7 @@ mean of that quotient over all speeds.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.solution import Solution
@@ -47,6 +49,59 @@ LEAST = 0.9
 """Target: correlation of c_l at each radius."""
 _LIFT = {"cl": "c_l", "cl_u2": "c_l (r + µ sin ψ)²"}
 _TEST = "rotor/validation/test_flown.py"
+
+
+POWER_REPORTS = {
+    "gazelle": "NASA TM-88351 (1987), digitised by the authors of HEROES",
+    "bo105": "DLR flight test in Padfield, Helicopter Flight Dynamics (1996), figure 4.11; its mass is not stated, "
+    "2200 kg assumed",
+}
+"""Sources of the powers, by rotor."""
+
+
+@dataclass(frozen=True)
+class MeasuredPower:
+    """Main-rotor power of one flight in level flight."""
+
+    rotor: str
+    case: str
+    mu: float
+    mass: float
+    """[kg]"""
+    altitude: float
+    """Pressure altitude [m]."""
+    power: float
+    """[W]"""
+    angles: tuple[float, float, float] | None
+    """Collective, cyclic 1c and 1s [°]; None where they were not measured."""
+
+    def same_air(self, design: Design) -> bool:
+        """Whether a design has this mass and altitude and neither climbs nor descends."""
+        here = design.condition
+        pairs = ((here.mass, self.mass), (here.altitude, self.altitude), (here.climb_speed, 0.0))
+        return here.stand is None and all(math.isclose(one, other, abs_tol=1e-6) for one, other in pairs)
+
+    def same_flight(self, design: Design) -> bool:
+        """The same at this advance ratio too."""
+        return self.same_air(design) and math.isclose(design.condition.advance_ratio, self.mu, abs_tol=1e-9)
+
+    @property
+    def title(self) -> str:
+        """The flight in words."""
+        return f"{self.case}: µ {self.mu:g}, {self.mass:g} kg, {self.altitude:g} m"
+
+
+@cache
+def measured_powers() -> tuple[MeasuredPower, ...]:
+    """Every power that was measured in flight."""
+    angles = ("theta0_deg", "theta1c_deg", "theta1s_deg")
+    return tuple(
+        MeasuredPower(
+            row["rotor"], row["case"], float(row["mu"]), float(row["mass_kg"]), float(row["altitude_m"]),
+            1e3 * float(row["power_kw"]), _three([float(row[name]) for name in angles]) if row["theta0_deg"] else None,
+        )
+        for row in csv_rows(asset_path("measured/flown_power.csv"))
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -90,22 +145,19 @@ class FlownAngle:
 
 def flown_powers() -> Iterator[FlownPower]:
     """Every measured power beside ours."""
-    for row in csv_rows(asset_path("measured/flown_power.csv")):
-        mu = float(row["mu"])
-        mass, altitude = float(row["mass_kg"]), float(row["altitude_m"])
-        solution = solve(make_design(rotor=row["rotor"], mu=mu, mass_kg=mass, altitude_m=altitude))
+    for one in measured_powers():
+        solution = solve(make_design(rotor=one.rotor, mu=one.mu, mass_kg=one.mass, altitude_m=one.altitude))
         ends, controls = between_drag_areas(solution), solution.controls
         ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
-        names = ("theta0_deg", "theta1c_deg", "theta1s_deg")
         yield FlownPower(
-            rotor=row["rotor"],
-            case=row["case"],
-            mu=mu,
-            measured=1e3 * float(row["power_kw"]),
+            rotor=one.rotor,
+            case=one.case,
+            mu=one.mu,
+            measured=one.power,
             ours=solution.power.main_rotor if solution.converged else None,
             band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-            measured_angles=_three([float(row[name]) for name in names]) if row["theta0_deg"] else None,
-            angles=_three([math.degrees(one) for one in ours]) if solution.converged else None,
+            measured_angles=one.angles,
+            angles=_three([math.degrees(angle) for angle in ours]) if solution.converged else None,
         )
 
 

@@ -8,7 +8,7 @@ import pytest
 from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

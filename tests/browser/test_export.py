@@ -13,7 +13,7 @@ from watched import MEDIUM, WAIT, Watched, opened, painted
 
 from explorer.app import App
 from explorer.export.demo import demo_html
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 

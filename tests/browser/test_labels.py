@@ -7,7 +7,7 @@ import pytest
 from watched import Watched, opened
 
 from explorer.app import App
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 from explorer.tabs.layout import DRAWERS
 
 if TYPE_CHECKING:

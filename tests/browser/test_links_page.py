@@ -7,8 +7,8 @@ import pytest
 from watched import COARSE, WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.sharing.share import code_of
-from explorer.state import OPENING, Inputs, with_rotor
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

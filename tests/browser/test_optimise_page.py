@@ -11,8 +11,8 @@ import pytest
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.model.inputs import Inputs, with_optimum
 from explorer.session import Session
-from explorer.state import Inputs, with_optimum
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from test_page import kilowatts
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 from explorer.text.glossary import CONTROLS
 from rotor.aero.switches import SWITCHES
 

@@ -7,7 +7,7 @@ import pytest
 from watched import MEDIUM, WAIT, Watched, opened
 
 from explorer.app import App
-from explorer.state import OPENING
+from explorer.model.inputs import OPENING
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ import pytest
 from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
+from explorer.model.inputs import Inputs
 from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
-from explorer.state import Inputs
 from rotor.files.make_design import uh60a_rotor
 
 if TYPE_CHECKING:

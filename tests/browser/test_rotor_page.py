@@ -8,7 +8,7 @@ import pytest
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 from rotor.assets import asset_path
 
 if TYPE_CHECKING:

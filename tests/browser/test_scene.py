@@ -10,8 +10,8 @@ import pytest
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.model.inputs import Inputs
 from explorer.picture.wake import tip_vortices
-from explorer.state import Inputs
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import pytest
 from watched import COARSE, WAIT, Watched, opened
 
 from explorer.app import App
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve

@@ -72,24 +72,3 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
         document.dispatchEvent(new Event('visibilitychange'));
     })"""
     assert watched.page.evaluate(heard)
-
-
-def test_clicks_on_plotlys_points_are_heard_after_each_drawing(watched: Watched):
-    """Plotly drops its listeners when it draws: `test_studies.py` has a real click, this one the second drawing."""
-    heard = """async () => {
-        const listeners = {}, points = [];
-        const drop = name => { delete listeners[name]; };
-        const node = {on: (name, act) => { listeners[name] = act; }, removeAllListeners: drop};
-        window.Plotly = {react: () => { Object.keys(listeners).forEach(drop); return Promise.resolve(); }};
-        window.hearCharts(point => points.push(point.customdata));
-        window.hearCharts(() => points.push('twice'));
-        for (const k of [1, 2]) {
-            await window.Plotly.react(node);
-            await new Promise(done => setTimeout(done));
-            listeners.plotly_click({points: [{customdata: k}]});
-            listeners.plotly_click({points: []});
-        }
-        delete window.Plotly;
-        return points;
-    }"""
-    assert watched.page.evaluate(heard) == [1, 2]

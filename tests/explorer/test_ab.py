@@ -9,15 +9,16 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.pinned import Pinboard, Pinned, act
+from explorer.model.units import number
 from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid
-from explorer.pinned import Pinboard, Pinned, act
 from explorer.scene.overlays import ghost_of
-from explorer.state import Inputs, ViewState
 from explorer.text import readout
+from explorer.text.design_words import pinned_name
 from explorer.text.status import cautions, status_panel
-from explorer.text.units import number
 from explorer.theme.colours import PINNED_GHOST, VOID
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist, SumTwist
@@ -61,8 +62,7 @@ class TestButtons:
         pinned = act("pin", None, A_INPUTS, a, True).pinned
         assert pinned is not None
         assert (pinned.inputs, pinned.solution) == (A_INPUTS, a)
-        assert "−8" in pinned.title
-        assert "µ 0.2" in pinned.flight
+        assert "−8" in pinned_name(pinned)
 
     def test_a_design_without_a_trim_is_told_and_a_stays(self, a: Solution):
         before = Pinned(A_INPUTS, a)
@@ -93,7 +93,7 @@ class TestButtons:
     def test_a_driven_blade_is_named_and_said_to_stay_driven(self, a: Solution, b: Solution):
         driven = replace(a, design=replace(a.design, twist=SumTwist(a.design.twist, LinearTwist(0.02))))
         pinned = Pinned(A_INPUTS, driven)
-        assert pinned.title.endswith(", driven")
+        assert pinned_name(pinned).endswith(", driven")
         assert "actuator" in act("back", pinned, B_INPUTS, b, True).sentence
 
     def test_the_ghost_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
@@ -110,11 +110,11 @@ class TestPinboard:
     def pinned(self, a: Solution) -> Pinboard:
         board = Pinboard()
         board.ask("pin")
-        assert board.settle(A_INPUTS, a, True) is not None
+        assert board.act(A_INPUTS, a, True) is not None
         return board
 
     def test_nothing_asked_nothing_done(self, a: Solution):
-        assert Pinboard().settle(A_INPUTS, a, True) is None
+        assert Pinboard().act(A_INPUTS, a, True) is None
         assert Pinboard().solve(a.design, True) is None
 
     def test_a_flies_along_and_is_solved_once(self, a: Solution, b: Solution, along: Solution):
@@ -147,11 +147,11 @@ class TestPinboard:
         board = self.pinned(a)
         board.ask("swap")
         board.ask("unpin")
-        outcome = board.settle(B_INPUTS, b, True)
+        outcome = board.act(B_INPUTS, b, True)
         assert outcome is not None
         assert outcome.inputs is not None
         assert board.pinned is not None
-        assert board.settle(outcome.inputs, a, True) is not None
+        assert board.act(outcome.inputs, a, True) is not None
         assert board.pinned is None
 
 

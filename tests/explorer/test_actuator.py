@@ -3,28 +3,24 @@
 import math
 import pickle
 import re
-import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
-from types import SimpleNamespace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from explorer.charts.plots import Plot
+from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.picture import make_picture
-from explorer.state import ViewState, baseline_of
-from explorer.tabs.actuator import controls as actuator_plots
-from explorer.tabs.actuator import controls as actuator_table
-from explorer.tabs.actuator import cut as actuator_cut
-from explorer.tabs.actuator import cut as actuator_view
-from explorer.tabs.actuator import readout as actuator_readout
-from explorer.tabs.actuator import study as actuator_study
-from explorer.tabs.actuator.picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
-from explorer.tabs.actuator.state import (
+from explorer.tabs.actuator import actuator_controls as actuator_plots
+from explorer.tabs.actuator import actuator_controls as actuator_table
+from explorer.tabs.actuator import actuator_words as actuator_readout
+from explorer.tabs.actuator import cut_blade as actuator_cut
+from explorer.tabs.actuator.actuator_inputs import (
     CONCEPTS,
     MOST_SEGMENTS,
     ActuatorInputs,
@@ -33,10 +29,10 @@ from explorer.tabs.actuator.state import (
     question_of,
     swing_of,
 )
-from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
-from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
-from explorer.workers.newest_wins import NewestWins
-from explorer.workers.pool import Pool
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers, answer, lean, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
+from explorer.tabs.actuator.cut_picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -173,7 +169,7 @@ def test_leads_run_from_the_box_to_every_segment():
 
 @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.6])
 def test_the_close_up_holds_the_whole_blade(aspect: float):
-    camera = actuator_view.fit_cut(DESIGN.rotor.radius, aspect)
+    camera = actuator_cut.fit_cut(DESIGN.rotor.radius, aspect)
     inputs = ActuatorInputs(drives=FULL)
     picture = cut_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
     points = np.concatenate([mesh.vertices for mesh, _ in picture.solids]) - camera.position
@@ -228,8 +224,7 @@ def verdict() -> Verdict:
 def test_the_verdict_is_told_whole(verdict: Verdict):
     inputs = ActuatorInputs()
     question = question_of(inputs, DESIGN)
-    findings = Findings(question, verdict, (("MFC_P1", verdict),))
-    panel = actuator_readout.verdict_panel(findings, question)
+    panel = actuator_readout.verdict_panel(verdict, None)
     assert 'data-kind="ready"' in panel
     assert verdict_sentence(verdict)[:40] in panel
     numbers = actuator_readout.fit_panel(inputs, verdict.installed, verdict)
@@ -237,19 +232,17 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     limits = actuator_readout.limits_panel(verdict)
     assert all(actuator_readout.limit_words(limit.name) in limits for limit in verdict.limits)
     assert "torsion least" not in limits
-    table = actuator_table.table_panel(findings, question)
+    table = actuator_table.table_panel({"MFC_P1": verdict}, question)
     assert table.count("computing…") == len(ALL) - 1
     assert "▲" in table  # Recalled data are marked.
 
 
 def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
-    question = question_of(ActuatorInputs(), DESIGN)
-    other = replace(question, share=0.6)
-    findings = Findings(question, verdict, (("MFC_P1", verdict),))
-    panel = actuator_readout.verdict_panel(findings, other)
+    panel = actuator_readout.verdict_panel(None, verdict)
     assert 'data-kind="computing"' in panel
     assert "rx-faded" in panel
-    assert actuator_table.table_panel(findings, other).count("computing…") == len(ALL)
+    question = question_of(ActuatorInputs(), DESIGN)
+    assert actuator_table.table_panel({}, question).count("computing…") == len(ALL)
 
 
 @pytest.mark.slow
@@ -277,15 +270,38 @@ def test_the_chart_shows_need_and_reach(verdict: Verdict):
     assert r[0] == pytest.approx(0.13)
 
 
-class Here:
-    """For the processes of the page: answers at once, and keeps what it was asked."""
+@dataclass(frozen=True)
+class Asked:
+    """A task that the pool of the test keeps, or fails."""
+
+    name: str
+
+    def run(self, tell: Any, stop: Any) -> None:
+        raise AssertionError(tell, stop)
+
+
+class FakePool:
+    """Keeps what is asked; the test ends it."""
 
     def __init__(self) -> None:
-        self.asked: list[str] = []
+        self.jobs: list[tuple[Asked, Callable[[JobEvent], None]]] = []
+        self.stopped: list[object] = []
 
-    def find(self, task: VerdictTask, superseded: Callable[[], bool]) -> Verdict | str | None:
-        self.asked.append(task.question.actuator)
-        return None if superseded() else "no verdict"
+    def submit(self, task: Asked, on_event: Callable[[JobEvent], None], **_: object) -> Asked:
+        self.jobs.append((task, on_event))
+        on_event(JobStarted())
+        return task
+
+    def stop(self, job: Asked, quiet: bool) -> None:
+        self.stopped.append((job, quiet))
+
+    @property
+    def asked(self) -> list[str]:
+        return [task.name for task, _ in self.jobs]
+
+    def end(self, result: object) -> None:
+        """Of the last one."""
+        self.jobs[-1][1](JobEnded(result))
 
 
 def until(true: Callable[[], bool]) -> None:
@@ -296,64 +312,47 @@ def until(true: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def test_the_study_answers_the_newest_question():
-    inputs = ActuatorInputs(actuator="extension_twist")
-    first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
-    here = Here()
-    study = VerdictWorker(here, lambda: None)
-    study.ask(first)
-    study.ask(last)
-    until(lambda: study.findings.complete)
-    assert study.current(last)
-    assert here.asked[0] == "extension_twist"  # The chosen one first.
-    assert sorted(here.asked) == sorted(ALL)
-    study.stop()
+def test_the_chosen_actuator_is_judged_first_and_then_all_others():
+    question = question_of(ActuatorInputs(actuator="extension_twist"), DESIGN)
+    names = [task.question.actuator for task in verdict_tasks(question)]
+    assert names[0] == "extension_twist"
+    assert sorted(names) == sorted(ALL)
 
 
-def page_is_updated() -> bool:
-    """Whether an update of a page runs soon."""
+def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
+    pool, heard = FakePool(), []
+    fake: Any = pool
+    answers = PoolAnswers(fake, 5, lambda: heard.append(True))
+    first, second, newest = (Asked(f"{name} of this test") for name in ("first", "second", "newest"))
+    answers.ask((first, second), 0.0)
+    until(lambda: pool.asked == [first.name])
+    answers.ask((newest, second), 0.0)
     time.sleep(0.1)
-    done = threading.Event()
-    NewestWins(done.set, print).wake()
-    return done.wait(10.0)
+    assert pool.asked == [first.name]  # It runs to its end.
+    pool.end("one")
+    until(lambda: pool.asked == [first.name, newest.name])
+    pool.jobs[-1][1](JobFailed("The process ended."))
+    until(lambda: pool.asked[-1] == second.name)
+    pool.end(None)
+    assert (answers.answer(newest), len(heard)) == ("The process ended.", 3)
+    assert "change any setting" in answers.answer(second)
+    assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
+    answers.ask((Asked("never ends"),), 0.0)
+    until(lambda: pool.asked[-1] == "never ends")
+    answers.stop()
+    assert pool.stopped == [(Asked("never ends"), True)]
 
 
-def test_studies_that_wait_keep_no_page_from_computing():
-    studies = [VerdictWorker(Here(), lambda: None) for _ in range(4)]
-    for study in studies:
-        study.ask(question_of(ActuatorInputs(), DESIGN), wanted=False)
-    assert page_is_updated()
-    for study in studies:
-        study.stop()
-
-
-def test_sweeps_that_wait_keep_no_page_from_computing():
-    pool = Pool(processes=0)  # Nothing that is asked of it ends.
-    sweeps = [SweepWorker(pool, lambda: None) for _ in range(4)]
-    for sweep in sweeps:
-        assert sweep.ask(sweep_task(ActuatorInputs(per_rev=2), DESIGN)) is None
-    assert page_is_updated()
-    for sweep in sweeps:
-        sweep.stop()
-    pool.close()
-
-
-@pytest.mark.slow
-def test_work_not_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
-    now, here = [100.0], Here()
-    monkeypatch.setattr(actuator_study, "time", SimpleNamespace(monotonic=lambda: now[0], sleep=time.sleep))
-    study = VerdictWorker(here, lambda: None)
-    question = question_of(ActuatorInputs(), DESIGN)
-    for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
-        study.ask(question, wanted=False)
-        now[0] += 0.9 * actuator_study.IDLE
+def test_nothing_is_begun_while_somebody_drags():
+    pool: Any = FakePool()
+    answers = PoolAnswers(pool, 5, lambda: None)
+    task = Asked("wait")
+    for _ in range(8):  # Longer than the wait altogether, but never still.
+        answers.ask((task,), 0.4)
         time.sleep(0.1)
-    assert here.asked == []
-    now[0] += actuator_study.IDLE
-    until(lambda: study.findings.complete)
-    study.ask(question, wanted=False, stirred=False)  # A round that the findings themselves woke.
-    assert study.current(question)
-    study.stop()
+    assert pool.asked == []
+    answers.ask((task,), 0.4, moved=False)  # A round that an answer woke.
+    until(lambda: pool.asked == ["wait"])
 
 
 def bowl(depth: float) -> PowerMap:
@@ -430,11 +429,11 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     question = question_of(ActuatorInputs(), DESIGN)
     page = [
         (
-            actuator_readout.verdict_panel(Findings(question, one), question),
+            actuator_readout.verdict_panel(one, None),
             actuator_readout.fit_panel(ActuatorInputs(), one.installed, one),
             actuator_readout.segments_panel(one.installed, 1.0, one),
             actuator_readout.limits_panel(one),
-            actuator_table.table_panel(Findings(question, one, (("MFC_P1", one),)), question),
+            actuator_table.table_panel({"MFC_P1": one}, question),
         )
         for one in (verdict, small)
     ]

@@ -9,7 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-from explorer.tabs.probe.readout import ALPHA, DRAG, LIFT
+from explorer.tabs.probe.probe_drawing import ALPHA, DRAG, LIFT
 from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from rotor.arrays import Array
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
+from explorer.model.inputs import ViewState
 from explorer.scene.page_scene import TURN_RATES
-from explorer.state import ViewState
 from explorer.tabs.display import Display
-from explorer.tabs.probe.panel import ProbePanel
+from explorer.tabs.probe.probe_panel import ProbePanel
 
 
 class FakeBridge:
@@ -40,9 +40,8 @@ def test_a_press_takes_the_next_speed():
 @pytest.mark.parametrize("pace", TURN_RATES)
 def test_the_blade_walks_at_the_chosen_rate(pace: str):
     azimuths: list[float] = []
-    context = SimpleNamespace(view=lambda: ViewState(azimuth_deg=350.0), set_azimuth=azimuths.append)
-    panel: Any = SimpleNamespace(
-        _context=context, _left=600.0, _walked=350.0, _turn_rate=lambda: TURN_RATES[pace], _pause=lambda: None
-    )
+    display = SimpleNamespace(turn=azimuths.append, turn_rate=TURN_RATES[pace])
+    context = SimpleNamespace(view=lambda: ViewState(azimuth_deg=350.0), display=display)
+    panel: Any = SimpleNamespace(_context=context, _left=600.0, _walked=350.0, _pause=lambda: None)
     ProbePanel._walk_on(panel, 0.2)
     assert azimuths == [pytest.approx((350.0 + 0.2 * math.degrees(TURN_RATES[pace])) % 360.0)]

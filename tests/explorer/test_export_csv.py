@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.export.provenance import blade_csv, disk_csv, power_csv
-from explorer.state import Inputs, baseline_of
+from explorer.model.inputs import Inputs, baseline_of
 from rotor.trim.solve import solve
 
 SOLUTION = solve(Inputs(advance_ratio=0.3).design())

@@ -11,15 +11,15 @@ from explorer.charts.measured import FlownPowers, source_of
 from explorer.charts.plots import SWEEP
 from explorer.charts.power_curve import PowerCurves
 from explorer.charts.strip import total_power_chart
+from explorer.model.inputs import OPENING, Inputs, with_rotor
+from explorer.model.stand import condition_of, first_condition, measured_conditions
+from explorer.model.units import SI
 from explorer.sharing.share import code_of, inputs_from
-from explorer.stand import condition_of, first_condition, measured_conditions
-from explorer.state import OPENING, Inputs, with_rotor
 from explorer.tabs.probe.element import probe
-from explorer.tabs.probe.measured import beside_measured, correlation, measured_panel
-from explorer.tabs.probe.readout import probe_panel
+from explorer.tabs.probe.probe_drawing import probe_panel
+from explorer.tabs.probe.probe_measured import beside_measured, correlation, measured_panel
 from explorer.text.readout import drag_band_words, open_drag_area
 from explorer.text.status import cautions, validated
-from explorer.text.units import SI
 from rotor.analysis.series import between_drag_areas
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import PAGE, blade_shape, blade_vertices, drawn_pitch, inset
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS, fitted_range
@@ -15,7 +16,6 @@ from explorer.picture.picture import field_values, make_picture, turned_blades
 from explorer.picture.polar import polar_grid
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
-from explorer.state import ViewState
 from explorer.tabs.probe.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.readout import compared_trim_panel as both_panel

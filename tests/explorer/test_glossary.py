@@ -2,7 +2,6 @@
 
 import ast
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from html import escape
 from pathlib import Path
@@ -10,8 +9,7 @@ from pathlib import Path
 import pytest
 import viser
 
-from explorer.sliders import SLIDERS
-from explorer.state import Inputs
+from explorer.model.sliders import SLIDERS
 from explorer.tabs.controls import DesignControls
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
@@ -28,13 +26,6 @@ WIDGETS = {
                  "button_group", "upload_button")
 }  # fmt: skip
 ENTRIES = {**{f"control {k}": v for k, v in CONTROLS.items()}, **{f"read-out {k}": v for k, v in READOUTS.items()}}
-
-
-@pytest.fixture
-def server() -> Iterator[viser.ViserServer]:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
 
 
 def test_every_equation_and_section_named_is_there():
@@ -58,8 +49,7 @@ def test_switches_say_what_is_on_and_what_is_off():
         assert switch.off in hint(name)
 
 
-def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer):
-    DesignControls(server.gui, Inputs(), lambda: None)
+def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer, controls: DesignControls):
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
     test_stand = 5 + 8  # Menus and sliders.

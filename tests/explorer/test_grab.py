@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from explorer.grab import (
+from explorer.model.drag import (
     DETENT,
     PIECES,
     BestTurn,
@@ -19,11 +19,10 @@ from explorer.grab import (
     stations,
     turned,
 )
-from explorer.sensitivity import twist_sensitivities
-from explorer.sliders import limits
-from explorer.state import Inputs
+from explorer.model.inputs import Inputs
+from explorer.model.sliders import limits, twist_sensitivities
+from explorer.model.undo import History
 from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.undo import History
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 
@@ -236,11 +235,14 @@ class _Bridge:
 def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, _Bridge, list[Inputs], list[bool]]:
     """With the present inputs, and what was taken (True) or let go."""
     bridge, now, took = _Bridge(), [inputs], list[bool]()
-    page: Any = SimpleNamespace(inputs=lambda: now[0], set_inputs=lambda new: now.__setitem__(0, new), wake=int)
-    frame: Any = bridge
-    editor = TwistCurveEditor(frame)
-    editor.bind(page, lambda: True, took.append)
-    return editor, bridge, now, took
+    page: Any = SimpleNamespace(
+        inputs=lambda: now[0],
+        drag_to=lambda new: now.__setitem__(0, new),
+        held=False,
+        bridge=bridge,
+        keyboard=SimpleNamespace(bind=lambda *_: None),
+    )
+    return TwistCurveEditor(page, took.append), bridge, now, took
 
 
 class TestTwistCurve:

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from explorer.model.inputs import Inputs
+from explorer.model.undo import PAUSE, STEPS, History, Pauses
 from explorer.sharing.address import parameter, with_parameter
 from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
 from explorer.sharing.stored_history import StoredHistory, read_history
-from explorer.state import Inputs
-from explorer.undo import PAUSE, STEPS, History, Pauses
 from rotor.design.aircraft import RotorFiles
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design

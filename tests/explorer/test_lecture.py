@@ -4,20 +4,23 @@ import re
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from explorer.interface import SessionState
+from explorer.model.inputs import Inputs, ViewState, baseline_of
+from explorer.model.session_state import SessionState
+from explorer.model.units import AVIATION
 from explorer.picture.fields import FIELDS
 from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
-from explorer.state import Inputs, ViewState, baseline_of
 from explorer.tabs.keys import KEYS
 from explorer.tabs.lecture import steps
+from explorer.tabs.lecture.lecture_panel import PageSnapshot
 from explorer.tabs.lecture.steps import CASES, STEPS, LectureStep, beside, step_text, view_of
 from explorer.text.glossary import hint
-from explorer.text.units import AVIATION
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -97,12 +100,12 @@ def test_a_step_says_what_is_seen(step: LectureStep):
     assert any(character.isdigit() for character in said)
     assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
     assert "nan" not in said
-    numbers = step.numbers(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
-    assert len({one.caption for one in numbers}) == 3
-    for one in numbers:
-        assert re.search(r"\d", one.value)
-        assert " " not in one.value
-        assert len(one.value) <= 12
+    figures = step.figures(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
+    assert len({caption for caption, _, _ in figures}) == 3
+    for _, value, _ in figures:
+        assert re.search(r"\d", value)
+        assert " " not in value
+        assert len(value) <= 12
     assert view_of(step, ViewState(dark=True)).dark
     assert step.field in FIELDS
 
@@ -131,12 +134,12 @@ def test_what_is_said_of_power_adds_up():
 def test_the_large_numbers_are_those_of_the_solutions():
     step = BY_TITLE["A wake that responds to loading"]
     flat, twisted = both(step.title)
-    numbers = step.numbers(SessionState(step.inputs, ViewState(), twisted, flat, flat))
-    changes = [float(one.value.removesuffix("\u00a0kW").replace("−", "-")) for one in numbers]
+    numbers = step.figures(SessionState(step.inputs, ViewState(), twisted, flat, flat))
+    changes = [float(value.removesuffix("\u00a0kW").replace("−", "-")) for _, value, _ in numbers]
     parts = [getattr(twisted.power, name) - getattr(flat.power, name) for name in ("induced", "profile", "total")]
     assert changes == pytest.approx([part / 1e3 for part in parts], abs=0.51)
-    imperial = step.numbers(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
-    assert all(one.value.endswith("\u00a0hp") for one in imperial)
+    imperial = step.figures(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
+    assert all(value.endswith("\u00a0hp") for _, value, _ in imperial)
 
 
 class TestBeside:
@@ -259,3 +262,38 @@ class TestAddress:
         while written[-1] != "?d=49" and time.monotonic() < deadline:
             time.sleep(0.01)
         assert written == ["?d=0", "?d=49"]
+
+
+def snapshot_page(inputs: Inputs, view: ViewState) -> Any:
+    """The part of a page that a snapshot reads and writes."""
+    page = SimpleNamespace(now=inputs, view_now=view, pinned=None, state=lambda: None)
+    page.inputs, page.view = lambda: page.now, lambda: page.view_now
+    page.set_inputs = lambda inputs: setattr(page, "now", inputs)
+    page.pin = lambda inputs: setattr(page, "pinned", inputs)
+    page.display = SimpleNamespace(set_view=lambda view: setattr(page, "view_now", view))
+    return page
+
+
+@pytest.mark.parametrize("pin", [None, Inputs(law="linear", linear=-10.0)])
+def test_the_end_gives_design_field_and_a_back(pin: Inputs | None):
+    mine = Inputs(law="two", two_inner=-9.0, mass_t=9.1, tip_loss=False)
+    view = ViewState(field="Mach number", azimuth_deg=210.0, exaggeration=3.0)
+    page = snapshot_page(mine, view)
+    if pin is not None:
+        page.state = lambda: SimpleNamespace(pin=SimpleNamespace(inputs=pin))
+    before = PageSnapshot.of(page)
+    page.now, page.pinned = Inputs(law="builtin"), Inputs(law="linear", linear=0.0)
+    page.view_now = ViewState(field="Power dP/dr", difference=True)
+    before.restore(page)
+    assert (page.now, page.view_now, page.pinned) == (mine, view, pin)
+
+
+def test_units_theme_and_a_rotor_file_brought_meanwhile_stay():
+    page = snapshot_page(Inputs(), ViewState())
+    before = PageSnapshot.of(page)
+    own = replace(Inputs().aircraft, name="Mine", key=None)
+    page.now = replace(Inputs(), own_rotor=own)
+    page.view_now = ViewState(dark=True, units=AVIATION.title, field="Power dP/dr")
+    before.restore(page)
+    assert page.view_now == ViewState(dark=True, units=AVIATION.title)
+    assert page.now == replace(Inputs(), own_rotor=own)

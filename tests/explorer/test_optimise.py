@@ -12,18 +12,17 @@ import pytest
 from PIL import Image
 
 from explorer.charts.plots import Plot
+from explorer.model.inputs import baseline_of
+from explorer.model.units import SI
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
-from explorer.state import baseline_of
-from explorer.tabs.charts import starts_chart
+from explorer.tabs import sensitivity_panel as sensitivity
 from explorer.tabs.optimise import map_panel as power_map
-from explorer.tabs.optimise import schedule_view, sensitivity
-from explorer.tabs.optimise import search_request as mission
-from explorer.tabs.optimise import text as search_text
+from explorer.tabs.optimise import schedule_view
+from explorer.tabs.optimise import search_run as mission
+from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.run import SearchRun, starts_of
-from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
-from explorer.tabs.optimise.text import concept_picture
-from explorer.text.units import SI
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_words import concept_picture, starts_chart
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
 from rotor.files.make_design import make_design
@@ -83,7 +82,7 @@ class TestSearchRun:
 
     def test_playing_shows_each_frame_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
         run.replay()
         seen = []
         for _ in range(10 * len(run.frames)):
@@ -100,7 +99,7 @@ class TestSearchRun:
 
     def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
         run = SearchRun(SearchRequest().search(quick(), mission.legs))
         for k in range(100):
             run._add(k, 1000.0 - k, quick())
@@ -124,21 +123,21 @@ class TestSearchRun:
         assert run.state == "stopped"
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
-        assert search_text.found(run) == ""
-        assert {start.legend(SI) for start in starts_of(run).each} == {f"Start {k}: not run" for k in range(1, 7)}
+        assert search_text.result(run) == ""
+        assert {start.legend(SI) for start in run.starts()} == {f"Start {k}: not run" for k in range(1, 7)}
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)
         broken.frames = run.frames[:3]
         broken.on_event(JobFailed("The worker process ended unexpectedly."))
         assert broken.best is run.frames[2]
-        assert "ended unexpectedly" in search_text.found(broken)
+        assert "ended unexpectedly" in search_text.result(broken)
         assert "best so far is kept" in search_text.standing(broken)
 
 
 class TestCharts:
     def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
-        chart = starts_chart(starts_of(run), SI)
+        chart = starts_chart(run, SI)
         level, *starts = chart["lines"]
         assert level["role"] == "reference"
         assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
@@ -152,11 +151,10 @@ class TestCharts:
         assert len({line["colour"] for line in starts}) == 3
 
     def test_the_headline_is_the_least_power_and_names_every_start(self, run: SearchRun):
-        starts = starts_of(run)
-        html = search_text.headline(starts, run)
-        assert starts.best_power is not None
-        assert SI.watts(starts.best_power, 1) in html
-        for start in starts.each:
+        html = search_text.headline(run)
+        assert run.best is not None
+        assert SI.watts(run.best.power, 1) in html
+        for start in run.starts():
             assert f"Start {start.number}:" in html
 
     def test_sensitivity_to_turning_the_whole_blade_is_zero(self):
@@ -184,7 +182,7 @@ class TestCharts:
 
 class TestWords:
     def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
-        words = search_text.found(run) + search_text.details(run) + search_text.standing(run)
+        words = search_text.result(run) + search_text.details(run) + search_text.standing(run)
         for part in ("Inboard rate", "Outboard rate", "within 0.1 % of the least power", "Done"):
             assert part in words
         assert "nan" not in words.lower()
@@ -193,7 +191,7 @@ class TestWords:
         assert run.best is not None
         assert run.start_power is not None
         saved = 100.0 * (1.0 - run.best.power / run.start_power)
-        row = search_text.found(run).split("</tr>")[0]
+        row = search_text.result(run).split("</tr>")[0]
         assert saved > 0.01
         assert row.endswith(f">{saved:.2f} %</td>")
         assert "saving vs. starting design" in row
@@ -349,9 +347,14 @@ class TestSchedule:
         assert progress.part_done == 1.0
 
     def test_charts_and_table(self, progress: schedule_view.PlanProgress):
-        for some in (progress, None, schedule_view.PlanProgress(progress.plan)):
-            assert finite(schedule_view.twist_plot(some, None))
-            assert finite(schedule_view.saving_plot(some, None))
+        twists, savings = schedule_view.twist_plot(progress, None), schedule_view.saving_plot(progress, None)
+        assert twists is not None
+        assert savings is not None
+        known = [bool(np.isfinite(values).all()) for values in twists.data]
+        assert known == [True, True, True, *(False,) * (schedule_view.LEGS - 2), True]
+        assert finite(savings)
+        empty = schedule_view.PlanProgress(progress.plan)
+        assert schedule_view.twist_plot(empty, None) is schedule_view.saving_plot(empty, None) is None
         table = schedule_view.table(progress)
         assert "Additional saving from variable twist" in table
         assert "nan" not in table.lower()
@@ -359,10 +362,13 @@ class TestSchedule:
 
     def test_legs_to_come_are_not_drawn(self, progress: schedule_view.PlanProgress):
         half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 1])
-        mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
+        whole, drawn = (schedule_view.saving_plot(one, None) for one in (progress, half))
+        assert whole is not None
+        assert drawn is not None
+        mu, _, fixed, moving = drawn.data
         np.testing.assert_allclose(mu, [0.3])
-        np.testing.assert_allclose(moving, schedule_view.saving_plot(progress, None).data[3][1:])
-        assert fixed[0] > 10.0  # Beyond the axis: not known yet.
+        np.testing.assert_allclose(moving, whole.data[3][1:])
+        assert np.isnan(fixed[0])  # Not known yet.
 
     def test_csv_reads_back(self, progress: schedule_view.PlanProgress):
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))

@@ -1,7 +1,7 @@
 """Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -13,20 +13,21 @@ from numpy.testing import assert_allclose
 
 from explorer.export.demo import flown_pitch
 from explorer.export.provenance import provenance_lines
+from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
+from explorer.model.pinned import Pinned
+from explorer.model.undo import History
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.poses import blade_pose, pitch_series
-from explorer.pinned import Pinned
 from explorer.scene.page_scene import motion_of
 from explorer.sharing.share import code_of, inputs_from
 from explorer.sharing.stored_history import StoredHistory, read_history
-from explorer.state import OPENING, baseline_of, inputs_of, with_rotor
-from explorer.tabs.actuator.state import ActuatorInputs
-from explorer.tabs.controls import DesignControls, PerRevControls
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
+from explorer.tabs.actuator.per_rev import PerRevControls
+from explorer.tabs.controls import DesignControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
-from explorer.text.design_words import twist_name, wave_words
+from explorer.text.design_words import pinned_name, twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
-from explorer.undo import History
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -80,7 +81,7 @@ def test_a_pinned_design_with_twist_at_n_per_rev_is_on_the_sliders():
     solution = solve(MOVED.design()).require()
     assert not Pinned(MOVED, solution).driven
     assert Pinned(MOVED, solution).sliders(OPENING, along=False) == MOVED
-    assert "2/rev twist 1.00°, 3/rev pitch 1.50°, 5/rev pitch 0.20°" in Pinned(MOVED, solution).title
+    assert "2/rev twist 1.00°, 3/rev pitch 1.50°, 5/rev pitch 0.20°" in pinned_name(Pinned(MOVED, solution))
 
 
 def test_each_blade_is_drawn_at_the_pitch_of_its_root():
@@ -142,21 +143,20 @@ def test_words():
 
 class TestWidgets:
     @pytest.fixture
-    def controls(self) -> Iterator[tuple[DesignControls, PerRevControls]]:
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        controls = DesignControls(server.gui, OPENING, lambda: None)
-        panel = PerRevControls(server.gui, OPENING, controls.inputs, controls.change)
-        controls.placed = panel.place
-        yield controls, panel
-        server.stop()
+    def parts(
+        self, server: viser.ViserServer, controls_from: Callable[[Inputs], DesignControls]
+    ) -> tuple[DesignControls, PerRevControls]:
+        controls = controls_from(OPENING)
+        context: Any = SimpleNamespace(gui=server.gui, controls=controls, inputs=controls.inputs)
+        return controls, PerRevControls(context)
 
-    def test_a_hand_on_them(self, controls: tuple[DesignControls, PerRevControls]):
-        page, panel = controls
-        by_hand: Any = SimpleNamespace(client="someone")
+    def test_a_hand_on_them(self, parts: tuple[DesignControls, PerRevControls]):
+        page, panel = parts
 
         def slide(handles: dict[str, Any], name: str, value: Any) -> None:
             handles[name].value = value
-            (panel._chosen if handles is panel._orders else panel._slid)(name)(by_hand)
+            (panel._chosen if handles is panel._orders else panel._slid)(name)
+            panel.refresh(page.inputs())  # As the page does after every change.
 
         def waves(name: str) -> list[tuple[float, ...]]:
             found: tuple[Harmonic, ...] = getattr(page.inputs(), name)
@@ -179,13 +179,15 @@ class TestWidgets:
         assert "Active twist of 2.00° at 3/rev" in panel._words.content
         assert "root pitch of 1.25° at 3/rev (phase 90°)" in panel._words.content
         page.reset()
+        panel.refresh(page.inputs())
         assert page.inputs() == OPENING
         assert panel._sizes["pitch_per_rev"].value == panel._sizes["twist_per_rev"].value == 0.0
 
-    def test_a_design_file_on_them(self, controls: tuple[DesignControls, PerRevControls]):
-        page, panel = controls
+    def test_a_design_file_on_them(self, parts: tuple[DesignControls, PerRevControls]):
+        page, panel = parts
         brought = replace(MOVED, twist_per_rev=read_harmonics("8:15:20", "test"), active_shape=((0.3, 1.0), (0.0, 1.0)))
         page.set_inputs(brought)
+        panel.refresh(page.inputs())
         assert page.inputs() == brought
         assert panel._orders["twist_per_rev"].value == "8/rev"
         assert (panel._sizes["twist_per_rev"].value, panel._phases["twist_per_rev"].value) == (15.0, 20.0)

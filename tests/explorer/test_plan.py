@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from explorer.model.inputs import ViewState
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
 from explorer.picture.polar import polar_grid
-from explorer.state import ViewState
 from rotor.arrays import Array
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

@@ -5,9 +5,10 @@ from typing import Any
 
 import pytest
 
-from explorer.interface import SessionState
-from explorer.state import OPENING, Inputs, ViewState, baseline_of
-from explorer.tabs.power_card import PowerCard, beside_labels
+from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
+from explorer.model.session_state import SessionState
+from explorer.model.undo import PowerTracker
+from explorer.tabs.results import PowerCard, beside_labels
 from rotor.trim.solve import solve
 
 
@@ -25,7 +26,7 @@ def card(inputs: Inputs) -> dict[str, Any]:
     bridge: Any = Bridge()
     solution = solve(inputs.design()).require()
     state = SessionState(inputs, ViewState(), solution, solve(baseline_of(solution.design)), None)
-    PowerCard(bridge).show(state, 0.0)
+    PowerCard(bridge, PowerTracker()).show(state, 0.0)
     return bridge.power
 
 

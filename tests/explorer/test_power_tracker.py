@@ -2,9 +2,8 @@
 
 from dataclasses import replace
 
-from explorer.power_tracker import PowerTracker
-from explorer.state import Inputs
-from explorer.undo import PAUSE
+from explorer.model.inputs import Inputs
+from explorer.model.undo import PAUSE, PowerTracker
 
 START = Inputs(law="linear", linear=-8.0)
 DRAG = 0.05

@@ -38,7 +38,7 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
             page = app.sessions[0].page
             await asyncio.to_thread(page._presence.present)
             page.file.copy_link()
-            assert page._presence.presenting
+            assert page._presence._secret
             await asyncio.sleep(1.0)
             await visitor.close()
 
@@ -69,7 +69,7 @@ def test_a_secret_in_a_link_of_an_earlier_version_gives_no_control():
 
     address = FakeAddress({PRESENT: "a-secret"})
     presence = Presence(Handle(), Presentations(), address)  # pyright: ignore[reportArgumentType]
-    assert not presence.presenting
+    assert not presence._secret
     assert address[PRESENT] is None
     kept = Presence(Handle(), Presentations(), FakeAddress(), "a-secret")  # pyright: ignore[reportArgumentType]
-    assert kept.presenting
+    assert kept._secret

@@ -16,8 +16,8 @@ from explorer.picture.camera_views import pick
 from explorer.picture.picture import DISK_DROP
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.element import FlowRegion, probe
-from explorer.tabs.probe.measured import lift_curve, public_table
-from explorer.tabs.probe.readout import drawing, probe_panel
+from explorer.tabs.probe.probe_drawing import drawing, probe_panel
+from explorer.tabs.probe.probe_measured import lift_curve, public_table
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design

@@ -23,14 +23,14 @@ from explorer.export.provenance import versions
 from explorer.export.report import document
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
+from explorer.model.inputs import Inputs, ViewState, baseline_of
+from explorer.model.units import UNITS
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.picture.regions import NO_MARKS, Marks
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
-from explorer.state import Inputs, ViewState, baseline_of
-from explorer.text.units import UNITS
 from explorer.web import json_block
 from rotor.design.design import Design
 from rotor.trim.solution import Status

@@ -9,10 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from test_rotor_file import GOOD, polar_file
 
-from explorer.picture.picture import turned_blades
-from explorer.pinned import Pinboard, Pinned
-from explorer.sharing import share
-from explorer.state import (
+from explorer.model.inputs import (
     OWN,
     Inputs,
     ViewState,
@@ -24,7 +21,10 @@ from explorer.state import (
     with_optimum,
     with_rotor,
 )
-from explorer.tabs.rotors import SUFFIXES, UploadedFiles
+from explorer.model.pinned import Pinboard, Pinned
+from explorer.picture.picture import turned_blades
+from explorer.sharing import share
+from explorer.tabs.design_files import SUFFIXES, UploadedFiles
 from explorer.text.design_words import twist_name
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
@@ -68,7 +68,7 @@ def test_another_rotor_comes_as_it_is_built():
 
 
 def test_ones_own_rotor_stays_in_the_menu():
-    craft = UploadedFiles().take("my.toml", GOOD.encode()).aircraft
+    craft = UploadedFiles().add("my.toml", GOOD.encode()).aircraft
     inputs = with_rotor(Inputs(), OWN, craft)
     assert inputs.aircraft is craft
     titles = list(menu_titles(craft).values())
@@ -88,7 +88,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     assert share.inputs_from(code) == R22
     with pytest.raises(ValueError, match=r"Mass \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
-    own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
+    own = with_rotor(Inputs(), OWN, UploadedFiles().add("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A link cannot hold a rotor of your own: save the design as a file"):
         share.code_of(own.design())
     read = parse_design(json.dumps(own.design().to_dict()).encode(), "mine.json")
@@ -102,21 +102,21 @@ def test_designs_of_other_rotors_in_addresses_and_files():
 class TestShelf:
     def test_files_come_in_any_order(self):
         first = UploadedFiles()
-        assert first.take("mine.c81", DECK).aircraft is None
-        craft = first.take("my.toml", NAMES_DECK).aircraft
+        assert first.add("mine.c81", DECK).aircraft is None
+        craft = first.add("my.toml", NAMES_DECK).aircraft
         assert craft is not None
         later = UploadedFiles()
-        arrival = later.take("my.toml", NAMES_DECK)
+        arrival = later.add("my.toml", NAMES_DECK)
         assert arrival.aircraft is None
         assert arrival.sentence == "my.toml is loaded and needs mine.c81: load that next."
-        assert later.take("mine.c81", DECK).aircraft == craft
+        assert later.add("mine.c81", DECK).aircraft == craft
 
     def test_polars_and_windows_line_ends(self):
         polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
         toml = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
         shelf = UploadedFiles()
-        shelf.take("p.txt", polar_file(polar).replace("\n", "\r\n").encode())
-        craft = shelf.take("my.toml", toml.encode("utf-8-sig")).aircraft
+        shelf.add("p.txt", polar_file(polar).replace("\n", "\r\n").encode())
+        craft = shelf.add("my.toml", toml.encode("utf-8-sig")).aircraft
         assert craft is not None
         assert len(craft.remarks) == 1
 
@@ -136,7 +136,7 @@ class TestShelf:
     def test_bad_files_leave_the_shelf_as_it_was(self, name: str, content: bytes, says: str):
         shelf = UploadedFiles({"kept.c81": "text"})
         with pytest.raises(ValueError, match=r"\.") as caught:
-            shelf.take(name, content)
+            shelf.add(name, content)
         assert says in str(caught.value)
         assert (shelf.texts, shelf.waiting) == ({"kept.c81": "text"}, None)
         assert all(suffix.startswith(".") for suffix in SUFFIXES)

@@ -12,6 +12,7 @@ import pytest
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
 from explorer.picture.camera_views import apart
 from explorer.picture.disk_image import AT_REST, MOVING
@@ -20,7 +21,6 @@ from explorer.picture.picture import field_values
 from explorer.picture.poses import flown_twist
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
-from explorer.state import ViewState
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

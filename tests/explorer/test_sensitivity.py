@@ -7,18 +7,11 @@ from dataclasses import replace
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.pinned import FLIGHT
-from explorer.sensitivity import (
-    STEPS,
-    SliderSensitivity,
-    flight_sensitivities,
-    natural_step,
-    twist_sensitivities,
-)
-from explorer.sliders import SLIDERS
-from explorer.state import LAWS, Inputs, preset_inflow
-from explorer.tabs.power_card import sensitivity_row
-from explorer.text.units import AVIATION, SI
+from explorer.model.inputs import LAWS, Inputs, preset_inflow
+from explorer.model.pinned import FLIGHT
+from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
+from explorer.model.units import AVIATION, SI
+from explorer.tabs.results import sensitivity_row
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 
@@ -44,7 +37,7 @@ def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
     found = twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require()))
     assert tuple(found) == LAWS[law].inputs
     for name, one in found.items():
-        step = DIVISION_STEP if STEPS[name].unit.endswith("R") else 0.01
+        step = DIVISION_STEP if SLIDERS[name].per.endswith("R") else 0.01
         assert_allclose(one.slope, difference(inputs, name, step), rtol=2e-3, atol=2.0)
 
 
@@ -78,9 +71,7 @@ def test_a_law_without_sliders_has_no_sensitivities():
 
 
 def test_every_slider_has_a_natural_step_that_it_can_make():
-    assert set(STEPS) == set(SLIDERS)
-    for name, step in STEPS.items():
-        assert step.size >= SLIDERS[name].step
+    assert all(one.natural >= one.step for one in SLIDERS.values())
 
 
 def test_one_sided_at_the_edge_of_the_permitted_altitude():
@@ -107,8 +98,8 @@ def test_texts():
     assert SliderSensitivity("two_inner", 3.0).text() == "no effect"
     heavy = SliderSensitivity("mass_t", 90e3)
     assert heavy.unit_text(AVIATION) == "hp/200 lb"
-    assert_allclose(heavy.watts(AVIATION), 90e3 * natural_step("mass_t", AVIATION).size)
-    assert_allclose(natural_step("mass_t", AVIATION).size, 0.0907, atol=1e-4)
+    assert_allclose(heavy.watts(AVIATION), 90e3 * slider("mass_t", AVIATION).natural)
+    assert_allclose(slider("mass_t", AVIATION).natural, 0.0907, atol=1e-4)
 
 
 def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():

@@ -5,7 +5,6 @@ import socket
 import subprocess
 import sys
 import urllib.request
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -17,32 +16,20 @@ from viser import _messages
 
 from explorer import __main__ as command
 from explorer.app import App, PortBusy
+from explorer.model.inputs import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
+from explorer.model.pinned import FLIGHT
+from explorer.model.sliders import SLIDERS
+from explorer.model.units import SI
 from explorer.picture import disk_image
 from explorer.picture.picture import make_picture
 from explorer.picture.scene_theme import DARK, LIGHT
-from explorer.pinned import FLIGHT
 from explorer.scene.scene import Scene
-from explorer.sliders import SLIDERS
-from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
 from explorer.tabs.controls import DesignControls
-from explorer.text.units import SI
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.trim.solve import solve
 
 ROOT = Path(__file__).parent.parent.parent
-
-
-@pytest.fixture
-def server() -> Iterator[viser.ViserServer]:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
-
-
-@pytest.fixture
-def controls(server: viser.ViserServer) -> DesignControls:
-    return DesignControls(server.gui, Inputs(), lambda: None)
 
 
 class TestApp:

@@ -9,10 +9,10 @@ import pytest
 from explorer import session as session_module
 from explorer.charts import power_curve
 from explorer.hosting.browser import PageFacts
-from explorer.interface import Failure, Frame, SessionState
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import Failure, Frame, SessionState
 from explorer.page import Page
 from explorer.session import Session
-from explorer.state import Inputs, ViewState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor.design.design import Design
 
@@ -92,8 +92,8 @@ def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
     assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
     assert page.calls[3:6] == ["solve_pinned", "show_results", "show_power"]
-    assert page.calls[-1] == "rest"
-    assert page.calls.index("follow") < page.calls.index("rest")
+    assert page.calls[-1] == "solve_deferred"
+    assert page.calls.index("follow") < page.calls.index("solve_deferred")
     assert page.frames[-1].solution is page.states[-1].solution
 
 
@@ -159,12 +159,12 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned"]
 
 
-def test_the_page_settles_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
+def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
     """A page that is loaded again early must find its own rotor, and need not wait for a fine picture."""
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     update(session)
-    assert page.calls[-3:] == ["settle", "sweep", "rest"]
+    assert page.calls[-3:] == ["refine", "sweep", "solve_deferred"]
 
 
 def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -194,7 +194,7 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     assert page.states[-1].view.azimuth_deg == 75.0
 
 
-def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
+def test_at_rest_the_picture_is_fine_before_the_address_and_what_the_page_keeps():
     called: list[str] = []
     part = SimpleNamespace(
         settle=lambda: called.append("picture"),
@@ -204,28 +204,29 @@ def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
     )
     page: Any = SimpleNamespace(scene=part, file=part, history=part)
     state: Any = None
-    Page.settle(page, state)
+    Page.refine(page, state)
     assert called == ["picture", "address", "kept", "steps"]
 
 
 @pytest.mark.parametrize(
-    ("mode", "expected"), [("explore", ["tab", "rest", "actuator"]), ("actuate", ["actuator", "tab", "rest"])]
+    ("mode", "expected"), [("explore", ["tab", "history", "actuator"]), ("actuate", ["actuator", "tab", "history"])]
 )
 def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expected: list[str]):
     called: list[str] = []
-    note = SimpleNamespace(
-        rest=lambda _: called.append("rest"),
-        climb=lambda _: None,
+    part = SimpleNamespace(
+        solve_waiting=lambda _: called.append("history"),
+        solve_steps=lambda _: None,
+        solve_deferred=lambda _: None,
         follow=lambda _: None,
         show=lambda _: called.append("tab"),
     )
     page: Any = SimpleNamespace(
         layout=SimpleNamespace(mode=mode), _actuator_in_frame=False, _followed=None,
-        _show_actuator=lambda *_: called.append("actuator"), settle=lambda _: None, tabs=(note,), file=note,
-        history=note, results=SimpleNamespace(rest=lambda _: None), waterfall=note,
+        _show_actuator=lambda *_: called.append("actuator"), refine=lambda _: None, tabs=(part,), file=part,
+        history=part, results=part, waterfall=part,
     )  # fmt: skip
     state: Any = SimpleNamespace(solution=None)
     reading: Any = object()
     Page.follow(page, reading, state)
-    Page.rest(page, state, lambda: False)
+    Page.solve_deferred(page, state, lambda: False)
     assert called == expected

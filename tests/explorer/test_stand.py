@@ -5,18 +5,17 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-import viser
 
 from explorer.charts.measured import MeasuredChart
 from explorer.export.provenance import condition_line
-from explorer.pinned import Pinned
+from explorer.model.inputs import OPENING, Inputs, with_rotor
+from explorer.model.pinned import Pinned
+from explorer.model.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
+from explorer.model.undo import History
 from explorer.sharing.share import code_of, inputs_from
-from explorer.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
-from explorer.state import OPENING, Inputs, with_rotor
 from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
-from explorer.undo import History
 from rotor.assets import MEASURED_ROTORS
 from rotor.trim.solve import solve
 from rotor.validation.measured import SETS, load_set
@@ -102,12 +101,6 @@ def test_a_test_in_words():
 
 
 class TestWidgets:
-    @pytest.fixture
-    def controls(self) -> Any:
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        yield DesignControls(server.gui, OPENING, lambda: None)
-        server.stop()
-
     def test_choices_by_hand(self, controls: DesignControls):
         panel = controls.stand
 
@@ -123,7 +116,7 @@ class TestWidgets:
         choose(panel._trim_chosen, TRIM_TITLES["flight"])
         assert controls.inputs().stand is None
         assert not panel._test.visible
-        controls.choose_rotor("xv15")
+        controls._choose_rotor("xv15")
         assert TRIM_TITLES["flight"] not in panel._trim.options
         choose(panel._test_chosen, XV15.test)
         assert controls.inputs().stand is not None

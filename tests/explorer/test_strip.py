@@ -19,7 +19,7 @@ from explorer.charts.strip import (
     total_power_chart,
     where_to_twist_chart,
 )
-from explorer.text.units import AVIATION
+from explorer.model.units import AVIATION
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution

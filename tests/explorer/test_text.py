@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose
 from explorer.charts import plots
 from explorer.charts.power_curve import PowerCurves
 from explorer.charts.strip import autorotation_words
-from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
+from explorer.model.inputs import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
+from explorer.model.units import number
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
-from explorer.text.units import number
 from explorer.text.why import why
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.design.design import PRESETS, Design

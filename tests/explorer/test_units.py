@@ -1,21 +1,19 @@
 """Units: factors by hand, and sliders that read in pounds and feet without moving the design."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 import pytest
-import viser
 
 from explorer.charts import plots
-from explorer.sliders import SLIDERS, limits, meant, shown, slider
-from explorer.state import Inputs, ViewState
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.sliders import SLIDERS, limits, meant, shown, slider
+from explorer.model.undo import History, KeptDesign
+from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
+from explorer.tabs import history_panel as history_view
 from explorer.tabs.controls import DesignControls
-from explorer.tabs.history import strip as history_view
 from explorer.text import readout
 from explorer.text.design_words import flight_name
-from explorer.text.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
-from explorer.undo import History, KeptDesign
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -28,13 +26,6 @@ def solution() -> Solution:
 
 def test_page_opens_in_one_of_the_units():
     assert ViewState().units in UNITS
-
-
-@pytest.fixture
-def controls() -> Iterator[DesignControls]:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield DesignControls(server.gui, Inputs(), lambda: None)
-    server.stop()
 
 
 def test_factors_by_definition():

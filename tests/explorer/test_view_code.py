@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from explorer.model.inputs import ViewState
+from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing.view_code import view_code, view_from
-from explorer.state import ViewState
-from explorer.text.units import UNITS
 
 VIEWS = st.builds(
     ViewState,

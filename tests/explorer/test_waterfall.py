@@ -1,17 +1,17 @@
 """The waterfall on the page: the drawing adds up, and it is computed only when the page rests."""
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import viser
 
-from explorer.interface import SessionState
-from explorer.state import Inputs, ViewState
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import SessionState
+from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from explorer.tabs.waterfall import WaterfallPanel, alone_table, waterfall_chart
-from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from rotor.aero.switches import SWITCHES
 from rotor.analysis.series import Waterfall, WaterfallStep, waterfall
 from rotor.design.design import Design
@@ -94,24 +94,23 @@ class TestDrawing:
 
 class TestPanel:
     @pytest.fixture
-    def panel(self) -> Iterator[WaterfallPanel]:
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        yield WaterfallPanel(server.gui, lambda costs: None)
-        server.stop()
+    def panel(self, server: viser.ViserServer) -> WaterfallPanel:
+        context: Any = SimpleNamespace(gui=server.gui, controls=SimpleNamespace(show_costs=lambda costs: None))
+        return WaterfallPanel(context)
 
     def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):
         solution = solve(coarse(0.2))
         state = SessionState(Inputs(), ViewState(), solution, solution, None, None)
-        panel.climb(lambda: False)  # Before there is an answer.
+        panel.solve_steps(lambda: False)  # Before there is an answer.
         panel.show(state)
         assert "Computing" in panel._chart.content
-        panel.climb(lambda: True)
+        panel.solve_steps(lambda: True)
         assert panel._steps == []
         asked = iter([False, False, True])
-        panel.climb(lambda: next(asked))
+        panel.solve_steps(lambda: next(asked))
         assert len(panel._steps) == 2
         assert "Computing" in panel._chart.content  # Whole, or not at all: it would grow under the eyes.
-        panel.climb(lambda: False)  # Goes on where it was interrupted.
+        panel.solve_steps(lambda: False)  # Goes on where it was interrupted.
         assert len(panel._steps) == 2 * len(SWITCHES) + 1
         assert "All switched on" in panel._chart.content
         assert "no compressibility" in panel._table.content
@@ -121,14 +120,14 @@ class TestPanel:
             solution = solve(coarse(mu))
             panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
             if mu == 0.1:
-                panel.climb(lambda: False)
+                panel.solve_steps(lambda: False)
         assert panel._chart.content.count("rx-faded") == 1
         assert panel._steps == []
 
     def test_the_azimuth_does_not_start_it_again(self, panel: WaterfallPanel):
         solution: Solution = solve(coarse(0.2))
         panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
-        panel.climb(lambda: False)
+        panel.solve_steps(lambda: False)
         steps: list[WaterfallStep] = panel._steps
         panel.show(SessionState(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
         assert panel._steps is steps

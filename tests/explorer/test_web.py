@@ -46,7 +46,7 @@ def test_every_file_is_used():
 
 def test_every_function_that_python_calls_is_there():
     called = set(re.findall(r'call\([\w.]+, "(?:RX|rotorScene)\.(\w+)"', WRITTEN))
-    assert {"begin", "facts", "keep", "dialog", "takePoints", "move", "turn", "stop"} <= called
+    assert {"begin", "facts", "keep", "dialog", "move", "turn", "stop"} <= called
     scripts = "".join(map(web.text, web.SCRIPTS))
     assert {name for name in called if not re.search(rf"^    (?:async )?{name}\(", scripts, re.MULTILINE)} == set()
 

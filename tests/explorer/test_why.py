@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.text.units import AVIATION
+from explorer.model.units import AVIATION
 from explorer.text.why import lift_centroid, lift_movement, why
 from rotor.aero.switches import with_switches
 from rotor.design.design import Design

@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "explorer" / "web"
-_FOREIGN = re.compile(r"mantine|js-plotly|uplot|multi-slider|ui-")
+_FOREIGN = re.compile(r"mantine|uplot|multi-slider|ui-")
 """Classes of viser's client and of what it uses."""
 _VOID = {"br", "hr", "img", "input", "link", "meta"}
 _DECLARATION = re.compile(r"-{0,2}[a-z][\w-]*\s*:\s*\S[^:{}]*|--[\w-]+\s*:[^{}]+|[a-z-]+\s*:\s*\S.*url\(.*")

@@ -29,7 +29,7 @@ from chromium import LAUNCH_ARGUMENTS, find_chromium  # noqa: E402
 from watched import Watched, painted  # noqa: E402
 
 from explorer.app import App  # noqa: E402
-from explorer.state import Inputs  # noqa: E402
+from explorer.model.inputs import Inputs  # noqa: E402
 from rotor.terminal import run_command  # noqa: E402
 
 if TYPE_CHECKING:

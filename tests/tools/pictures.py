@@ -12,7 +12,7 @@ from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 from explorer.app import App
-from explorer.state import OPENING
+from explorer.model.inputs import OPENING
 from tests.chromium import LAUNCH_ARGUMENTS, find_chromium
 
 FOLDER = Path(__file__).parents[2] / "docs" / "images"

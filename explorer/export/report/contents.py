@@ -7,10 +7,10 @@ from datetime import datetime
 import numpy as np
 
 from explorer.charts.plots import Range
+from explorer.model.inputs import ViewState
+from explorer.model.units import UNITS, Units
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
-from explorer.state import ViewState
-from explorer.text.units import UNITS, Units
 from explorer.theme.colours import BASELINE
 from rotor.trim.solution import Solution
 

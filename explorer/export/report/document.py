@@ -16,9 +16,9 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, report_of
+from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
-from explorer.state import ViewState, baseline_of, baseline_title
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny

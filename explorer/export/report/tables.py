@@ -7,12 +7,12 @@ from html import escape
 import numpy as np
 
 from explorer.export.report.contents import DesignReport, ReportEntry
-from explorer.stand import stand_of
-from explorer.state import PRESET_TITLES
+from explorer.model.inputs import PRESET_TITLES
+from explorer.model.stand import stand_of
+from explorer.model.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
-from explorer.text.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from explorer.theme.colours import PARTS
 from rotor.aero.problem import grid_of
 from rotor.design.design import Design

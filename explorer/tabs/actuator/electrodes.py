@@ -8,9 +8,9 @@ import numpy as np
 import viser
 
 from explorer.charts.plots import Plot, held_range
+from explorer.model.units import number
 from explorer.picture.png import encode_png
-from explorer.tabs.charts import Chart, line, points
-from explorer.text.units import number
+from explorer.tabs.live_charts import Chart, line, points
 from explorer.theme.colours import BASELINE, IDEAL, NOW, THIS, colour_map
 from rotor.actuator.catalogue import Actuator, PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
@@ -51,12 +51,6 @@ def strain_plot(actuator: PiezoPly, volts: tuple[float, ...], previous: tuple[fl
     seen = np.concatenate([values[np.isfinite(values)] for values in series])
     y_range = held_range(previous, float(seen.min()), float(seen.max()))
     return Plot((x, *series), y_range, (low - margin, high + margin))
-
-
-def blank() -> Plot:
-    """An empty chart, on a range that no answer has."""
-    none = np.full(2, np.nan)
-    return Plot((np.array([-1.0, 1.0]), *(none,) * 5), (-1e-3, 1e-3))
 
 
 @lru_cache(maxsize=16)
@@ -133,13 +127,13 @@ def _present(sheet: PiezoPly, volts: tuple[float, ...]) -> str:
 
 
 def _cut(sheet: PiezoPly) -> str:
-    found = field_map(sheet, points=_POINTS, sweeps=_SWEEPS)
-    data = base64.b64encode(_image(found.strength[::-1])).decode("ascii")
+    field = field_map(sheet, points=_POINTS, sweeps=_SWEEPS)
+    data = base64.b64encode(_image(field.strength[::-1])).decode("ascii")
     lines: list[str] = []
     for level in np.linspace(0.0, 1.0, _LINES + 2)[1:-1]:
         if sheet.electrodes == "interdigitated":  # Potential rises along the fibre in every row.
-            x = np.array([np.interp(level, row, found.x) for row in found.potential])
-            z = found.z / found.z[-1]
+            x = np.array([np.interp(level, row, field.x) for row in field.potential])
+            z = field.z / field.z[-1]
         else:
             x, z = np.array([0.0, 1.0]), np.full(2, level)
         points = " ".join(f"{_CUT * a:.1f},{20.0 + _TALL * (1.0 - b):.1f}" for a, b in zip(x, z, strict=True))
@@ -185,15 +179,8 @@ class ElectrodesPanel:
                 gui,
                 "Strain [µε]",
                 (("this sheet", THIS), ("α·V", IDEAL), ("other kind", BASELINE)),
-                "voltage [V]",
-                (
-                    line("other electrodes, along", BASELINE, 2.0),
-                    line("across the fibres", THIS, 1.0),
-                    line("along the fibres", THIS, 2.5),
-                    line("along, by α = d/ΔES", IDEAL, 1.5, (5, 4)),
-                    points("now", NOW, 8),
-                ),
-                blank(),
+                # The other electrodes, across and along the fibres, along by α = d/ΔES, now.
+                (line(BASELINE), line(THIS, 1.0), line(THIS, 2.5), line(IDEAL, 1.5, (5, 4)), points(NOW, 8)),
                 (-1.0, 1.0),
                 height=118,
             )

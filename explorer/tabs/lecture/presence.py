@@ -3,14 +3,14 @@
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 
 from explorer.hosting import browser
-from explorer.interface import SessionState, TabContext
+from explorer.model.session_state import SessionState
 from explorer.sharing.address import Address
 from explorer.sharing.presentation import (
     FOLLOW,
@@ -21,6 +21,8 @@ from explorer.sharing.presentation import (
     follow_name,
     new_secret,
 )
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.text.glossary import hint
 
 _CAMERA_EVERY = 0.1
@@ -29,54 +31,59 @@ _LONGEST = 40
 """Characters of a name in the address that are looked at."""
 
 
-@dataclass(frozen=True)
-class PresentationHooks:
-    """What a presentation moves on a page beside its inputs and view."""
-
-    lecture_step: Callable[[], int | None]
-    show_step: Callable[[int | None], None]
-    hold: Callable[[bool], None]
-    """Take the controls from the user, or give them back."""
+_WORDS = (
+    '<div class="rx rx-dim rx-small">Copies a link. Anyone with the link sees what you set here, as you set it, '
+    "and may leave at any time.</div>"
+)
 
 
-class Presence:
+class Presence(Tab):
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
-    def __init__(
-        self, client: viser.ClientHandle, presentations: Presentations, address: Address, secret: str = ""
-    ) -> None:
+    _lecture: LecturePanel
+    _hold: Callable[[bool], None]
+
+    def __init__(self, context: TabContext, presentations: Presentations, address: Address, secret: str = "") -> None:
         """The page's address says whom it follows; `secret` is what the page kept where it presents."""
-        self._client, self._presentations, self._address = client, presentations, address
+        self._context, self._presentations, self._address = context, presentations, address
         self._secret = secret[:_LONGEST]
         address[PRESENT] = None  # Earlier versions kept the secret there, so it came with every link.
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
         self._lock, self._publishing = threading.Lock(), threading.Lock()
-        self._context: TabContext | None = None
-        self._hooks: PresentationHooks | None = None
         self._unfollow: Callable[[], None] | None = None
         self._shown: PresentedView | None = None
         """What the presenter shows."""
         self._looked = 0.0
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
-        self._banner = client.gui.add_html("", visible=False)
-        self._leave = client.gui.add_button("Leave and continue alone", color="gray", visible=False, hint=hint("leave"))
+        self._banner = context.gui.add_html("", visible=False)
+        self._leave = context.gui.add_button(
+            "Leave and continue alone", color="gray", visible=False, hint=hint("leave")
+        )
         self._leave.on_click(lambda _: self.leave())
 
-    def begin(self, context: TabContext, hooks: PresentationHooks) -> None:
-        """The page stands: follow, or present, if the address says so."""
-        self._context, self._hooks = context, hooks
-        self._client.camera.on_update(self._looked_round)
+    def begin(self, lecture: LecturePanel, hold: Callable[[bool], None]) -> None:
+        """The page stands: follow, or present, if the address says so.
+
+        `hold` takes the controls from the user, or gives them back.
+        """
+        self._lecture, self._hold = lecture, hold
+        gui = self._context.gui
+        with gui.add_folder("Present to others"):
+            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
+            gui.add_html(_WORDS)
+        self._present.on_click(lambda _: self.end() if self._secret else self.present())
+        self._context.client.camera.on_update(self._looked_round)
         if self._name:
-            hooks.hold(True)
+            hold(True)
             self._say("Following a presentation: controlled by the presenter.", leave=True)
             self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
             self._presentations.watch(self._secret, self._announce)
+        self._name_present()  # A presenter who loads the page again presents on.
 
-    @property
-    def presenting(self) -> bool:
-        return bool(self._secret)
+    def _name_present(self) -> None:
+        self._present.label = "Stop presenting" if self._secret else "Present"
 
     def present(self) -> None:
         """Begin to present; the link of followers goes into the clipboard. The page keeps the secret over a reload."""
@@ -84,28 +91,28 @@ class Presence:
             self.leave()
         if not self._secret:
             self._secret = new_secret()
-            browser.keep(self._client, PRESENT, self._secret)
+            browser.keep(self._context.client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
-        browser.copy_link(self._client, self._link)
-        if self._context is not None:
-            self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
+        browser.copy_link(self._context.client, self._link)
+        self._name_present()
+        self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
 
     def end(self) -> None:
         """Stop presenting."""
         if self._secret:
             self._presentations.end(self._secret)
             self._secret = ""
-            browser.keep(self._client, PRESENT, "")
+            browser.keep(self._context.client, PRESENT, "")
             self._say("")
+            self._name_present()
 
     def leave(self) -> None:
         """Stop following: the page stays as it is, and is the user's."""
         unfollow, self._unfollow, self._name = self._unfollow, None, ""
         if unfollow is not None:
             unfollow()
-        if self._hooks is not None:
-            self._hooks.hold(False)
+        self._hold(False)
         self._address[FOLLOW] = None
         self._say("")
 
@@ -126,13 +133,13 @@ class Presence:
 
     def _publish(self) -> None:
         self._pending = None
-        context, hooks = self._context, self._hooks
-        if not self._secret or context is None or hooks is None:
+        context = self._context
+        if not self._secret:
             return
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
             state = context.state()
             against = state.pin.inputs if state is not None and state.pin is not None else None
-            shown = PresentedView(context.inputs(), context.view(), against, hooks.lecture_step(), self._camera)
+            shown = PresentedView(context.inputs(), context.view(), against, self._lecture.step, self._camera)
             self._presentations.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
@@ -148,13 +155,13 @@ class Presence:
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
         shown, context = self._shown, self._context
-        if self._name and shown is not None and context is not None and context.inputs() != shown.inputs:
+        if self._name and shown is not None and context.inputs() != shown.inputs:
             context.set_inputs(shown.inputs)
 
     def _on_presented(self, shown: PresentedView | None) -> None:
         """What the presenter shows; on the presenter's thread."""
-        context, hooks = self._context, self._hooks
-        if not self._name or context is None or hooks is None:
+        context = self._context
+        if not self._name:
             return
         if shown is None:
             self.leave()
@@ -165,18 +172,18 @@ class Presence:
             view = context.view()
             wanted = replace(shown.view, dark=view.dark, units=view.units)
             if wanted != view:
-                context.set_view(wanted)
+                context.display.set_view(wanted)
             state = context.state()
             have = state.pin.inputs if state is not None and state.pin is not None else None
             if shown.against != have:
                 context.pin(shown.against)
             if shown.inputs != context.inputs():
                 context.set_inputs(shown.inputs)
-            hooks.show_step(shown.step)
+            self._lecture.follow(shown.step)
             if shown.camera is not None and shown.camera != self._camera:
                 self._camera = shown.camera
-                with self._client.atomic():
-                    self._client.camera.position, self._client.camera.look_at = shown.camera
+                with context.client.atomic():
+                    context.client.camera.position, context.client.camera.look_at = shown.camera
 
     def _looked_round(self, camera: viser.CameraHandle) -> None:
         if not self._secret:

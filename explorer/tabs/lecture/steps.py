@@ -4,15 +4,13 @@ What to watch and what to try at a step is in its file in the folder `text`.
 """
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from explorer.interface import SessionState
-from explorer.state import INPUT_NAMES, LAWS, Inputs, ViewState, preset_inflow
+from explorer.model.inputs import INPUT_NAMES, LAWS, Inputs, ViewState, preset_inflow
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS, number
 from explorer.text.readout import PART_TITLES
-from explorer.text.units import UNITS, number
-from rotor.trim.solution import PowerBudget
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -33,18 +31,6 @@ CASES = {**DOCUMENT, **EXAMPLES}
 """The menu."""
 
 
-Say = Callable[[SessionState], str]
-
-
-@dataclass(frozen=True)
-class LargeNumber:
-    """A number to be read from the back of the room."""
-
-    value: str
-    """With its unit, on one line."""
-    caption: str
-
-
 _TEXT = Path(__file__).parent / "text"
 
 
@@ -54,10 +40,10 @@ def step_text(name: str) -> tuple[str, str, str]:
     ValueError for a file that is not laid out as `# title`, a text, `## Try` and a text.
     """
     text = (_TEXT / f"{name}.md").read_text(encoding="utf-8")
-    found = re.fullmatch(r"# ([^\n]+)\n\n([^#]+)\n\n## Try\n\n([^#]+)\n", text)
-    if found is None:
+    parts = re.fullmatch(r"# ([^\n]+)\n\n([^#]+)\n\n## Try\n\n([^#]+)\n", text)
+    if parts is None:
         raise ValueError(f"{name}.md is no step of the lecture: write '# title', a text, '## Try' and a text")
-    title, watch, do = (" ".join(part.split()) for part in found.groups())
+    title, watch, do = (" ".join(part.split()) for part in parts.groups())
     return title, watch, do
 
 
@@ -71,10 +57,10 @@ class LectureStep:
     do: str
     """What to try."""
     inputs: Inputs
-    say: Say
-    """What is seen, in the present numbers; it holds wherever the sliders are moved."""
-    numbers: Callable[[SessionState], tuple[LargeNumber, LargeNumber, LargeNumber]]
-    """Three large numbers beside the caption."""
+    sentence: str
+    """What is seen, with names of `quantities` in braces; it holds wherever the sliders are moved."""
+    numbers: tuple[tuple[str, str], tuple[str, str], tuple[str, str]]
+    """Three large numbers beside the caption: name of the quantity, caption."""
     against: Inputs | None = None
     """A of A/B."""
     field: str = "Induced inflow λi"
@@ -82,6 +68,15 @@ class LectureStep:
     """Whether the disk shows B − A."""
     mode: str = "explore"
     """Mode of the page in which the step is seen."""
+
+    def say(self, state: SessionState) -> str:
+        """The sentence in the present numbers."""
+        return self.sentence.format_map(quantities(state))
+
+    def figures(self, state: SessionState) -> list[tuple[str, str, str]]:
+        """Caption and value of each large number, as the frame draws them."""
+        values = quantities(state)
+        return [(caption, values[name], "") for name, caption in self.numbers]
 
 
 def view_of(step: LectureStep, view: ViewState) -> ViewState:
@@ -103,168 +98,114 @@ def beside(step: LectureStep, inputs: Inputs) -> Inputs | None:
 _TWIST = {"law"}.union(*(law.inputs for law in LAWS.values()))
 
 
-def _power(state: SessionState, watts: float, sign: bool = False) -> str:
-    """In the chosen units, on one line."""
-    return UNITS[state.view.units].watts(watts, sign=sign).replace(" ", "\u00a0").replace("\u2009", "\u00a0")
+def quantities(state: SessionState) -> dict[str, str]:
+    """Numbers with their units, each on one line: of A (the reference), of B (the design), and of B − A."""
+    a, b, units = state.reference.power, state.solution.power, UNITS[state.view.units]
+
+    def power(watts: float, sign: bool = False) -> str:
+        return _on_one_line(units.watts(watts, sign=sign))
+
+    def percent(share: float, digits: int = 0, sign: bool = False) -> str:
+        return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"
+
+    shares = {name: percent(getattr(b, name) / b.total) for name in PART_TITLES}
+    tonnes = units.mass.size > 1.0
+    return {
+        **{f"{name}_share": share for name, share in shares.items()},
+        "shares": ", ".join(f"{title.lower()} {shares[name]}" for name, title in PART_TITLES.items()),
+        **{
+            f"{name}_{which}": power(getattr(one, name))
+            for name in ("total", "induced")
+            for which, one in (("a", a), ("b", b))
+        },
+        **{
+            f"{name}_change": power(getattr(b, name) - getattr(a, name), sign=True)
+            for name in ("total", "induced", "profile")
+        },
+        "induced_percent": percent(b.induced / a.induced - 1.0, 1, sign=True),
+        "total_percent": percent(b.total / a.total - 1.0, 2, sign=True),
+        "saving": power(a.total - b.total),
+        "saving_percent": percent(1.0 - b.total / a.total, 2),
+        "cost": power(b.total - a.total),
+        "reverse_area": percent(state.solution.reverse_flow_area, 1),
+        "one_percent": power(0.01 * b.total),
+        "mass": _on_one_line(units.mass.text(state.solution.design.condition.mass, 1 if tonnes else 0)),
+    }
 
 
-def _percent(share: float, digits: int = 0, sign: bool = False) -> str:
-    return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"
-
-
-def _shares(state: SessionState) -> str:
-    power = state.solution.power
-    shares = ", ".join(
-        f"{title.lower()} {_percent(getattr(power, name) / power.total)}" for name, title in PART_TITLES.items()
-    )
-    return f"Now {_power(state, power.total)}: {shares}."
-
-
-def _induced(state: SessionState) -> str:
-    before, after = _powers(state)
-    a, b = before.induced, after.induced
-    change = f"{_power(state, b - a, sign=True)} ({_percent(b / a - 1.0, 1, sign=True)})"
-    return f"Induced power: A {_power(state, a)}, B {_power(state, b)}; {change}."
-
-
-def _both(state: SessionState) -> str:
-    before, after = _powers(state)
-    induced, profile = after.induced - before.induced, after.profile - before.profile
-    return f"From A to B: induced {_power(state, induced, sign=True)}, profile {_power(state, profile, sign=True)}."
-
-
-def _reverse(state: SessionState) -> str:
-    before, after = _powers(state)
-    area = _percent(state.solution.reverse_flow_area, 1)
-    return f"{area} of the disk is in reverse flow; it costs {_power(state, after.total - before.total)} in total."
-
-
-def _per_cent(state: SessionState) -> str:
-    before, after = _powers(state)
-    saving = before.total - after.total
-    share = f"{_percent(saving / before.total, 2)} of {_power(state, before.total)}"
-    return f"B needs {_power(state, saving)} less than A: {share}."
-
-
-def _actuator(state: SessionState) -> str:
-    needs = _power(state, state.solution.power.total)
-    return f"This blade needs {needs} here; the verdict gives the net benefit of changing its twist in flight."
-
-
-def _powers(state: SessionState) -> tuple[PowerBudget, PowerBudget]:
-    return state.reference.power, state.solution.power
-
-
-def _total_and_parts(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    power = state.solution.power
-    return (
-        LargeNumber(_power(state, power.total), "total power"),
-        LargeNumber(_percent(power.induced / power.total), "induced share"),
-        LargeNumber(_percent(power.parasite / power.total), "parasite share"),
-    )
-
-
-def _induced_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    before, after = _powers(state)
-    return (
-        LargeNumber(_power(state, before.induced), "induced power, A"),
-        LargeNumber(_power(state, after.induced), "induced power, B"),
-        LargeNumber(_percent(after.induced / before.induced - 1.0, 1, sign=True), "change from A to B"),
-    )
-
-
-def _change_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    before, after = _powers(state)
-    return (
-        LargeNumber(_power(state, after.induced - before.induced, sign=True), "induced power, B − A"),
-        LargeNumber(_power(state, after.profile - before.profile, sign=True), "profile power, B − A"),
-        LargeNumber(_power(state, after.total - before.total, sign=True), "total power, B − A"),
-    )
-
-
-def _reverse_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    before, after = _powers(state)
-    return (
-        LargeNumber(_percent(state.solution.reverse_flow_area, 1), "of the disk in reverse flow"),
-        LargeNumber(_power(state, after.profile - before.profile, sign=True), "profile power it costs"),
-        LargeNumber(_power(state, after.total - before.total, sign=True), "total power it costs"),
-    )
-
-
-def _saving_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    before, after = _powers(state)
-    return (
-        LargeNumber(_power(state, before.total), "total power, A"),
-        LargeNumber(_power(state, after.total), "total power, B"),
-        LargeNumber(_percent(after.total / before.total - 1.0, 2, sign=True), "change from A to B"),
-    )
-
-
-def _actuator_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
-    power, units = state.solution.power, UNITS[state.view.units]
-    mass = units.mass.text(state.solution.design.condition.mass, 1 if units.mass.size > 1.0 else 0)
-    return (
-        LargeNumber(_power(state, power.total), "total power"),
-        LargeNumber(_power(state, 0.01 * power.total), "one per cent of that"),
-        LargeNumber(mass.replace(" ", "\u00a0").replace("\u2009", "\u00a0"), "gross mass"),
-    )
+def _on_one_line(text: str) -> str:
+    return text.replace(" ", "\u00a0").replace("\u2009", "\u00a0")
 
 
 _LINEAR = Inputs(law="linear")
 _UH60A = Inputs(law="builtin")
+_BOTH = "From A to B: induced {induced_change}, profile {profile_change}."
+_CHANGES = (
+    ("induced_change", "induced power, B − A"),
+    ("profile_change", "profile power, B − A"),
+    ("total_change", "total power, B − A"),
+)
 
 STEPS: tuple[LectureStep, ...] = (
     LectureStep(
         *step_text("trim"),
         _UH60A,
-        _shares,
-        _total_and_parts,
+        "Now {total_b}: {shares}.",
+        (("total_b", "total power"), ("induced_share", "induced share"), ("parasite_share", "parasite share")),
     ),
     LectureStep(
         *step_text("hover_twist"),
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
-        _induced,
-        _induced_numbers,
+        "Induced power: A {induced_a}, B {induced_b}; {induced_change} ({induced_percent}).",
+        (
+            ("induced_a", "induced power, A"),
+            ("induced_b", "induced power, B"),
+            ("induced_percent", "change from A to B"),
+        ),
         against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
         difference=True,
     ),
     LectureStep(
         *step_text("linear_inflow"),
         replace(_LINEAR, linear=-12.0, inflow="pitt-peters"),
-        _both,
-        _change_numbers,
+        _BOTH,
+        _CHANGES,
         against=replace(_LINEAR, linear=0.0, inflow="pitt-peters"),
         difference=True,
     ),
     LectureStep(
         *step_text("responding_wake"),
         replace(_LINEAR, linear=-12.0),
-        _both,
-        _change_numbers,
+        _BOTH,
+        _CHANGES,
         against=replace(_LINEAR, linear=0.0),
         difference=True,
     ),
     LectureStep(
         *step_text("reverse_flow"),
         replace(_UH60A, advance_ratio=0.37),
-        _reverse,
-        _reverse_numbers,
+        "{reverse_area} of the disk is in reverse flow; it costs {cost} in total.",
+        (
+            ("reverse_area", "of the disk in reverse flow"),
+            ("profile_change", "profile power it costs"),
+            ("total_change", "total power it costs"),
+        ),
         against=replace(_UH60A, advance_ratio=0.37, reverse_flow=False),
         field="Power dP/dr",
     ),
     LectureStep(
         *step_text("two_segments"),
         replace(Inputs(), law="two", two_inner=-4.0, two_outer=-15.6, two_division=0.7, advance_ratio=0.3),
-        _per_cent,
-        _saving_numbers,
+        "B needs {saving} less than A: {saving_percent} of {total_a}.",
+        (("total_a", "total power, A"), ("total_b", "total power, B"), ("total_percent", "change from A to B")),
         against=replace(_LINEAR, linear=-10.6, advance_ratio=0.3),
         field="Thrust dT/dr",
     ),
     LectureStep(
         *step_text("piezoelectric_ply"),
         replace(_UH60A, advance_ratio=0.3),
-        _actuator,
-        _actuator_numbers,
+        "This blade needs {total_b} here; the verdict gives the net benefit of changing its twist in flight.",
+        (("total_b", "total power"), ("one_percent", "one per cent of that"), ("mass", "gross mass")),
         mode="actuate",
     ),
 )

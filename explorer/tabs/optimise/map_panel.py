@@ -11,14 +11,14 @@ import viser
 from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
-from explorer.interface import TabContext
+from explorer.model.inputs import with_optimum
+from explorer.model.units import SI, Units, number
 from explorer.picture.png import encode_png
-from explorer.state import with_optimum
+from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
-from explorer.text.units import SI, UNITS, Units, number
 from explorer.theme.colours import NOW, colour_map, css
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Pool
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.tasks import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -245,9 +245,9 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Pool, context: TabContext, search: OptimisePanel) -> None:
-        """The map is of what the Optimise tab asks for."""
-        self._pool, self._context, self._search, self._request = pool, context, search, search.request
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
+        """The map is of what the search is asked for."""
+        self._context, self._search, gui = context, search, context.gui
         self._job: Job | None = None
         self._task: MapTask | None = None
         self._map: Map | None = None
@@ -256,7 +256,7 @@ class MapPanel:
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        titles = tuple([parameter.title for parameter in self._request().known_concept().parameters])
+        titles = tuple([parameter.title for parameter in self._search.request().known_concept().parameters])
         self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
         self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
         self._draw = gui.add_button("Compute map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
@@ -265,12 +265,12 @@ class MapPanel:
         self._point = gui.add_text(FIELD, "", visible=False, hint=hint("map_point"))
         self._legend = gui.add_html("")
         self._draw.on_click(lambda _: self.begin())
-        self._point.on_update(lambda event: self._take() if event.client is not None else None)
+        self._point.on_update(lambda event: self._apply() if event.client is not None else None)
 
     def begin(self) -> None:
         """Draw the map of the concept chosen for the search, about the design on the sliders."""
         try:
-            design, request = self._context.inputs().design(), self._request()
+            design, request = self._context.inputs().design(), self._search.request()
             concept = request.known_concept()
             titles = [parameter.title for parameter in concept.parameters]
             if len(titles) < 2:
@@ -284,19 +284,19 @@ class MapPanel:
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         task = self._task = MapTask(design, concept, objective, axes, values)
         if self._job is not None:
-            self._pool.stop(self._job, quiet=True)
+            self._context.pool.stop(self._job, quiet=True)
         self._line = "Computing …"
-        self._job = self._pool.submit(task, lambda news: self._on_event(task, news), TIME_LIMIT, _URGENCY)
+        self._job = self._context.pool.submit(task, lambda news: self._on_event(task, news), TIME_LIMIT, _URGENCY)
         self._context.wake()
 
     def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:
-            self._pool.stop(self._job, quiet=True)
+            self._context.pool.stop(self._job, quiet=True)
 
     def refresh(self, design: Design | None) -> None:
         """Bring the tab into line with the concept and with the design on the sliders."""
-        concept = self._request().known_concept()
+        concept = self._search.request().known_concept()
         titles = tuple(parameter.title for parameter in concept.parameters)
         if titles != self._offered:
             self._offered = titles
@@ -310,7 +310,7 @@ class MapPanel:
         if drawn is None:
             return
         here, exact = self._place(drawn, design)
-        units = UNITS[self._context.view().units]
+        units = self._context.units
         seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
             self._drawn = seen
@@ -320,7 +320,7 @@ class MapPanel:
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:
-            return default_axes(self._request().known_concept())
+            return default_axes(self._search.request().known_concept())
         x, y = titles.index(self._x.value), titles.index(self._y.value)
         if x == y:
             raise ValueError("Both axes are the same parameter: choose two.")
@@ -357,7 +357,7 @@ class MapPanel:
         _, place, exact = self._here
         return (place[0], place[1]), exact
 
-    def _take(self) -> None:
+    def _apply(self) -> None:
         drawn = self._map
         if drawn is None or not self._point.value.strip():
             return

@@ -8,16 +8,14 @@ from typing import Any
 
 import viser
 
-from explorer.interface import TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.state import baseline_of, baseline_title, with_optimum
-from explorer.tabs.optimise import text
-from explorer.tabs.optimise.run import FRAME, TRACES, SearchRun, Starts, starts_of
-from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
-from explorer.tabs.optimise.text import concept_picture
+from explorer.model.inputs import baseline_of, baseline_title, with_optimum
+from explorer.model.units import number
+from explorer.tabs.context import TabContext
+from explorer.tabs.optimise import search_words as text
+from explorer.tabs.optimise.search_run import FRAME, OBJECTIVES, TRACES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
-from explorer.text.units import UNITS, number
-from explorer.workers.pool import Job, JobEvent, JobProgress, Pool
+from explorer.workers.pool import Job, JobEvent, JobProgress
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS
@@ -30,18 +28,10 @@ TIME_LIMIT = 60.0
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        bridge: Bridge,
-        pool: Pool,
-        context: TabContext,
-        legs: Callable[[Design], tuple[WeightedCondition, ...]],
-        changed: Callable[[], None],
-    ) -> None:
-        """`legs`: of the mission, for a design. `changed`: a search begins, or its design was taken or left."""
-        self._bridge, self._pool, self._context, self.legs = bridge, pool, context, legs
-        self._changed = changed
+    def __init__(self, context: TabContext) -> None:
+        self._context, gui, bridge = context, context.gui, context.bridge
+        self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
+        """Of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
@@ -74,7 +64,7 @@ class OptimisePanel:
         self._bar = gui.add_progress_bar(0.0)
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
-        self._found = gui.add_html("")
+        self._result = gui.add_html("")
         self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
         self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
@@ -82,9 +72,11 @@ class OptimisePanel:
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
         self._again.on_click(lambda _: self._replay())
-        bridge.on("apply", lambda _: self._judge(True))
-        bridge.on("discard", lambda _: self._judge(False))
+        bridge.on("apply", lambda _: self._close(True))
+        bridge.on("discard", lambda _: self._close(False))
         bridge.on("halt", lambda _: self.halt())
+        context.controls.optimise_button.on_click(lambda _: self._begin_from_rail())
+        context.keyboard.bind("optimise", self.toggle)
         self._scrubber.on_update(self._scrubbed)
         for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
             widget.on_update(lambda event: context.wake() if event.client is not None else None)
@@ -104,6 +96,10 @@ class OptimisePanel:
             change=number["change"] if self._limit_change.value else None,
         )
 
+    def _begin_from_rail(self) -> None:
+        self._context.layout.show_mode("optimise")
+        self.begin()
+
     def begin(self) -> None:
         """Start a search for the design on the sliders, unless one is under way."""
         with self._beginning:  # Two quick presses come on two threads.
@@ -117,10 +113,12 @@ class OptimisePanel:
                 self._context.wake()
                 return
             self._problem, self._offered = "", True
-            self._changed()
+            self._context.tracker.reset()
             reference, title = self._reference(design)
             run = self._run = SearchRun(search, title)
-        self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT)
+        self._job = self._context.pool.submit(
+            SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT
+        )
         self._context.wake()
 
     def _reference(self, design: Design) -> tuple[Design, str]:
@@ -136,7 +134,7 @@ class OptimisePanel:
         run, job = self._run, self._job
         if run is not None and job is not None and run.under_way:
             run.stopping()
-            self._pool.stop(job)
+            self._context.pool.stop(job)
             self._context.wake()
 
     def withdraw(self) -> None:
@@ -144,7 +142,7 @@ class OptimisePanel:
         self.halt()
         if self._offered:
             self._offered = False
-            self._changed()
+            self._context.tracker.reset()
             self._context.wake()
 
     def toggle(self) -> None:
@@ -158,7 +156,7 @@ class OptimisePanel:
     def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:
-            self._pool.stop(self._job, quiet=True)
+            self._context.pool.stop(self._job, quiet=True)
 
     def preview(self, design: Design) -> Design | None:
         """The design to show instead of the sliders': that of the frame whose turn it is."""
@@ -172,10 +170,10 @@ class OptimisePanel:
             timer.start()
         return None if frame is None else frame.design
 
-    @property
-    def starts(self) -> Starts | None:
-        """The starts of the search; None where there is none."""
-        return None if self._run is None or not any(self._run.traces) else starts_of(self._run)
+    def starts_chart(self) -> dict[str, Any] | None:
+        """Of the search, in place of charts along the blade; None where there is none."""
+        run = self._run
+        return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)
 
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""
@@ -186,10 +184,11 @@ class OptimisePanel:
 
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
-        run, request, units = self._run, self.request(), UNITS[self._context.view().units]
+        run, request, units = self._run, self.request(), self._context.units
         for name, handle in self._numbers.items():
             handle.visible = request.asks_for(name)
-        self._picture.content = _boxed(concept_picture(request.known_concept()), request.known_concept().explanation)
+        concept = request.known_concept()
+        self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
         under_way = run is not None and run.under_way
         self._begin.visible, self._halt.visible = not under_way, under_way
         self._standing.content = text.standing(run, self._problem)
@@ -198,7 +197,7 @@ class OptimisePanel:
             return
         self._bar.value = round(100.0 * run.part_done, 1)
         self._bar.animated = under_way
-        self._found.content = text.found(run, units)
+        self._result.content = text.result(run, units)
         self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
@@ -214,8 +213,7 @@ class OptimisePanel:
             self._frame.content = text.moved_on()
         else:
             self._frame.content = ""
-        starts = starts_of(run)
-        self._headline.content = text.headline(starts, run, units)
+        self._headline.content = text.headline(run, units)
 
     def _on_event(self, run: SearchRun, news: JobEvent) -> None:
         run.on_event(news)
@@ -229,7 +227,7 @@ class OptimisePanel:
         run = self._run
         if run is None or not self._offered or design is None or not run.matches(design):
             return None
-        best, units = run.best, UNITS[self._context.view().units]
+        best, units = run.best, self._context.units
         words = "" if best is None else f": {units.watts(best.power)}"
         if best is not None and run.start_power:
             words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)}\u00a0% vs.\u00a0start"
@@ -244,14 +242,14 @@ class OptimisePanel:
             self._run.replay()
             self._context.wake()
 
-    def _judge(self, take: bool) -> None:
+    def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""
         run = self._run
         if run is None or run.under_way or not run.frames:
             return
         self._offered = False
-        self._changed()
-        if take:
+        self._context.tracker.reset()
+        if apply:
             here = run.matches(self._context.inputs().design())
             frame = run.chosen if here else run.frames[-1]
             self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))

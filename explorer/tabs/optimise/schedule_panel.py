@@ -1,23 +1,20 @@
-"""The Schedule tab: best twist per speed, best fixed blade, what moving is worth; mission mix; CSV."""
+"""The Schedule section: best twist per speed, best fixed blade, the gain of moving; mission mix; CSV."""
 
-from collections.abc import Callable
 from typing import Any
 
 import viser
 
-from explorer.interface import TabContext
-from explorer.overlay.bridge import Bridge
-from explorer.state import with_optimum
-from explorer.tabs.charts import Chart, line
+from explorer.model.inputs import with_optimum
+from explorer.tabs.context import TabContext
+from explorer.tabs.live_charts import Chart, line
 from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise import search_request as mission
+from explorer.tabs.optimise import search_run as mission
+from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
-from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
-from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.workers.player import Player
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted, Pool
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
 from rotor.optimisation.objective import WeightedCondition
@@ -34,21 +31,14 @@ _URGENCY = 1
 class SchedulePanel:
     """One session's schedule."""
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        bridge: Bridge,
-        pool: Pool,
-        context: TabContext,
-        request: Callable[[], SearchRequest],
-        changed: Callable[[], None] = lambda: None,
-    ) -> None:
-        """`request`: what the search is asked for. `changed`: a playback begins or ends."""
-        self._pool, self._context, self._request, self._changed = pool, context, request, changed
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
+        """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
+        self._context, self._request, gui = context, search.request, context.gui
+        search.legs = self.legs
         self._flight: ScheduleFlight | None = None
         self._time = 0.0
         self._player = Player(self._fly_on, "schedule-flight")
-        bridge.on("land", lambda _: self.land())
+        context.bridge.on("land", lambda _: self.land())
         self._job: Job | None = None
         self._progress: PlanProgress | None = None
         self._running = False
@@ -74,32 +64,27 @@ class SchedulePanel:
         self._bar = gui.add_progress_bar(0.0)
         self._state = gui.add_html("")
         self._table = gui.add_html("")
-        self._verdict = gui.add_button_group(
+        self._results = gui.add_button_group(
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
-        twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
         self._twists = Chart(
             gui,
             "Best twist [°] over r/R",
             (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
-            "radius r/R",
-            (*(line(f"leg {k + 1}", css(shades[k]), 1.5) for k in range(LEGS)), line("fixed", NOW, 2.0, (5, 3))),
-            twists,
+            (*(line(css(shades[k]), 1.5) for k in range(LEGS)), line(NOW, 2.0, (5, 3))),
             (0.1, 1.02),
         )
         self._savings = Chart(
             gui,
             "Saving [%] over µ",
             (("variable", THIS), ("fixed", NOW)),
-            "advance ratio µ",
-            (line("none", BASELINE, 0.7), line("fixed", NOW, 1.8, (5, 3)), line("variable", THIS)),
-            savings,
+            (line(BASELINE, 0.7), line(NOW, 1.8, (5, 3)), line(THIS)),
             (-0.012, 0.462),
         )
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
-        self._verdict.on_click(self._judge)
+        self._results.on_click(self._result_clicked)
 
     def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
         """The mission's legs; ValueError with one sentence for an invalid mission."""
@@ -126,7 +111,7 @@ class SchedulePanel:
             return
         progress = self._progress = PlanProgress(plan)
         self._running, self._line = True, "Starting a worker …"
-        self._job = self._pool.submit(
+        self._job = self._context.pool.submit(
             ScheduleTask(plan), lambda news: self._on_event(progress, news), TIME_LIMIT, _URGENCY
         )
         self._context.wake()
@@ -135,7 +120,7 @@ class SchedulePanel:
         """Stop; what was found stays."""
         if self._job is not None and self._running:
             self._line = "Stopping …"
-            self._pool.stop(self._job)
+            self._context.pool.stop(self._job)
             self._context.wake()
 
     def play(self) -> None:
@@ -151,30 +136,29 @@ class SchedulePanel:
         except ValueError as error:
             self._line = str(error)
         else:
-            self._changed()
+            self._context.tracker.reset()
             self._player.play()
         self._context.wake()
 
     def land(self) -> None:
         """Stop the playback; the page shows the sliders again."""
         if self._flight is not None:
-            self._changed()
+            self._context.tracker.reset()
         self._flight = None
         self._player.pause()
         self._context.wake()
 
-    def preview(self, design: Design) -> Design | None:
+    def preview(self) -> Design | None:
         """The design of the playback to show instead of the sliders'."""
-        del design
         flight = self._flight
-        return None if flight is None else flight.design(flight.at(self._time))
+        return None if flight is None else flight.at(self._time).design
 
     def notice(self) -> dict[str, object] | None:
         """The bar over the scene during the playback."""
         flight = self._flight
         if flight is None:
             return None
-        numbers = flight.at(self._time).numbers(UNITS[self._context.view().units])
+        numbers = flight.at(self._time).numbers(self._context.units)
         text = " · ".join(f"{caption} {value}" for caption, value in numbers)
         return {"text": text[:1].upper() + text[1:], "actions": [("land", "Stop")]}
 
@@ -193,7 +177,7 @@ class SchedulePanel:
         """The browser has left."""
         self._player.pause()
         if self._job is not None:
-            self._pool.stop(self._job, quiet=True)
+            self._context.pool.stop(self._job, quiet=True)
 
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
@@ -212,8 +196,8 @@ class SchedulePanel:
             return
         self._bar.value = round(100.0 * (progress.part_done if self._running else 1.0), 1)
         self._bar.animated = self._running
-        self._verdict.visible = not self._running and progress.at(None) is not None
-        units = UNITS[self._context.view().units]
+        self._results.visible = not self._running and progress.at(None) is not None
+        units = self._context.units
         seen = (id(progress), len(progress.cells), len(progress.fixed_powers), units)
         if seen != self._drawn:
             self._drawn = seen
@@ -242,7 +226,7 @@ class SchedulePanel:
                 pass
         self._context.wake()
 
-    def _judge(self, event: viser.GuiEvent[Any]) -> None:
+    def _result_clicked(self, event: viser.GuiEvent[Any]) -> None:
         progress = self._progress
         if progress is None:
             return

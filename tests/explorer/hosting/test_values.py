@@ -17,10 +17,10 @@ from viser.infra import Message
 from explorer.app import App
 from explorer.hosting.limits import LONGEST_TEXT, accepted_value
 from explorer.hosting.viser_compat import _Callbacks, quick
+from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import view_from
-from explorer.state import OPENING, ViewState
 from tests.tools.soak.visitor import Visitor
 
 DIGITS = "9" * 400

@@ -9,9 +9,9 @@ from functools import cache
 
 import numpy as np
 
+from explorer.model.inputs import OPENING, Inputs, ViewState
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.picture import flown_twist
-from explorer.state import OPENING, Inputs, ViewState
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

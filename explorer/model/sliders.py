@@ -1,0 +1,243 @@
+"""The sliders of the design: what each can hold, in SI and in aviation units, and the power sensitivity of each.
+
+Power sensitivity is the change of total power for one natural step of a slider. Twist sliders: exact. The adjoint gives
+∂P/∂θ(r) with trim and inflow following, and the concept that belongs to the law gives ∂θ_tw(r)/∂p, so that one step
+costs (∂P/∂θ · ∂θ_tw/∂p) × step. Flight sliders: central differences of two trims each, begun from the present one. They
+take some 50 ms, so they belong after the frame.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from explorer.model.inputs import LAWS, Inputs, mass_range
+from explorer.model.pinned import FLIGHT
+from explorer.model.units import AVIATION, FOOT, FOOT_PER_MINUTE, POUND, SI, Unit, Units, number
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.aircraft import FASTEST_CLIMB, Aircraft
+from rotor.files.rotor_file import shipped_aircraft
+from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.trim.adjoint import PitchGradient
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+_CONCEPTS: dict[str, Concept] = {
+    "builtin": CONCEPTS["two-segment-free"],
+    "linear": CONCEPTS["linear"],
+    "quadratic": CONCEPTS["quadratic"],
+    "two": CONCEPTS["two-segment-free"],
+    "three": CONCEPTS["three-segment-free"],
+}
+"""By law of the page: the concept with the same parameters in the same order as the law's inputs."""
+_FLAT = 50.0
+"""Power changes per step below this [W] are no effect: less than the last digit shown."""
+_FRACTION = 0.1
+"""Part of a step by which flight conditions are moved for the differences."""
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A slider as it is shown."""
+
+    label: str
+    low: float
+    high: float
+    step: float
+    natural: float = 1.0
+    """The step that an engineer thinks in, in the unit of the field of `Inputs`."""
+    per: str = "/°"
+    """What follows the power for a natural step."""
+
+    @property
+    def digits(self) -> int:
+        """Decimals that tell two steps apart."""
+        return max(0, -math.floor(math.log10(self.step)))
+
+
+def _weight(aircraft: Aircraft, units: Units) -> Slider:
+    """About the aircraft's reference mass: in tonnes round numbers, in pounds those that reach as far."""
+    low, high, step = mass_range(aircraft)
+    if units is not AVIATION:
+        return Slider("Mass [t]", low, high, step, 0.1, "/100 kg")
+    coarse = 100.0 if high > 4.0 else 10.0
+    ends = (math.floor(POUND.of(1e3 * low) / coarse), math.ceil(POUND.of(1e3 * high) / coarse))
+    return Slider("Mass [lb]", coarse * ends[0], coarse * ends[1], coarse, 0.2 * POUND.size, "/200 lb")
+
+
+def _rate(label: str) -> Slider:
+    return Slider(label, -30.0, 10.0, 0.1)
+
+
+def _division(label: str) -> Slider:
+    return Slider(label, 0.2, 0.95, 0.01, 0.1, "/0.1 R")
+
+
+_FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
+SLIDERS: dict[str, Slider] = {
+    "built_inner": Slider("Δ inboard [°/R]", -20.0, 20.0, 0.1),
+    "built_outer": Slider("Δ outboard [°/R]", -20.0, 20.0, 0.1),
+    "built_division": _division("Break point [r/R]"),
+    "linear": _rate("Rate [°/R]"),
+    "quadratic_curvature": Slider("Curvature [°/R²]", -40.0, 40.0, 0.5),
+    "quadratic_difference": _rate("Tip−root [°]"),
+    "two_inner": _rate("Inboard [°/R]"),
+    "two_outer": _rate("Outboard [°/R]"),
+    "two_division": _division("Break point [r/R]"),
+    "three_inner": _rate("Inboard [°/R]"),
+    "three_middle": _rate("Middle [°/R]"),
+    "three_outer": _rate("Outboard [°/R]"),
+    "three_first": _division("Break 1 [r/R]"),
+    "three_second": _division("Break 2 [r/R]"),
+    "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
+    "mass_t": _weight(_FIRST, SI),
+    "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
+    "climb_m_s": Slider("Climb [m/s]", -FASTEST_CLIMB, FASTEST_CLIMB, 0.1, 1.0, "/(m/s)"),
+}
+"""By the field of `Inputs`, in SI; the weight is the first rotor's."""
+_AVIATION = {
+    "mass_t": _weight(_FIRST, AVIATION),
+    "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT.size, "/500 ft"),
+    "climb_m_s": Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT_PER_MINUTE.size, "/(100 ft/min)"),
+}
+_SIZES = {"mass_t": 1e3, "altitude_m": 1.0, "climb_m_s": 1.0}
+"""What one of the input is in SI."""
+
+
+def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
+    """As it is shown in these units, for this aircraft."""
+    if name == "mass_t":
+        return _weight(aircraft, units)
+    if name == "advance_ratio" and aircraft.isolated:
+        return replace(SLIDERS[name], high=0.75)
+    return _AVIATION[name] if units is AVIATION and name in _AVIATION else SLIDERS[name]
+
+
+def shown(name: str, value: float, units: Units) -> float:
+    """The place of an input on its slider."""
+    if name not in _SIZES:
+        return value
+    return _unit(name, units).of(value * _SIZES[name])
+
+
+def meant(name: str, place: float, units: Units) -> float:
+    """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
+    if name not in _SIZES:
+        return place
+    return round(place * _unit(name, units).size / _SIZES[name], 9)
+
+
+def _unit(name: str, units: Units) -> Unit:
+    return {"mass_t": units.mass, "altitude_m": units.altitude, "climb_m_s": units.climb}[name]
+
+
+def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
+    """What the slider can hold in whichever units are shown."""
+    one, other = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
+    if name not in _AVIATION:
+        return one.low, one.high
+    low, high = meant(name, other.low, AVIATION), meant(name, other.high, AVIATION)
+    return min(one.low, low), max(one.high, high)
+
+
+@dataclass(frozen=True)
+class SliderSensitivity:
+    """Power sensitivity of one slider at its present position."""
+
+    name: str
+    """The field of `Inputs`."""
+    slope: float
+    """∂P/∂(input) of total power [W per unit of the input]."""
+
+    def watts(self, units: Units = SI) -> float:
+        """Change of total power for one natural step up [W]."""
+        return self.slope * slider(self.name, units).natural
+
+    @property
+    def saving_direction(self) -> int:
+        """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes less than 50 W."""
+        watts = self.watts()
+        return 0 if abs(watts) < _FLAT else -1 if watts > 0.0 else 1
+
+    def value_text(self, units: Units = SI) -> str:
+        """The change of power for one step up, signed, one decimal: `−2.6`."""
+        return number(units.power[0].of(self.watts(units)), 1, sign=True)
+
+    def unit_text(self, units: Units = SI) -> str:
+        """What belongs behind the number: `kW/°`, `kW/0.1 R`, `hp/200 lb`."""
+        return units.power[0].symbol + slider(self.name, units).per
+
+    def text(self, units: Units = SI) -> str:
+        """Number and unit, or that a step changes nothing: `−2.6 kW/0.1 R`, `no effect`."""
+        return f"{self.value_text(units)} {self.unit_text(units)}" if self.saving_direction else "no effect"
+
+
+def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, SliderSensitivity]:
+    """Exact sensitivity of each slider of the present twist law, in the order of the page; empty without sliders.
+
+    `gradient`: of the solution of these inputs.
+    """
+    concept = _CONCEPTS.get(inputs.law)
+    if concept is None:
+        return {}
+    names = LAWS[inputs.law].inputs
+    values = [
+        parameter.from_shown(getattr(inputs, name)) for parameter, name in zip(concept.parameters, names, strict=True)
+    ]
+    by_parameter = gradient.along(concept.slopes(values, gradient.r))
+    return {
+        name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0))
+        for name, parameter, slope in zip(names, concept.parameters, by_parameter, strict=True)
+    }
+
+
+def flight_sensitivities(
+    solution: Solution, superseded: Callable[[], bool] = lambda: False
+) -> dict[str, SliderSensitivity]:
+    """Sensitivity of the flight's sliders by central differences of a tenth of a step.
+
+    One-sided where one neighbour does not trim or lies outside the permitted range; a slider without a trimmed
+    neighbour is left out, and so is the advance ratio in hover, which another model computes. `superseded` is asked
+    before every trim; once it says yes the sliders so far are returned. On a test stand only the advance ratio counts.
+    """
+    sensitivities: dict[str, SliderSensitivity] = {}
+    tested = solution.design.condition.stand is not None
+    for name in FLIGHT[:1] if tested else FLIGHT:
+        if name == "advance_ratio" and solution.design.hovering:
+            continue
+        if name == "climb_m_s" and not solution.design.models.disk_axial_flow:
+            continue
+        points = [(0.0, solution.power.total)]
+        for direction in (-1.0, 1.0):
+            if superseded():
+                return sensitivities
+            step = direction * _FRACTION * SLIDERS[name].natural
+            moved = _moved(solution, name, step)
+            if moved is not None:
+                points.append((step, moved))
+        steps, powers = zip(*sorted(points), strict=True)
+        if len(points) > 1:
+            sensitivities[name] = SliderSensitivity(name, float((powers[-1] - powers[0]) / (steps[-1] - steps[0])))
+    return sensitivities
+
+
+def _moved(solution: Solution, name: str, step: float) -> float | None:
+    """Total power [W] with one flight input moved; None where there is no trim or no such condition."""
+    condition = solution.design.condition
+    try:
+        match name:
+            case "advance_ratio":
+                if condition.advance_ratio + step <= 0.0:
+                    return None  # Hover is another model.
+                moved = replace(condition, advance_ratio=condition.advance_ratio + step)
+            case "mass_t":
+                moved = replace(condition, mass=condition.mass + 1e3 * step)
+            case "climb_m_s":
+                moved = replace(condition, climb_speed=condition.climb_speed + step)
+            case _:
+                moved = replace(condition, altitude=condition.altitude + step)
+    except ValueError:
+        return None
+    answer = solve(replace(solution.design, condition=moved), solution)
+    return answer.power.total if answer.converged and np.isfinite(answer.power.total) else None

@@ -1,0 +1,286 @@
+"""The test stand of the page: what is given in place of weight and drag; and what was measured of a rotor and where."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+from rotor.design.active_twist import Harmonic
+from rotor.design.aircraft import Aircraft
+from rotor.design.design import Design
+from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.validation import inflow
+from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, measured_curves
+from rotor.validation.compare import design_at
+from rotor.validation.flown import MeasuredPower, measured_powers
+from rotor.validation.measured import sets_of
+
+TRIM_TITLES: dict[str, str] = {
+    "flight": "Flight",
+    "wind-tunnel": "Test stand: wind tunnel",
+    "free-rotor": "Test stand: free rotor",
+    "controls": "Test stand: controls",
+}
+"""The menu: flight, and the trims of a test stand."""
+LOAD_TITLES = {"ct_over_sigma": "Loading CT/σ", "thrust_n": "Thrust", "collective_deg": "Collective"}
+"""What the rotor is given, by key of a record."""
+_ROUND = 9
+"""Decimals of angles that were radians."""
+
+
+@dataclass(frozen=True)
+class StandInputs:
+    """A test as the page holds it: degrees, and None where the standard atmosphere holds."""
+
+    trim: StandTrim = "wind-tunnel"
+    load: str = "ct_over_sigma"
+    """Which of `LOAD_KEYS` is given."""
+    value: float = 0.07
+    """Its value."""
+    shaft_tilt_deg: float | None = None
+    """Positive forward; None is 0. Of a free rotor it is found, and this is only where the search begins."""
+    cyclic_1c_deg: float = 0.0
+    cyclic_1s_deg: float = 0.0
+    flapping: Flapping = "trimmed"
+    hub_roll_nm: float = 0.0
+    hub_pitch_nm: float = 0.0
+    tip_mach: float | None = None
+    density: float | None = None
+
+    def stand(self) -> Stand:
+        """The inputs of the trim; ValueError with one sentence for values that no test has."""
+        free, moments = self.flapping == "free", self.flapping == "hub-moments"
+        record = {
+            self.load: self.value,
+            "flapping": self.flapping,
+            "cyclic_1c_deg": self.cyclic_1c_deg if free else 0.0,
+            "cyclic_1s_deg": self.cyclic_1s_deg if free else 0.0,
+            "hub_roll_nm": self.hub_roll_nm if moments else 0.0,
+            "hub_pitch_nm": self.hub_pitch_nm if moments else 0.0,
+            "shaft_tilt_deg": self.shaft_tilt_deg,
+            "tip_mach": self.tip_mach,
+            "density_kg_m3": self.density,
+        }
+        return read_stand({key: value for key, value in record.items() if value is not None}, self.trim)
+
+    def with_trim(self, trim: StandTrim, collective_deg: float | None = None) -> "StandInputs":
+        """The same test with another trim: given controls need a collective and free flapping."""
+        if trim != "controls":
+            return replace(self, trim=trim, flapping="trimmed" if trim == "wind-tunnel" else "free")
+        changed = replace(self, trim=trim, flapping="free")
+        if self.load == "collective_deg":
+            return changed
+        return replace(changed, load="collective_deg", value=8.0 if collective_deg is None else collective_deg)
+
+
+def stand_of(design: Design) -> StandInputs | None:
+    """The test of a design; None in flight."""
+    stand = design.condition.stand
+    if stand is None:
+        return None
+    record = stand.record()
+    load = next(key for key in LOAD_KEYS if key in record)
+
+    def degrees(name: str) -> float:
+        return round(float(record.get(name, 0.0)), _ROUND)
+
+    tilt = None if stand.shaft_tilt is None else degrees("shaft_tilt_deg")
+    return StandInputs(
+        trim=next(trim for trim in ("wind-tunnel", "free-rotor", "controls") if trim == design.models.trim),
+        load=load,
+        value=degrees(load) if load.endswith("_deg") else record[load],
+        shaft_tilt_deg=tilt,
+        cyclic_1c_deg=degrees("cyclic_1c_deg"),
+        cyclic_1s_deg=degrees("cyclic_1s_deg"),
+        flapping=stand.flapping,
+        hub_roll_nm=stand.hub_roll,
+        hub_pitch_nm=stand.hub_pitch,
+        tip_mach=stand.tip_mach,
+        density=stand.density,
+    )
+
+
+def load_of(solution: Solution, load: str) -> float:
+    """What a solution has of one of `LOAD_KEYS`, rounded to what a slider shows."""
+    match load:
+        case "ct_over_sigma":
+            return round(solution.ct_over_sigma, 4)
+        case "thrust_n":
+            thrust = solution.ct * solution.design.thrust_unit
+            return round(thrust, 4 - math.ceil(math.log10(max(thrust, 1.0))))
+        case _:
+            return round(math.degrees(solution.controls.collective), 2)
+
+
+def stand_like(solution: Solution) -> StandInputs:
+    """The wind tunnel in which the rotor does what it does in this flight."""
+    design = solution.design
+    return StandInputs(
+        value=load_of(solution, "ct_over_sigma"),
+        shaft_tilt_deg=None if design.hovering else round(math.degrees(solution.controls.shaft_tilt), 2),
+        tip_mach=round(design.tip_mach, 4),
+        density=round(design.condition.density, 4),
+    )
+
+
+@cache
+def flight_powers(rotor: str) -> tuple[MeasuredPower, ...]:
+    """The powers of a shipped rotor measured in flight, by its name; none for a rotor without."""
+    return tuple(one for one in measured_powers() if one.rotor == rotor)
+
+
+@cache
+def airload_cases(rotor: str) -> tuple[FlownCase, ...]:
+    """The conditions in which airloads of a shipped rotor were measured."""
+    return tuple(case for case in CASES if case.rotor == rotor)
+
+
+@cache
+def airload_curves(rotor: str) -> tuple[MeasuredCurve, ...]:
+    """All that was measured over the azimuth on a shipped rotor."""
+    return tuple(curve for curve in measured_curves() if curve.case.rotor == rotor) if airload_cases(rotor) else ()
+
+
+def as_measured(design: Design) -> bool:
+    """Whether a design has the blade of the tests: its twist as built and none driven."""
+    return design.twist == design.rotor.builtin_twist and design.active_twist is None
+
+
+@cache
+def _design_of(case: FlownCase) -> Design:
+    return case.design()
+
+
+def is_at(case: FlownCase, design: Design) -> bool:
+    """Whether a design is in this condition, whatever its blade."""
+    test = _design_of(case)
+    return (test.condition, test.models.trim, test.pitch_per_rev) == (
+        design.condition, design.models.trim, design.pitch_per_rev,
+    )  # fmt: skip
+
+
+def nearest_case(design: Design) -> FlownCase | None:
+    """The measured condition that is most like that of a design: the same, else that nearest in advance ratio.
+
+    None for a rotor without measured airloads.
+    """
+
+    def apart(case: FlownCase) -> tuple[bool, bool, float]:
+        test = _design_of(case)
+        mu = abs(test.condition.advance_ratio - design.condition.advance_ratio)
+        return not is_at(case, design), test.pitch_per_rev != design.pitch_per_rev, mu
+
+    return min(airload_cases(design.aircraft.key), key=apart, default=None)
+
+
+@dataclass(frozen=True)
+class MeasuredCondition:
+    """One measured point of a rotor, as the page can be set to it."""
+
+    test: str
+    """Title of the test in the menu."""
+    label: str
+    """The point in the menu."""
+    advance_ratio: float
+    stand: StandInputs | None
+    """None: flown, with the mass and the altitude below."""
+    mass: float = 0.0
+    """[kg]"""
+    altitude: float = 0.0
+    """[m]"""
+    pitch_per_rev: tuple[Harmonic, ...] = ()
+    first: bool = False
+    """Whether a rotor begins with it; where none says so, with the middle one of the first test."""
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What it sets of the page's inputs, by name."""
+        shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
+        if self.stand is not None:
+            return shared
+        return {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude, "climb_m_s": 0.0}
+
+
+@cache
+def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
+    """The measured points of a shipped rotor, by its name; none for a rotor that was not measured."""
+    conditions: list[MeasuredCondition] = []
+    for measured in sets_of(rotor):
+        if measured.against is not None:
+            continue  # Its conditions are those of another set.
+        names = [name for name in measured.given if name != "tip_mach"]
+        several = [name for name in names if len({point[name] for point in measured.points}) > 1]
+        for number, point in enumerate(measured.points, 1):
+            words = ", ".join(f"{_SHORT[name]} {point[name]:.4g}" for name in several)
+            title = _TITLES[measured.name]
+            conditions.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
+    if rotor == inflow.ROTOR:
+        for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
+            solidity = make_design(rotor=rotor).rotor.solidity
+            stand = StandInputs(value=ct / solidity, shaft_tilt_deg=tilt)
+            conditions.append(
+                MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
+            )
+    powers = flight_powers(rotor)
+    flown = {one.case for one in powers}
+    conditions.extend(
+        MeasuredCondition("Flight", one.title, one.mu, None, mass=one.mass, altitude=one.altitude) for one in powers
+    )
+    for number, case in enumerate(one for one in airload_cases(rotor) if one.name not in flown):
+        title, label = _CASES.get(case.name, (case.test, case.name))
+        conditions.append(replace(_condition(title, label, case.design()), first=number == 0))
+    return tuple(conditions)
+
+
+def _condition(test: str, label: str, design: Design) -> MeasuredCondition:
+    here = design.condition
+    return MeasuredCondition(
+        test, label, here.advance_ratio, stand_of(design), here.mass, here.altitude, design.pitch_per_rev
+    )
+
+
+def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
+    """The measured condition of a flight or of airloads, by the name of the case."""
+    label = _CASES.get(case, ("", f"{case}:"))[1]
+    return next((one for one in measured_conditions(rotor) if one.label.startswith(label)), None)
+
+
+def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
+    """The condition that a test begins with."""
+    return next((one for one in conditions if one.first), conditions[len(conditions) // 2])
+
+
+def first_condition(rotor: str) -> MeasuredCondition | None:
+    """The condition that a measured rotor begins with: the middle one of its first test."""
+    conditions = measured_conditions(rotor)
+    first = [one for one in conditions if one.test == conditions[0].test]
+    return opening(first) if first else None
+
+
+def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
+    """Advance ratio and test that a rotor without an airframe begins with."""
+    condition = first_condition(aircraft.key)
+    if condition is None or condition.stand is None:
+        return 0.0, StandInputs()
+    return condition.advance_ratio, condition.stand
+
+
+_SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
+_TITLES = {
+    "xv15-hover": "Hover (OARF)",
+    "xv15-forward-15deg": "Tunnel, 15° forward",
+    "xv15-forward-0deg": "Tunnel, shaft upright",
+    "xv15-forward-figure-18": "Tunnel, figure 18",
+    "pca2": "Tunnel, no torque",
+    "knight-hefner-3": "Hover (TN 626)",
+    "knight-hefner-4": "Hover (TN 626)",
+    "castles-gray": "Hover (TN 2474)",
+    "castles-gray-twisted": "Hover (TN 2474)",
+    "uh60a-hover": "Hover (digitised)",
+}
+"""Short titles of the sets, for a menu."""
+_CASES = {"BL": ("HART II", "Baseline"), "MN": ("HART II", "Minimum noise: 3/rev pitch")}
+"""Title of the test and of the point in the menu, by the name of a case of airloads."""

@@ -1,0 +1,285 @@
+"""The widgets of Actuate, the table of actuators and the chart of required against attainable twist."""
+
+import math
+from collections.abc import Callable, Mapping
+from html import escape
+from typing import Any
+
+import numpy as np
+import viser
+
+from explorer.charts.plots import Plot, Range, held_range
+from explorer.model.units import number
+from explorer.tabs.actuator import actuator_words as words
+from explorer.tabs.actuator.actuator_inputs import (
+    BLADES,
+    CONCEPTS,
+    HARMONICS,
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    Question,
+    drive_of,
+)
+from explorer.tabs.actuator.actuator_tasks import Outcome
+from explorer.tabs.actuator.electrodes import ElectrodesPanel
+from explorer.tabs.live_charts import Chart, line, points
+from explorer.text.glossary import hint
+from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import twist_comparison
+from rotor.actuator.verdict import Verdict, verdict_sentence
+from rotor.optimisation.concepts import find_concept
+
+
+def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> str:
+    """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
+    rows = "".join(_row(id, outcomes.get(id), id == question.actuator) for id in actuators())
+    titles = ("Actuator", "avail.<br>°", "derated<br>°", "kg", "net<br>kW", "verdict")
+    head = f"<tr>{''.join(f'<th>{title}</th>' for title in titles)}</tr>"
+    first, second = question.pair.advance_ratios
+    return (
+        f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
+        f'<div class="rx-dim rx-small">µ {first:g} ↔ {second:g}, {escape(question.host.label)}, half the time each. '
+        "▲: some data not verified. Hover over a verdict for the full text.</div></div>"
+    )
+
+
+def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
+    actuator = find_actuator(id)
+    care = ' <span title="some data not verified" class="rxa-bad">▲</span>' if actuator.provenance.recalled else ""
+    cells = '<td class="rx-num rx-dim" colspan="5">computing…</td>'
+    if isinstance(outcome, str):
+        cells = f'<td class="rx-num rxa-bad" colspan="5" title="{escape(outcome)}">cannot be built</td>'
+    elif outcome is not None:
+        words, kind = short_verdict(outcome)
+        numbers = (
+            number(math.degrees(outcome.attainable), 1),
+            number(math.degrees(outcome.attainable_derated), 1),
+            number(outcome.installed.masses.aircraft),
+            number(1e-3 * outcome.net_saving, 1, sign=True),
+        )
+        why = escape(verdict_sentence(outcome))
+        cells = "".join(f'<td class="rx-num">{one}</td>' for one in numbers)
+        cells += f'<td class="rx-num {kind}" title="{why}">{words}</td>'
+    look = ' class="rxa-chosen"' if chosen else ""
+    return f'<tr{look}><td title="{escape(actuator.name)}">{escape(short_name(id))}{care}</td>{cells}</tr>'
+
+
+def short_verdict(verdict: Verdict) -> tuple[str, str]:
+    """A few words, and the class that colours them."""
+    if verdict.pays:
+        return "net benefit", "rx-less"
+    if not verdict.feasible:
+        return "too weak", "rxa-bad"
+    if verdict.net_saving <= 0.0:
+        return "net cost", "rxa-bad"
+    return "cannot be built", "rxa-bad"
+
+
+def short_name(id: str) -> str:
+    return id.replace("_", " ")
+
+
+def actuator_titles() -> dict[str, str]:
+    """Of the menu, by id."""
+    return {id: f"{short_name(id)}: {_kind(actuator)}" for id, actuator in actuators().items()}
+
+
+def _kind(actuator: Actuator) -> str:
+    if isinstance(actuator, PiezoPly):
+        return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
+    return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
+
+
+_STATIONS = 61
+
+
+def reach_plot(
+    inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
+) -> Plot:
+    """Series: attainable, attainable as counted, required, used by the best twist within reach, now [°].
+
+    Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
+    """
+    r = np.linspace(root, 1.0, _STATIONS)
+    limit = installed.limit(r) - installed.limit(root)
+    now = inputs.change(installed, r) - inputs.change(installed, root)
+    none = np.full(_STATIONS, np.nan)
+    required, used = none, none
+    if verdict is not None:
+        curves = twist_comparison(verdict, _STATIONS)
+        required, used = curves.required, curves.attained
+        if required[np.argmax(np.abs(required))] < 0.0:
+            limit = -limit
+    series = tuple(np.degrees(values) for values in (limit, inputs.share * limit, required, used, now))
+    seen = np.concatenate([values[np.isfinite(values)] for values in series])
+    return Plot((r, *series), held_range(previous, min(0.0, float(seen.min())), max(0.2, float(seen.max()))))
+
+
+def fly_titles(advance_ratios: tuple[float, float]) -> tuple[str, ...]:
+    """The buttons that fly: without voltage, and at each of two conditions."""
+    return ("At rest", *("Hover" if mu == 0.0 else f"Cruise µ {mu:.2f}" for mu in advance_ratios))
+
+
+_USED = "#2f9e44"
+
+
+class ActuatorControls:
+    """Widgets and the charts and texts between them, from top to bottom."""
+
+    def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None]) -> None:
+        """`moved`: something changed, by a hand or not."""
+        self._gui, self._moved = gui, moved
+        self._handles: dict[str, Any] = {}
+        """By field of `ActuatorInputs`."""
+        self._menus: dict[str, dict[str, Any]] = {}
+        """What each title of a menu means."""
+        start = ActuatorInputs()
+        self.verdict = gui.add_html("")
+        self.shown = self._watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
+        self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
+        self.now = gui.add_html("")
+        self._drives = [
+            self._watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")))
+            for _ in range(MOST_SEGMENTS)
+        ]
+        self.bar = gui.add_html("")
+        self.fly_buttons = gui.add_button_group("Fly at", fly_titles(start.advance_ratios), hint=hint("fly"))
+        self.numbers = gui.add_html("")
+        with gui.add_folder("Actuator and placement"):
+            self._menu("actuator", "Actuator", {title: id for id, title in actuator_titles().items()})
+            self._slider("plies", "Plies per side", 1, 8, 1)
+            self._range("span", "Span [R]", 0.14, 1.0, 0.05)
+            self._range("chord", "Chord [c]", 0.0, 0.95, 0.05, "chord_range")
+            self._menu("blade", "Blade type", BLADES, "blade_type")
+            self._slider("stiffness", "New blade GJ ×", 0.2, 1.5, 0.05)
+            self._handles["crossed"] = self._watched(gui.add_checkbox("Fibres at −45°", False, hint=hint("crossed")))
+            self._slider("counted", "Derating [%]", 40.0, 100.0, 1.0, "derating")
+        with gui.add_folder("Mission conditions"):
+            titles = {find_concept(name).title: name for name in CONCEPTS}
+            self._menu("concept", "Concept", titles, "actuator_concept")
+            self._range("advance_ratios", "µ from, to", 0.0, 0.4, 0.02, "pair")
+        self.chart = Chart(
+            gui,
+            "Δtwist [°]",
+            (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
+            # Attainable, the same as counted, required, used, now.
+            (line(BASELINE, 1.5), line(BASELINE, 1.5, (5, 3)), line(NOW), line(_USED, 1.5), line(THIS)),
+            (0.1, 1.02),
+        )
+        self.segments = gui.add_html("")
+        self.section = gui.add_html("")
+        self.limits = gui.add_html("")
+        with gui.add_folder("All actuators on this blade"):
+            self.table = gui.add_html("")
+        self.electrodes = ElectrodesPanel(gui)
+        with gui.add_folder("Harmonic active twist"):
+            gui.add_html(words.unmeasured())
+            self._menu("per_rev", "Harmonic", HARMONICS, "harmonic")
+            self._slider("amplitude", "Amplitude [%]", 0.0, 100.0, 1.0)
+            self._slider("phase", "Phase [°]", 0.0, 360.0, 5.0)
+            self.swept = gui.add_html("")
+            self.over_phase = Chart(
+                gui,
+                "ΔkW over phase [°]",
+                (("full", BASELINE, True), ("as set", NOW), ("now", THIS)),
+                (line(BASELINE, 1.5, (5, 3)), line(NOW), points(THIS, 8.0)),
+                (0.0, 360.0),
+            )
+            self.over_amplitude = Chart(
+                gui,
+                "ΔkW over amplitude [%]",
+                (("best", BASELINE, True), ("as set", NOW), ("limit", LIMIT)),
+                (line(BASELINE, 1.5, (5, 3)), line(NOW), points(LIMIT, 9.0), points(THIS, 8.0)),
+                (0.0, 100.0),
+            )
+
+    def inputs(self) -> ActuatorInputs:
+        """What the widgets mean now."""
+        values = {name: _read(handle.value) for name, handle in self._handles.items()}
+        values |= {name: menu[self._handles[name].value] for name, menu in self._menus.items()}
+        drives = tuple(float(handle.value) for handle in self._drives)
+        return ActuatorInputs(**values, drives=drives, shown=bool(self.shown.value))
+
+    def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
+        """Which widgets there are, and what they are called."""
+        count = len(installed.shapes)
+        word = "Voltage" if isinstance(installed.actuator, PiezoPly) else "Drive"
+        for k, handle in enumerate(self._drives):
+            handle.visible = k < count
+            handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
+        self._handles["plies"].label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies per side"
+        passive = isinstance(installed.actuator, ExtensionTwist)
+        ply, turning = isinstance(installed.actuator, PiezoPly), inputs.per_rev > 0
+        seen = {
+            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply, "magnified": inputs.shown,
+            "stiffness": inputs.blade == "new", "amplitude": turning, "phase": turning,
+        }  # fmt: skip
+        for name, visible in seen.items():
+            self._handles[name].visible = visible
+        self._handles["span"].label = "Span {:.2f}–{:.2f}".format(*inputs.span)
+        self._handles["chord"].label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
+        self._handles["advance_ratios"].label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
+        if self.fly_buttons.options != (titles := fly_titles(inputs.advance_ratios)):
+            self.fly_buttons.options = titles
+        self.swept.visible = turning
+        for chart in (self.over_phase, self.over_amplitude):
+            chart.set_visible(turning)
+
+    def reset(self) -> None:
+        """Nothing driven."""
+        self._handles["per_rev"].value = next(iter(HARMONICS))
+        self.drive((0.0,) * MOST_SEGMENTS)
+
+    def drive_as(
+        self,
+        installed: InstalledActuator,
+        swings: tuple[tuple[float, ...], ...],
+        voltages: tuple[tuple[float, float], ...],
+        which: int,
+    ) -> None:
+        """Sliders as the verdict has them at one of its conditions."""
+        actuator = find_actuator(installed.actuator.id)
+        if isinstance(actuator, PiezoPly):
+            unit = actuator.voltage_swing
+            made = [pair[which] / unit for pair in voltages]
+            wanted = [swing[which] for swing in zip(*swings, strict=True)]
+            # Fibres laid the other way where the verdict's voltages oppose its twists.
+            opposed = installed.host.kind == "retrofit" and sum(a * b for a, b in zip(made, wanted, strict=True)) < 0.0
+            self._handles["crossed"].value = opposed
+        else:
+            made = list(swings[which])
+        drives = [drive_of(actuator, swing) for swing in made]
+        self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
+
+    def drive(self, drives: tuple[float, ...]) -> None:
+        """Move the voltage sliders."""
+        for handle, drive in zip(self._drives, drives, strict=True):
+            handle.value = round(drive)
+        self._moved(False)
+
+    def _slider(self, name: str, label: str, low: float, high: float, step: float, entry: str = "") -> None:
+        """`entry`: of the glossary, where it has another name."""
+        start = getattr(ActuatorInputs(), name)
+        handle = self._gui.add_slider(label, low, high, step, start, hint=hint(entry or name))
+        self._handles[name] = self._watched(handle)
+
+    def _range(self, name: str, label: str, low: float, high: float, least: float, entry: str = "") -> None:
+        start = getattr(ActuatorInputs(), name)
+        handle = self._gui.add_multi_slider(label, low, high, 0.01, start, min_range=least, hint=hint(entry or name))
+        self._handles[name] = self._watched(handle)
+
+    def _menu(self, name: str, label: str, meanings: Mapping[str, Any], entry: str = "") -> None:
+        self._menus[name] = dict(meanings)
+        handle = self._gui.add_dropdown(label, tuple(meanings), hint=hint(entry or name))
+        self._handles[name] = self._watched(handle)
+
+    def _watched(self, handle: Any) -> Any:
+        handle.on_update(lambda event: self._moved(event.client is not None))
+        return handle
+
+
+def _read(value: Any) -> Any:
+    """Both ends of a range in their order; anything else as it is."""
+    return tuple(sorted(round(float(end), 4) for end in value)) if isinstance(value, tuple) else value

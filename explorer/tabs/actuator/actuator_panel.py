@@ -1,0 +1,167 @@
+"""The Actuator tab of one browser: its widgets, and what follows them."""
+
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from explorer.tabs.actuator import actuator_words as words
+from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
+from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers, VerdictTask, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
+from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
+from explorer.tabs.context import TabContext
+from explorer.workers import solver
+from rotor.actuator.harmonic import PowerMap
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.verdict import Verdict
+from rotor.design.design import Design
+from rotor.dynamics.structure import KNOWN_BLADE, check_blade
+from rotor.files.make_design import uh60a_rotor
+from rotor.trim.solution import Solution
+
+_STILL = 0.4
+"""How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
+_IDLE = 2.5
+"""How long the page must have been still before work is begun that nobody asked for [s]."""
+
+
+class ActuatorPanel:
+    """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
+
+    def __init__(self, context: TabContext) -> None:
+        self._context, client = context, context.client
+        self._touched = False
+        self._cut = CutScene(client.scene, context.bridge)
+        # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
+        self._verdicts = PoolAnswers(context.pool, 5, context.wake)
+        self._maps = PoolAnswers(context.pool, 3, context.wake)
+        self._verdict: Verdict | None = None
+        """The last one that was shown."""
+        self._undriven = solver.BaselineCache()
+        self._sent: dict[str, str] = {}
+        self._drawn: tuple[object, ...] | None = None
+        self._asked: Question | None = None
+        self._before: tuple[object, ...] = ()
+        self._controls = ActuatorControls(context.gui, self._moved)
+        self._controls.fly_buttons.on_click(self._fly_clicked)
+        self.shown = self._controls.shown
+        self.inputs = self._controls.inputs
+
+    def stop(self) -> None:
+        """The browser has left."""
+        self._verdicts.stop()
+        self._maps.stop()
+
+    def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
+        """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
+        try:
+            if design.aircraft.key != KNOWN_BLADE:
+                self._controls.arrange(inputs, inputs.installed(uh60a_rotor(design.preset)))
+            check_blade(design.aircraft)
+            installed = inputs.installed(design.rotor)
+            inputs.turning(installed, design.elastic)  # Resonance of a rigid trim is reported here.
+            question = question_of(inputs, design)
+        except ValueError as error:
+            self._cut.hide()
+            self._drawn = None
+            self.show_problem(str(error))
+            return
+        self._controls.arrange(inputs, installed)
+        alone = self._undriven.solve(design) if inputs.driven else None
+        self._draw(inputs, installed, design, psi, solution, alone or solution)
+        change = solution.power.total - alone.power.total if alone is not None and alone.converged else None
+        self._set("now", self._controls.now, words.now_panel(inputs, installed, change, solution))
+        self._show_sweep(inputs, design)
+        self._set("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
+        self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
+        self._set("bar", self._controls.bar, words.voltage_bar(installed.actuator))
+        self._asked = question
+        now = (inputs, design)
+        self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
+        self._before = now
+        self._show_verdict(inputs, installed, question, design.rotor.blade.root_cutout)
+
+    def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
+        task = sweep_task(inputs, design)
+        self._maps.ask(() if task is None else (task,), _STILL)
+        if not inputs.per_rev:
+            return
+        answer = self._maps.answer(task)
+        self._set("swept", self._controls.swept, words.sweep_panel(sweep_sentence(answer, inputs, design)))
+        for chart, plot in (
+            (self._controls.over_phase, phase_plot),
+            (self._controls.over_amplitude, amplitude_plot),
+        ):
+            chart.show(plot(answer, inputs, chart.y_range) if isinstance(answer, PowerMap) else None)
+
+    def show_problem(self, problem: str) -> None:
+        """There is no such design: the sentence in place of the verdict, all else as it was."""
+        self._set("verdict", self._controls.verdict, words.problem_panel(problem))
+
+    def reset(self) -> None:
+        """Nothing driven."""
+        self._controls.reset()
+
+    def _show_verdict(
+        self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float
+    ) -> None:
+        outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
+        outcome = outcomes[question.actuator]
+        verdict = outcome if isinstance(outcome, Verdict) else None
+        show, places = self._set, self._controls
+        show("verdict", places.verdict, words.verdict_panel(outcome, self._verdict))
+        show("numbers", places.numbers, words.fit_panel(inputs, installed, verdict))
+        show("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
+        show("limits", places.limits, words.limits_panel(verdict))
+        show("table", places.table, table_panel(outcomes, question))
+        places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
+        self._verdict = verdict or self._verdict
+
+    def _draw(
+        self,
+        inputs: ActuatorInputs,
+        installed: InstalledActuator,
+        design: Design,
+        psi: float,
+        solution: Solution,
+        alone: Solution,
+    ) -> None:
+        if not inputs.shown:
+            self._cut.hide()
+            self._drawn = None
+            return
+        turning = inputs.per_rev > 0 or design.elastic
+        frame = (inputs, solution.design, psi if turning else 0.0)
+        if frame == self._drawn:
+            return
+        self._drawn = frame
+        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
+        with self._context.client.atomic():
+            self._cut.show(picture)
+        self._context.client.flush()
+
+    def _set(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
+        if self._sent.get(name) != content:
+            self._sent[name] = content
+            handle.content = content
+
+    def _fly_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        self._touched = True
+        which = event.target.options.index(event.target.value) - 1
+        if which < 0:
+            self._controls.drive((0.0,) * MOST_SEGMENTS)
+            return
+        verdict = None if self._asked is None else self._verdicts.answer(VerdictTask(self._asked))
+        if not isinstance(verdict, Verdict):
+            self._context.wake()
+            self._context.notify("No verdict yet", "Its voltages are being computed.")
+            return
+        self._controls.drive_as(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
+        mu = verdict.baseline.pair.advance_ratios[which]
+        self._context.set_inputs(replace(self._context.inputs(), advance_ratio=mu))
+
+    def _moved(self, by_hand: bool) -> None:
+        self._touched = self._touched or by_hand
+        self._context.wake()

@@ -1,0 +1,182 @@
+"""Verdicts and power maps of Actuate as tasks of the worker processes; an answer that is known serves every page."""
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
+from rotor.actuator.catalogue import actuators, find_actuator
+from rotor.actuator.harmonic import PowerMap, power_map
+from rotor.actuator.verdict import Verdict, judge
+from rotor.design.design import Design
+from rotor.optimisation.concepts import find_concept
+
+Outcome = Verdict | str
+"""A verdict, or the sentence that says why there is none."""
+
+
+@dataclass(frozen=True)
+class VerdictTask:
+    """One actuator judged. It pickles."""
+
+    question: Question
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Outcome:
+        """The verdict without its fields over the disk, of which the page shows none."""
+        del tell, stop  # A second at most.
+        outcome = answer(self.question)
+        return outcome if isinstance(outcome, str) else lean(outcome)
+
+
+def answer(question: Question) -> Outcome:
+    """The verdict on the actuator asked about."""
+    try:
+        return judge(
+            find_actuator(question.actuator),
+            question.pair,
+            find_concept(question.concept),
+            question.placement,
+            question.host,
+            counted=question.share,
+        )
+    except (ValueError, RuntimeError) as error:
+        return str(error)
+
+
+def lean(verdict: Verdict) -> Verdict:
+    """The same verdict, its trims left behind: a few kilobytes for three megabytes."""
+    base = verdict.baseline
+    first, second = (replace(best, solutions=()) for best in base.best)
+    fixed = replace(base.fixed, solutions=())
+    base = replace(base, best=(first, second), fixed=fixed)
+    resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
+    return replace(verdict, baseline=base, resting=resting, optimum=optimum)
+
+
+def verdict_tasks(question: Question) -> tuple[VerdictTask, ...]:
+    """The chosen actuator first, then all others."""
+    others = (id for id in actuators() if id != question.actuator)
+    return tuple(VerdictTask(replace(question, actuator=id)) for id in (question.actuator, *others))
+
+
+@dataclass(frozen=True)
+class SweepTask:
+    """The map of one design and actuator. It pickles."""
+
+    design: Design
+    """Without the harmonic; a steady voltage has twisted it already."""
+    inputs: ActuatorInputs
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PowerMap | str:
+        """The map, or the sentence that says why there is none."""
+        del tell, stop  # It takes a second.
+        try:
+            made = self.inputs.turning(self.inputs.installed(self.design.rotor), self.design.elastic)
+            if made is None or not made.amplitude:
+                return f"This actuator cannot respond at {self.inputs.per_rev}/rev."
+            return power_map(self.design, made)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
+
+
+def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
+    """What must be trimmed, whatever amplitude and phase are set; None with the harmonic off and in hover."""
+    if not inputs.per_rev or design.hovering:
+        return None
+    plain = ActuatorInputs()
+    steady = replace(inputs, amplitude=0.0, phase=0.0, shown=False, magnified=plain.magnified)
+    steady = replace(steady, advance_ratios=plain.advance_ratios)
+    return SweepTask(replace(steady.apply(design), active_twist=None), steady)
+
+
+_KEPT = 64
+_STOPPED = "This was stopped: change any setting to try again."
+_lock = threading.Lock()
+_known: OrderedDict[Hashable, Any] = OrderedDict()
+
+
+class PoolTask(Hashable, Protocol):
+    """A task of the pool that can be told from others."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Any: ...
+
+
+class PoolAnswers:
+    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
+
+    def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None]) -> None:
+        """`answered` is called after every answer, on a thread of the pool."""
+        self._pool, self._urgency, self._answered = pool, urgency, answered
+        self._tasks: tuple[PoolTask, ...] = ()
+        self._delay = 0.0
+        self._failures: dict[PoolTask, str] = {}
+        self._job: Job | None = None
+        self._running = self._stopped = False
+        self._timer: threading.Timer | None = None
+        self._lock = threading.RLock()
+
+    def ask(self, tasks: tuple[PoolTask, ...], delay: float, moved: bool = True) -> None:
+        """Have these answered, the first one first, once nothing has `moved` for so long [s]."""
+        with self._lock:
+            changed = tasks != self._tasks or delay < self._delay
+            if tasks != self._tasks:
+                self._failures.clear()
+            self._tasks, self._delay = tasks, delay
+            waits = self._timer is not None
+            if self._next() is not None and (changed or (moved and waits)):
+                self._stop_timer()
+                self._timer = threading.Timer(delay, self._begin)
+                self._timer.daemon = True
+                self._timer.start()
+
+    def answer(self, task: PoolTask | None) -> Any:
+        """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
+        with _lock:
+            return _known.get(task, None if task is None else self._failures.get(task))
+
+    def stop(self) -> None:
+        """The browser has left."""
+        with self._lock:
+            self._stopped = True
+            self._stop_timer()
+            if self._job is not None:
+                self._pool.stop(self._job, quiet=True)
+
+    def _stop_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = None
+
+    def _next(self) -> PoolTask | None:
+        return next((task for task in self._tasks if self.answer(task) is None), None)
+
+    def _begin(self) -> None:
+        with self._lock:
+            self._timer = None
+            task = self._next()
+            if self._running or self._stopped or task is None:
+                return
+            self._running = True
+            self._job = self._pool.submit(task, lambda news: self._on_event(task, news), urgency=self._urgency)
+
+    def _on_event(self, task: PoolTask, news: JobEvent) -> None:
+        match news:
+            case JobEnded(result) if result is not None:
+                with _lock:
+                    _known[task] = result
+                    while len(_known) > _KEPT:
+                        _known.popitem(last=False)
+            case JobEnded():
+                self._failures[task] = _STOPPED
+            case JobFailed(message):
+                self._failures[task] = message
+            case _:
+                return
+        with self._lock:
+            self._running = False
+            if self._timer is None:
+                self._begin()
+        self._answered()

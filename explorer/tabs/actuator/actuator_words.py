@@ -1,0 +1,275 @@
+"""Words, numbers and chart data of the Actuate mode; degrees, volts and kW begin here."""
+
+import math
+from html import escape
+
+import numpy as np
+
+from explorer.charts.plots import Plot, Range, held_range
+from explorer.model.units import number
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
+from explorer.tabs.actuator.actuator_tasks import Outcome
+from explorer.tabs.actuator.cut_picture import drive_text, share_colour
+from explorer.theme.colours import css
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
+from rotor.actuator.harmonic import PowerMap, tip_response
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.limits import Limit
+from rotor.actuator.verdict import Verdict, headline, verdict_sentence
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.reproduce.report import typographic
+from rotor.trim.solution import Solution
+
+_NONE = "–"
+_SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
+"""The outer numbers stay within the bar."""
+
+
+def voltage_bar(actuator: Actuator) -> str:
+    """The colours of the plies: both sides of the voltage range, each to its own end."""
+    low, high, unit = -100.0, 100.0, "%"
+    if isinstance(actuator, PiezoPly):
+        low, high, unit = *actuator.voltage_range, "V"
+    stops = ",".join(css(share_colour(k / 8.0)) for k in range(-8, 9))
+    marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
+    ticks = "".join(
+        f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'
+        f"{number(value)}{' ' + unit if at == 100.0 else ''}</span>"
+        for at, value in marks
+    )
+    return (
+        '<div class="rx rx-scale" data-explorer="voltage-bar">'
+        f'<div class="rx-gradient" style="background:linear-gradient(90deg,{stops})"></div>'
+        f'<div class="rx-ticks">{ticks}</div></div>'
+    )
+
+
+def sweep_panel(sentence: str) -> str:
+    """Least power over amplitude and phase, and where more twist costs."""
+    return f'<div class="rx rx-small" data-explorer="swept">{escape(sentence)}</div>'
+
+
+def now_panel(
+    inputs: ActuatorInputs, installed: InstalledActuator, change_w: float | None, solution: Solution | None = None
+) -> str:
+    """What the sliders make of the blade at this moment, and what that does to power. `solution` with the actuator."""
+    elastic = solution is not None and solution.elastic is not None
+    tip = math.degrees(float(inputs.change(installed, 1.0)))
+    if not inputs.driven:
+        power = '<span class="rx-dim">at rest: no change to the design</span>'
+    elif change_w is None:
+        power = '<span class="rx-dim">no trim to compare with</span>'
+    else:
+        kind = "" if abs(change_w) < 50.0 else " rx-less" if change_w < 0.0 else " rx-more"
+        power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
+    drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
+    lines = [f'<div class="rx-dim rx-small">tip relative to root, now: {drives}</div>']
+    made = inputs.turning(installed, elastic)
+    if made is not None:
+        half = math.degrees(made.amplitude)
+        if half:
+            used = number(0.01 * inputs.amplitude * half, 2)
+            text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
+            if elastic and solution is not None:
+                flown = math.degrees(tip_response(solution, inputs.per_rev)[0])
+                text = (
+                    f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev on a blade at rest; flown, with the "
+                    f"elastic twist, ±{number(flown, 2)}°"
+                )
+        else:
+            text = f"cannot respond at {inputs.per_rev}/rev"
+        lines.append(f'<div class="rx-dim rx-small">{text}</div>')
+    over = over_range(inputs, installed)
+    if over:
+        lines.append(f'<div class="rxa-bad rx-small">{escape(over)}</div>')
+    return (
+        '<div class="rx" data-explorer="actuator-now"><div class="rxa-now">'
+        f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b>{power}</div>{"".join(lines)}</div>'
+    )
+
+
+def unmeasured() -> str:
+    """What is known of the benefit of active twist from tests."""
+    return (
+        '<div class="rx rx-dim rx-small" data-explorer="unmeasured">Not validated: we found no measured power benefit '
+        "of active twist. Published savings are computed.</div>"
+    )
+
+
+def over_range(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
+    """A sentence when steady voltage and harmonic together leave the range; empty otherwise."""
+    actuator = installed.actuator
+    if not inputs.per_rev or not isinstance(actuator, PiezoPly):
+        return ""
+    wave = 0.01 * inputs.amplitude * 0.5 * actuator.voltage_swing
+    volts = inputs.volts(installed)
+    least, most = min(volts) - wave, max(volts) + wave
+    low, high = actuator.voltage_range
+    if least >= low - 1e-6 and most <= high + 1e-6:
+        return ""
+    return (
+        f"Voltage runs from {number(least)} to {number(most)} V, beyond {number(low)}…{number(high)} V: "
+        f"lower the amplitude, or rest at {number(0.5 * (low + high))} V."
+    )
+
+
+def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None) -> str:
+    """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
+    masses = installed.masses
+    nominal, tested = math.degrees(installed.attainable), math.degrees(installed.attainable * installed.derating)
+    entries = [
+        ("Required Δtwist", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
+        ("Added mass", f"{number(masses.aircraft)} kg"),
+        ("Available", f"{number(nominal, 2)}°"),
+        ("on each blade", f"{number(masses.blade, 1)} kg"),
+        ("derated by test", f"{number(tested, 2)}°" if installed.derating < 1.0 else _NONE),
+        ("First torsion", f"{number(installed.frequency, 2)} /rev"),
+        ("twist commanded", f"{number(nominal * inputs.share, 2)}°"),
+        ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
+        ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
+        ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
+        ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
+        ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
+    ]
+    cells = "".join(
+        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for name, value in entries
+    )
+    return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{cells}</div>'
+
+
+def problem_panel(problem: str) -> str:
+    """Why there is no verdict."""
+    return _box("wrong", "problem", escape(problem))
+
+
+def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
+    """The verdict's sentence, or that it is on its way, with the one before."""
+    if outcome is None:
+        old = "" if before is None else f'<div class="rx-faded">{escape(verdict_sentence(before))}</div>'
+        return _box(
+            "wait",
+            "computing",
+            f"Net benefit? Computing the optimum twist at both conditions, then the best within reach.{old}",
+        )
+    if isinstance(outcome, str):
+        return problem_panel(outcome)
+    lead, sentence = headline(outcome), verdict_sentence(outcome)
+    text = f"<b>{escape(lead)}</b>{escape(sentence.removeprefix(lead))}"
+    return _box("yes" if outcome.pays else "no", "ready", text)
+
+
+def _box(look: str, kind: str, text: str) -> str:
+    return f'<div class="rxa-box rxa-{look}" data-explorer="verdict" data-kind="{kind}">{text}</div>'
+
+
+def segments_panel(installed: InstalledActuator, share: float, verdict: Verdict | None) -> str:
+    """Bars: what each segment can make, nominal and as tested, with a mark where the optimum asks for it."""
+    if isinstance(installed.actuator, ExtensionTwist) and verdict is None:
+        return ""
+    can = np.degrees(installed.segment_twists)
+    need = None if verdict is None else np.degrees(np.abs(verdict.required_segments))
+    largest = max(float(can.max()), 0.0 if need is None else float(need.max()), 0.1) * 1.05
+    rows: list[str] = []
+    for k, each in enumerate(can):
+        mark = "" if need is None else f'<b style="left:{100 * need[k] / largest:.1f}%"></b>'
+        asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
+        rows.append(
+            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / available'}</span>"
+            f'<span class="rxa-track"><i style="width:{100 * each / largest:.1f}%;background:rgba(28,126,214,.35)"></i>'
+            f'<i style="width:{100 * share * each / largest:.1f}%;background:#1c7ed6"></i>{mark}</span>'
+            f'<span class="rx-num">{asked} / {number(float(each), 1)}°</span>'
+        )
+    return f'<div class="rx rxa-bars" data-explorer="segments">{"".join(rows)}</div>'
+
+
+def limit_words(name: str) -> str:
+    """The name of a limit as an engineer reads it."""
+    return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
+
+
+def limits_panel(verdict: Verdict | None) -> str:
+    """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
+    if verdict is None:
+        return ""
+    broken = "".join(_limit(limit) for limit in verdict.broken)
+    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
+    good = f'<div><span class="rx-good">✓</span><span class="rx-dim">met: {escape(kept)}</span></div>' if kept else ""
+    cares = "".join(f'<div class="rx-care"><span>▲</span><span>{escape(text)}</span></div>' for text in verdict.caveats)
+    return f'<div class="rx rxa-limits" data-explorer="limits">{broken}{good}{cares}</div>'
+
+
+def _limit(limit: Limit) -> str:
+    name = escape(limit_words(limit.name))
+    return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(typographic(limit.sentence))}</span></div>'
+
+
+def _kw(power: float | None) -> str:
+    return _NONE if power is None else f"{number(1e-3 * power, 1, sign=True)} kW"
+
+
+FLAT = 50.0
+"""Changes of power below this are called none [W]."""
+_POINTS = 73
+
+
+def phase_plot(power: PowerMap, inputs: ActuatorInputs, previous: Range | None) -> Plot:
+    """Change of power [kW] over phase [°]: at full amplitude, at this one, and now."""
+    phases = np.linspace(0.0, 2.0 * math.pi, _POINTS)
+    share, phase = 0.01 * inputs.amplitude, math.radians(inputs.phase)
+    largest = float(power.shares[-1])
+    now = _single(phases, phase, float(power.change(share, phase)))
+    return _plot(np.degrees(phases), [power.change(largest, phases), power.change(share, phases), now], previous)
+
+
+def amplitude_plot(power: PowerMap, inputs: ActuatorInputs, previous: Range | None) -> Plot:
+    """Change of power [kW] over amplitude [%]: best phase, this phase, the limit beyond which more costs, now."""
+    shares = np.linspace(0.0, 1.0, _POINTS)
+    share, phase = 0.01 * inputs.amplitude, math.radians(inputs.phase)
+    shown = np.where(shares <= power.shares[-1] + 1e-9, shares, np.nan)
+    limit = power.limit(phase)
+    series = [
+        power.change(shown, power.best()[1]),
+        power.change(shown, phase),
+        _single(shares, limit, float(power.change(limit, phase))),
+        _single(shares, share, float(power.change(share, phase))),
+    ]
+    return _plot(100.0 * shares, series, previous)
+
+
+def _single(x: Array, at: float, value: float) -> Array:
+    """One point, at the nearest abscissa."""
+    points = np.full(len(x), np.nan)
+    points[int(np.abs(x - at).argmin())] = value
+    return points
+
+
+def _plot(x: Array, series: list[Array], previous: Range | None) -> Plot:
+    kilowatts = [1e-3 * values for values in series]
+    seen = np.concatenate(kilowatts)
+    low, high = min(float(np.nanmin(seen)), -0.5), max(float(np.nanmax(seen)), 0.5)
+    return Plot((x, *kilowatts), held_range(previous, low, high))
+
+
+def sweep_sentence(power: PowerMap | str | None, inputs: ActuatorInputs, design: Design) -> str:
+    """What the charts say: the least power, and the limit beyond which more twist costs at this phase."""
+    if design.hovering:
+        return "Off in hover: fly faster."
+    if power is None:
+        return "Trimming amplitudes and phases…"
+    if isinstance(power, str):
+        return power
+    share, phase, change = power.best()
+    limit, most = power.limit(math.radians(inputs.phase)), float(power.shares[-1])
+    here = "At this phase "
+    if limit <= 0.005:
+        here += "every amplitude costs power."
+    elif limit >= most - 0.005:
+        here += f"more twist saves more, up to {number(100.0 * most)} %."
+    else:
+        here += f"twist beyond {number(100.0 * limit)} % costs power again."
+    if change > -FLAT:
+        return f"No amplitude saves power at {inputs.per_rev}/rev. {here}"
+    least = f"{number(100.0 * share)} % at {number(math.degrees(phase))}°: {number(1e-3 * change, 1, sign=True)} kW"
+    return f"Least power: {least}, before the actuator's mass and losses. {here}"

@@ -1,0 +1,99 @@
+"""What the parts of one page share, and what each of them does when the session calls it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import viser
+
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.pinned import Pinboard
+from explorer.model.session_state import SessionState
+from explorer.model.undo import PowerTracker
+from explorer.model.units import UNITS, Units
+from explorer.overlay.bridge import Bridge
+from explorer.sharing.presentation import Presentations
+from explorer.tabs.controls import DesignControls, SessionCallbacks
+from explorer.tabs.display import Display
+from explorer.tabs.keys import Keyboard
+from explorer.tabs.layout import Layout
+from explorer.workers.pool import Pool
+from rotor.user_input import brief
+
+
+@dataclass(frozen=True)
+class SharedServices:
+    """What the pages of one server share."""
+
+    pool: Pool
+    """This page's access to the worker processes."""
+    presentations: Presentations
+    studies: Path = Path()
+    """The folder whose results the Studies section offers."""
+
+
+class Tab:
+    """A part of the page that follows the session; called on the worker's thread."""
+
+    def show(self, state: SessionState) -> None:
+        """Show a converged state."""
+
+    def show_failure(self) -> None:
+        """The inputs have no solution: mark what is shown as out of date."""
+
+    def stop(self) -> None:
+        """The browser has left: end threads and jobs."""
+
+
+class TabContext:
+    """One page's. What a part may call is safe from any thread."""
+
+    layout: Layout
+    controls: DesignControls
+    """The sliders."""
+    display: Display
+
+    def __init__(self, client: viser.ClientHandle, pool: Pool, callbacks: SessionCallbacks) -> None:
+        self.client, self.gui, self.pool = client, client.gui, pool
+        self.bridge = Bridge(client)
+        self.keyboard = Keyboard(client)
+        self.pinboard = Pinboard()
+        self.tracker = PowerTracker()
+        self.wake, self.state = callbacks.wake, callbacks.state
+        self.held = False
+        """Whether a presenter moves the page."""
+
+    def inputs(self) -> Inputs:
+        """What the sliders hold."""
+        return self.controls.inputs()
+
+    def set_inputs(self, inputs: Inputs) -> None:
+        """Move the sliders to a design that comes by no hand: no change of power since an earlier grab counts."""
+        self.tracker.reset()
+        self.controls.set_inputs(inputs)
+
+    def drag_to(self, inputs: Inputs) -> None:
+        """Move the sliders as a hand does."""
+        self.tracker.touch()
+        self.controls.set_inputs(inputs)
+
+    def view(self) -> ViewState:
+        """What is shown."""
+        return self.display.view()
+
+    @property
+    def units(self) -> Units:
+        """Those that are shown."""
+        return UNITS[self.display.view().units]
+
+    def pin(self, inputs: Inputs | None) -> None:
+        """Pin these inputs as A, whatever is on the sliders; None removes the pin."""
+        self.pinboard.put(inputs)
+        self.wake()
+
+    def download(self, name: str, content: bytes) -> None:
+        """Send a file to the browser, which saves it at once."""
+        self.client.send_file_download(name, content, save_immediately=True)
+
+    def notify(self, title: str, sentence: str) -> None:
+        """Show a notification for some seconds."""
+        self.client.add_notification(title, brief(sentence), auto_close_seconds=6)

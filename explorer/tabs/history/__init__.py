@@ -1,1 +1,0 @@
-"""Undo and redo, and the designs that are kept."""

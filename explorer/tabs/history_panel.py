@@ -1,0 +1,259 @@
+"""Undo, redo, the strip of steps as bars as high as their power, and the kept designs; a click goes to one."""
+
+import math
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from html import escape
+
+import numpy as np
+
+from explorer.hosting import browser
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.model.undo import History, KeptDesign
+from explorer.model.units import SI, Units
+from explorer.sharing import stored_history
+from explorer.sharing.stored_history import StoredHistory
+from explorer.tabs.context import Tab, TabContext
+from explorer.text.design_words import flight_name, twist_name
+from explorer.text.glossary import hint
+from explorer.theme.colours import BASELINE, NOW, THIS
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+FIELD = "Take step"
+"""Label of the text field that clicks are written to: `step 3`, `take 1`, `drop 1`."""
+MOST_KEPT = 8
+SHOWN = 40
+"""Bars of the strip: the newest steps."""
+
+_WIDTH, _HEIGHT, _LOWEST = 300.0, 40.0, 7.0
+_SPARK = 46.0, 18.0
+
+
+def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> str:
+    """SVG of the steps; `powers` [W] of those that were solved, a hollow bar for those that have no answer."""
+    steps, present = history.steps, len(history.past)
+    first = min(max(len(steps) - SHOWN, 0), present)  # The newest, unless undo has gone further back.
+    shown = steps[first : first + SHOWN]
+    known = [powers[step] for step in shown if step in powers]
+    low, high = (min(known), max(known)) if known else (0.0, 1.0)
+    pitch = min(_WIDTH / max(len(shown), 1), 16.0)
+    bars = []
+    for k, step in enumerate(shown):
+        number_of = first + k
+        power = powers.get(step)
+        share = 0.5 if power is None or high - low < 1e-9 else (power - low) / (high - low)
+        height = _LOWEST + share * (_HEIGHT - _LOWEST)
+        colour = NOW if number_of == present else THIS if number_of < present else BASELINE
+        fill = "none" if power is None else colour
+        words = f"{twist_name(step)}; {flight_name(step, units)}; "
+        words += "no trim" if power is None else units.watts(power)
+        bars.append(
+            f'<g data-write="{FIELD}" data-value="step {number_of}" class="rx-take">'
+            f"<title>{escape(words)}</title>"
+            f'<rect x="{pitch * k:.2f}" y="0" width="{pitch:.2f}" height="{_HEIGHT}" fill="transparent"/>'
+            f'<rect x="{pitch * k + 0.6:.2f}" y="{_HEIGHT - height:.2f}" width="{max(pitch - 1.2, 1.0):.2f}" '
+            f'height="{height:.2f}" rx="1" fill="{fill}" stroke="{colour}" stroke-width=".8"/></g>'
+        )
+    return (
+        f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" class="rx-strip" data-explorer="history" '
+        f'data-steps="{len(steps)}" data-present="{present}" role="img" aria-label="Steps of the design">'
+        f"{''.join(bars)}</svg>"
+    )
+
+
+def caption(history: History) -> str:
+    """Where in the history the page stands."""
+    return (
+        f'<div class="rx-line rx-dim rx-small"><span>Step {len(history.past) + 1} of {len(history.steps)}</span>'
+        "<span>bar height: total power; click to go there</span></div>"
+    )
+
+
+def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> str:
+    """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
+    if not kept:
+        return '<div class="rx-dim rx-small">No bookmarks yet: Keep bookmarks this design.</div>'
+    rows = []
+    for k, item in enumerate(kept):
+        change = _blank_change(present, item, units)
+        take, drop = (f'data-write="{FIELD}" data-value="{verb} {k}"' for verb in ("take", "drop"))
+        rows.append(
+            f'<tr><td {take} class="rx-take">{_spark(item.solution)}</td>'
+            f'<td {take} class="rx-take rx-kept"><div>{escape(twist_name(item.inputs))}</div>'
+            f'<div class="rx-dim rx-small">{escape(flight_name(item.inputs, units))}</div></td>'
+            f'<td {take} class="rx-take rx-num">{units.watts(item.power)}'
+            f'<div class="rx-dim rx-small">{change}</div></td>'
+            f'<td class="rx-num"><a {drop} class="rx-take rx-dim" title="Forget it">✕</a></td></tr>'
+        )
+    return f'<table class="rx-kept-table" data-explorer="kept">{"".join(rows)}</table>'
+
+
+def _asked(text: str) -> tuple[str, int] | None:
+    """What a click on the strip or on the rows asks for; None for a text that asks for nothing."""
+    verb, _, digits = text.strip().partition(" ")
+    return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
+
+
+def _blank_change(present: Solution | None, item: KeptDesign, units: Units) -> str:
+    if present is None or not math.isfinite(item.power):
+        return ""
+    return f"now {units.watts(present.power.total - item.power, sign=True)}"
+
+
+def _spark(solution: Solution) -> str:
+    """The twist along the blade, ±12° high."""
+    width, height = _SPARK
+    r = np.linspace(solution.design.rotor.blade.root_cutout, 1.0, 24)
+    angle = np.clip(np.degrees(solution.design.twist(r)) / 12.0, -1.0, 1.0)
+    points = " ".join(f"{width * x:.1f},{0.5 * height * (1.0 - y):.1f}" for x, y in zip(r, angle, strict=True))
+    return (
+        f'<svg width="{width:g}" height="{height:g}"><path d="M0,{0.5 * height} h{width}" stroke="currentColor" '
+        f'opacity=".25"/><polyline points="{points}" fill="none" stroke="{THIS}" stroke-width="1.6"/></svg>'
+    )
+
+
+class HistoryPanel(Tab):
+    """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
+
+    def __init__(self, context: TabContext, start: Inputs, stored: str | None) -> None:
+        """`stored`: the history as the page kept it over a reload; None where it has none."""
+        self._context, gui = context, context.gui
+        self._lock = threading.RLock()
+        before = stored_history.read_history(stored, start)
+        self._history = History(start, list(before.past), list(reversed(before.future)))
+        self._stored = stored
+        self._powers: dict[Inputs, float] = {}
+        self._kept: list[KeptDesign] = []
+        self._waiting = list(before.bookmarks)
+        """Kept designs of before a reload, to be solved once the page rests."""
+        self._drawn: object = None
+        with gui.add_folder("History"):
+            self._strip = gui.add_html("")
+            keep = gui.add_button("Keep this design", color="gray", hint=hint("keep"))
+            self._rows = gui.add_html("")
+            gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
+            self._field = gui.add_text(FIELD, "", hint=hint("take"))
+        for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
+            context.keyboard.bind(name, act)
+        for name, act in (("undo", self.undo), ("redo", self.redo)):
+            context.bridge.on(name, lambda _, act=act: None if context.held else act())
+        keep.on_click(lambda _: self.keep())
+        self._field.on_update(lambda event: self._clicked() if event.client is not None else None)
+
+    def read(self, pause: float) -> Inputs:
+        """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
+        with self._lock:  # Between undoing a step and moving the widgets, they are no new step.
+            inputs = self._context.inputs()
+            self._history.note(inputs, pause)
+        return inputs
+
+    def grab(self, held: bool) -> None:
+        """A blade, a curve or a slider is taken by the hand, or let go: what moves in between is one step."""
+        with self._lock:
+            if held:
+                self._history.hold()
+            else:
+                self._history.note(self._context.inputs(), 0.0)
+                self._history.release()
+
+    def solved(self, inputs: Inputs, power: float) -> None:
+        """They have an answer: total power [W]."""
+        self._powers[inputs] = power
+
+    def undo(self) -> None:
+        with self._lock:
+            self._move(self._history.undo())
+
+    def redo(self) -> None:
+        with self._lock:
+            self._move(self._history.redo())
+
+    def keep(self) -> None:
+        """Set the present design aside; the oldest goes when there are too many."""
+        state = self._context.state()
+        if state is None:
+            return
+        with self._lock:
+            others = [item for item in self._kept if item.inputs != state.inputs]
+            self._kept = [*others, KeptDesign(state.inputs, state.solution)][-MOST_KEPT:]
+        self._context.wake()
+
+    def store(self) -> None:
+        """Give the page the history to keep, now that it rests; a reload or a restart of the server restores it."""
+        with self._lock:
+            history, bookmarks = self._history, (*self._waiting, *(item.inputs for item in self._kept))
+            future = tuple(reversed(history.future))
+            kept = StoredHistory(tuple(history.past), history.present, future, bookmarks)
+        text = kept.text()  # A hundred designs: nobody need wait for them.
+        if text != self._stored:
+            self._stored = text
+            browser.keep(self._context.client, stored_history.NAME, text)
+
+    def solve_waiting(self, stop: Callable[[], bool]) -> None:
+        """Solve the designs that were kept before a reload, until `stop`."""
+        while self._waiting and not stop():
+            inputs = self._waiting[-1]
+            solution = solve(inputs.design())
+            with self._lock:
+                self._waiting.pop()
+                if solution.converged and all(item.inputs != inputs for item in self._kept):
+                    self._kept = [KeptDesign(inputs, solution), *self._kept][-MOST_KEPT:]
+            if (state := self._context.state()) is not None:
+                self.show(state)
+
+    @property
+    def kept(self) -> tuple[KeptDesign, ...]:
+        """Oldest first."""
+        with self._lock:
+            return tuple(self._kept)
+
+    def show(self, state: SessionState) -> None:
+        self._draw(state.solution)
+
+    def show_failure(self) -> None:
+        self._draw(None)
+
+    @property
+    def steps(self) -> tuple[bool, bool]:
+        """Whether there is a step to undo, and one to redo."""
+        with self._lock:
+            return bool(self._history.past), bool(self._history.future)
+
+    def _draw(self, solution: Solution | None) -> None:
+        with self._lock:
+            steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)
+            self._powers = {step: self._powers[step] for step in steps if step in self._powers}
+            units = self._context.units
+            if self._drawn == (steps, present, kept, solution, units):
+                return
+            self._drawn = (steps, present, kept, solution, units)
+            steps_html = strip(self._history, self._powers, units) + caption(self._history)
+        self._strip.content = f'<div class="rx">{steps_html}</div>'
+        self._rows.content = f'<div class="rx">{kept_rows(kept, solution, units)}</div>'
+
+    def _move(self, inputs: Inputs | None) -> None:
+        """Move the widgets, under the lock."""
+        if inputs is None:
+            self._context.wake()
+        else:
+            self._context.set_inputs(inputs)
+
+    def _clicked(self) -> None:
+        asked = _asked(self._field.value)
+        self._field.value = ""  # The same click again is a change again.
+        if asked is None:
+            return
+        verb, which = asked
+        with self._lock:
+            if verb == "step":
+                inputs = self._history.go(which)
+            elif which >= len(self._kept):
+                inputs = None
+            elif verb == "drop":
+                inputs = None
+                del self._kept[which]
+            else:
+                inputs = self._kept[which].inputs
+            self._move(inputs)

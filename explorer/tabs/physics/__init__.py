@@ -1,1 +1,0 @@
-"""The Physics tab: what each part of the physics costs."""

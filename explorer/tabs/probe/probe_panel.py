@@ -1,0 +1,318 @@
+"""The probe of one browser: a blade element at (r, ψ), and its cursor in the scene."""
+
+import math
+import threading
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import viser
+
+from explorer.model.session_state import SessionState
+from explorer.model.units import number
+from explorer.overlay.bridge import Bridge
+from explorer.picture.blade_mesh import circle_segments, drawn_pitch
+from explorer.picture.camera_views import pick
+from explorer.picture.picture import LINE_LIFT
+from explorer.picture.poses import about, flown_twist
+from explorer.scene.controller import SceneController
+from explorer.scene.page_scene import tie
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.keys import COARSE
+from explorer.tabs.probe.element import Probe, probe
+from explorer.tabs.probe.probe_drawing import outline, probe_panel
+from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
+from explorer.text.glossary import hint
+from explorer.text.readout import faded
+from explorer.theme import colours
+from explorer.workers.player import Player
+from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.trim.solution import Solution
+
+Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
+"""Casing and line."""
+
+_DISK, _BLADE = "/rotor/disk/probe", "/rotor/blade_0/probe"
+_RING = 0.036
+"""Radius of the ring [R]."""
+_WIDER = 1.12
+"""The section's outline stands off the blade by this factor."""
+
+
+class Cursor:
+    """Handles made once; a step of the probe only turns and shifts them, except on the blade."""
+
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
+        self._client, self._bridge, api = client, bridge, client.scene
+        self._tied = False
+        self._rotor: Rotor | None = None
+        self._turned = api.add_frame(_DISK, show_axes=False, visible=False)
+        self._at = api.add_frame(f"{_DISK}/at", show_axes=False)
+        some = circle_segments(0.1, 8)
+        self._ray = self._cased(api, f"{_DISK}/ray", some, 1.2, 2.8)
+        self._ring = self._cased(api, f"{_DISK}/at/ring", some, 2.2, 5.0)
+        self._section = self._cased(api, _BLADE, some, 2.2, 5.0)
+        for handle in self._section:
+            handle.visible = False
+        self._drawn: tuple[object, ...] | None = None
+
+    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, tied: bool) -> None:
+        """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there.
+
+        `tied`: the page turns it with the blade, which is ahead of or behind what the server knows.
+        """
+        self._scale(rotor)
+        self._turned.visible = True
+        if tied != self._tied:
+            self._tied = tied
+            tie(self._client, *([_DISK] if tied else []))
+        if not tied:
+            self._turned.wxyz = about(2, probe.psi)
+        self._at.position = np.array([probe.radius, 0.0, 0.0])
+        words = f"α {number(math.degrees(probe.alpha), 1)}°"
+        self._bridge.set(probe_label=[{"text": words, "node": f"{_DISK}/at", "at": [0.0, 0.0, 0.4]}])
+        wanted = None if pitch is None else (rotor, probe.r, pitch)
+        if wanted == self._drawn:
+            return
+        self._drawn = wanted
+        for handle in self._section:
+            handle.visible = pitch is not None
+        if pitch is not None:
+            _draw(self._section, section_loop(rotor, probe, pitch))
+
+    def hide(self) -> None:
+        self._turned.visible, self._drawn = False, None
+        self._bridge.set(probe_label=[])
+        for handle in self._section:
+            handle.visible = False
+
+    def _scale(self, rotor: Rotor) -> None:
+        """Ray and ring of this rotor's size."""
+        if rotor == self._rotor:
+            return
+        self._rotor, radius = rotor, rotor.radius
+        ray = np.array([[[rotor.blade.root_cutout * radius, 0.0, 0.0], [(1.0 - _RING) * radius, 0.0, 0.0]]])
+        _draw(self._ray, ray)
+        _draw(self._ring, circle_segments(_RING * radius, 28))
+
+    def _cased(self, api: viser.SceneApi, name: str, segments: Array, pixels: float, casing: float) -> Cased:
+        """A light line in a dark casing, that reads on every colour of the disk and on the blade."""
+        under, over = (
+            api.add_line_segments(
+                name + end, segments.astype(np.float32), colour, thickness=width, thickness_units="screen"
+            )
+            for end, colour, width in (("_casing", colours.CASING_DARK, casing), ("", colours.CASING_LIGHT, pixels))
+        )
+        return under, over
+
+
+def _draw(lines: Cased, segments: Array) -> None:
+    for step, handle in enumerate(lines):
+        handle.points = (segments + np.array([0.0, 0.0, (2.0 + step) * LINE_LIFT])).astype(np.float32)
+
+
+def section_loop(rotor: Rotor, probe: Probe, pitch: float) -> Array:
+    """The probed section a little widened, in the blade's own axes [m]; segments of shape (n, 2, 3)."""
+    middle = np.array([-0.25, 0.0])
+    shape = _WIDER * (outline(probe.section) - middle) + middle
+    y, z = float(rotor.blade.chord(probe.r)) * shape.T
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    out = np.full_like(y, probe.radius - rotor.blade.flap_hinge * rotor.radius)
+    loop = np.stack((out, y * cos - z * sin, y * sin + z * cos), axis=1)
+    return np.stack((loop, np.roll(loop, -1, axis=0)), axis=1)
+
+
+LONGEST = 600.0
+"""Play ends after this time [s]: a page that was forgotten may fall asleep."""
+_R_STEP, _PSI_STEP = 0.01, 1.0
+_STEPS = {"out": (_R_STEP, 0.0), "in": (-_R_STEP, 0.0), "on": (0.0, _PSI_STEP), "back": (0.0, -_PSI_STEP)}
+
+
+@dataclass(frozen=True)
+class _ProbePoint:
+    """What the widgets say."""
+
+    r: float
+    psi_deg: float
+    shown: bool
+    opened: bool
+
+
+class ProbePanel(Tab):
+    """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
+
+    def __init__(self, context: TabContext, scene: SceneController) -> None:
+        client, self._context, self._scene = context.client, context, scene
+        self._seen = True
+        self._drawn: tuple[Solution, _ProbePoint, float | None, bool] | None = None
+        self._html = ""
+        self._cursor = Cursor(client, context.bridge)
+        self._player = Player(self._walk, f"play-{client.client_id}")
+        self._hand = threading.Lock()
+        """Held by whoever turns the blade: the clock or the user."""
+        self._walked: float | None = None
+        """Where the clock left the reference blade [deg]."""
+        self._left = 0.0
+        """How long it may play on [s]."""
+        gui = client.gui
+        self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
+        self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
+        self._panel = gui.add_html("")
+        self._beside: tuple[Solution, float, BesideMeasured | None] | None = None
+        """A solution and r/R, and what was measured there."""
+        self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
+        self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
+        self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
+        self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
+        self._r.on_update(lambda event: self._moved() if event.client is not None else None)
+        for box in (self._follow, self._shown, self._opened):
+            box.on_update(lambda event: context.wake() if event.client is not None else None)
+        client.scene.on_click()(self._clicked)
+        context.bridge.on("play", lambda _: self.toggle())
+        bind = context.keyboard.bind
+        bind("play", self.toggle)
+        bind("probe_hide", self._hide)
+        for name, (r, psi) in _STEPS.items():
+            bind(f"probe_{name}", partial(self._step, r, psi))
+            bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
+
+    def show(self, state: SessionState) -> None:
+        """Follow a converged answer, or the reference blade."""
+        if self._follow.value:
+            # Where the blade is by now: an older place would pull a slider that is dragged back.
+            self._psi.value = self._context.view().azimuth_deg
+        solution = state.solution
+        self._r.min = _innermost(solution.design.rotor)
+        place = self._place()
+        here = self._probe(solution, place)
+        tied = (
+            self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
+        )
+        pitch = _drawn_pitch(state, here) if tied else None
+        rides = self._follow.value and self._player.playing
+        if self._drawn == (solution, place, pitch, rides):
+            return
+        self._drawn = solution, place, pitch, rides
+        self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
+        self._panel.content = self._html
+        with self._context.client.atomic():
+            if place.shown:
+                self._cursor.show(solution.design.rotor, here, pitch, rides)
+            else:
+                self._cursor.hide()
+
+    def _measured(self, solution: Solution, here: Probe) -> str:
+        """Airloads over the azimuth as HTML; empty where none were measured on this rotor."""
+        if self._beside is None or self._beside[:2] != (solution, here.r):
+            self._beside = solution, here.r, beside_measured(solution, here.r)
+        beside = self._beside[2]
+        return "" if beside is None else measured_panel(beside, here.psi)
+
+    def show_failure(self) -> None:
+        """The inputs have no answer: what stands here is of the last one."""
+        self._pause()
+        self._drawn = None
+        self._panel.content = faded(self._html)
+        self._cursor.hide()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        self._player.pause()
+
+    def set_seen(self, seen: bool) -> None:
+        """Whether the disk is in the scene, to be clicked."""
+        self._seen = seen
+
+    def point(self, r: float, psi_deg: float) -> None:
+        """Probe this point of the disk; the drawer opens only if it is asked for."""
+        self._set(r, float(round(psi_deg) % 360))
+
+    def toggle(self) -> None:
+        """Play, or pause."""
+        if self._player.playing or self._context.state() is None:
+            self._pause()
+            return
+        self._walked, self._left = None, LONGEST
+        self._player.play()
+        self._set_playing(True)
+
+    def _pause(self) -> None:
+        if self._player.playing:
+            self._player.pause()
+            self._context.wake()  # What does not follow every turn of the blade follows now.
+        self._set_playing(False)
+
+    def _set_playing(self, playing: bool) -> None:
+        """The rotor turns by itself from now on, or stands."""
+        self._context.display.set_playing(playing)
+        self._scene.play(playing)
+
+    def _walk(self, seconds: float) -> None:
+        """A step of the clock."""
+        with self._hand:
+            if self._player.playing:
+                self._walk_on(seconds)
+
+    def _walk_on(self, seconds: float) -> None:
+        now = self._context.view().azimuth_deg
+        self._left -= seconds
+        if (self._walked is not None and now != self._walked) or self._left <= 0.0:
+            self._pause()  # The user has taken the blade, or gone.
+            return
+        self._walked = (now + math.degrees(self._context.display.turn_rate) * seconds) % 360.0
+        self._context.display.turn(self._walked)
+
+    def _place(self) -> _ProbePoint:
+        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
+
+    def _probe(self, solution: Solution, place: _ProbePoint) -> Probe:
+        r = min(max(place.r, _innermost(solution.design.rotor)), 1.0)
+        return probe(solution, r, math.radians(place.psi_deg))
+
+    def _set(self, r: float, psi_deg: float | None = None) -> None:
+        """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
+        self._r.value = round(min(max(r, self._r.min), 1.0), 2)
+        if psi_deg is None:
+            self._moved()
+        else:
+            self._psi_moved(psi_deg % 360.0)
+
+    def _psi_moved(self, psi_deg: float) -> None:
+        if self._follow.value:
+            with self._hand:  # No step of the clock comes between.
+                self._pause()
+                self._context.display.turn(psi_deg)
+        self._psi.value = psi_deg
+        self._moved()
+
+    def _moved(self) -> None:
+        self._shown.value = True
+        self._context.wake()
+
+    def _step(self, r: float, psi_deg: float) -> None:
+        self._set(self._r.value + r, round(self._psi.value) + psi_deg if psi_deg else None)
+
+    def _hide(self) -> None:
+        self._shown.value = not self._shown.value
+        self._context.wake()
+
+    def _clicked(self, event: viser.SceneClickEvent) -> None:
+        state = self._context.state()
+        if state is None or not self._seen:
+            return
+        picked = pick(state.solution, event.ray_origin, event.ray_direction)
+        if picked is not None:
+            self._set(picked[0], round(math.degrees(picked[1])) % 360)
+            self._context.layout.open_drawer("probe")
+
+
+def _innermost(rotor: Rotor) -> float:
+    """The first step of r/R on the blade."""
+    return round(_R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
+
+
+def _drawn_pitch(state: SessionState, here: Probe) -> float:
+    """Twist of the reference blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
+    twist = flown_twist(state.solution, math.radians(state.view.azimuth_deg))
+    return float(drawn_pitch(twist, [here.r], state.view.exaggeration)[0])

@@ -1,0 +1,142 @@
+"""Where to twist: the change of power by pitch along the blade, as a chart and as colours on the reference blade."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.charts.plots import Plot, Range, held_range
+from explorer.model.session_state import SessionState
+from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
+from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.scene.overlays import Strip
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
+from explorer.text.glossary import hint
+from explorer.theme.colours import BASELINE, THIS, colour_map
+from rotor.design.twist import TwistLaw
+from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
+from rotor.trim.solution import Solution
+
+_KILOWATT_PER_DEGREE = math.radians(1.0) / 1e3
+_ALONG, _ACROSS = 150, 9
+_COLOURS = 127
+
+
+def sensitivity_plot(solution: Solution, previous: Range | None, pinned: Solution | None = None) -> Plot:
+    """Series: zero, induced power alone, total power of A, total power. Trim kept throughout.
+
+    All in kW per degree per unit of r/R; that of A is empty where none is pinned or it has no trim.
+    """
+    adjoint = Adjoint(solution)
+    total, induced = power_along(adjoint, "total"), power_along(adjoint, "induced")
+    other = np.full_like(total.r, np.nan)
+    if pinned is not None and pinned.converged:
+        along = _of_pinned(pinned)
+        other = np.interp(total.r, along.r, along.density, left=np.nan, right=np.nan)
+    lines = [density * _KILOWATT_PER_DEGREE for density in (induced.density, other, total.density)]
+    seen = np.concatenate(lines)
+    low, high = min(float(np.nanmin(seen)), -1.0), max(float(np.nanmax(seen)), 1.0)
+    return Plot((total.r, np.zeros_like(total.r), *lines), held_range(previous, low, high))
+
+
+@lru_cache(maxsize=4)
+def _of_pinned(solution: Solution) -> PitchGradient:
+    """A stays while the sliders move: half the work of a round."""
+    return power_along(Adjoint(solution), "total")
+
+
+def strip(
+    shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot
+) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
+    """Points just above the reference blade, in blade axes, (n, 3), and their colours: rust costs power, blue saves."""
+    count, around = shape.rings.shape[:2]
+    rings = blade_vertices(shape, twist, exaggeration)[: count * around].reshape(count, around, 3)[6:]
+    upper = rings[:, : around // 2 + 1]  # From the trailing edge over the upper side to the nose.
+    r = np.linspace(float(shape.r[6]), 1.0, _ALONG)
+    columns = np.linspace(1, upper.shape[1] - 2, _ACROSS).astype(int)
+    points = np.stack(
+        [[np.interp(r, shape.r[6:], upper[:, column, axis]) for axis in range(3)] for column in columns], axis=0
+    )
+    points[:, 2] += 0.03
+    values = np.interp(r, plot.data[0], plot.data[-1])
+    half = max(abs(plot.y_range[0]), abs(plot.y_range[1]))
+    signed = np.sign(values) * np.sqrt(np.minimum(np.abs(values) / half, 1.0))  # The tip would outshine all else.
+    shades = np.rint((0.5 + 0.5 * signed) * (_COLOURS - 1)).astype(int)
+    colours = np.broadcast_to(colour_map("diverging", _COLOURS)[shades], (len(columns), _ALONG, 3))
+    return points.transpose(0, 2, 1).reshape(-1, 3).astype(np.float32), colours.reshape(-1, 3).copy()
+
+
+def explanation(plot: Plot) -> str:
+    """What to do, in a line, under the chart."""
+    r, values = plot.data[0], plot.data[-1]
+    if not np.isfinite(values).all():
+        return ""
+    up, down = float(r[np.argmin(values)]), float(r[np.argmax(values)])
+    if max(abs(values)) < 1.0:
+        return _box("No local change of pitch saves power: the twist is near its optimum.")
+    return _box(
+        f"Power falls fastest with more pitch near {up:.2f} R and less pitch near {down:.2f} R, retrimmed. "
+        "Uniform pitch is absorbed by collective."
+    )
+
+
+def _box(text: str) -> str:
+    return f'<div class="rx rx-dim rx-small rx-where" data-explorer="sensitivity">{text}</div>'
+
+
+_HEIGHT = 220
+_WORDS = (
+    '<div class="rx rx-dim rx-small rx-found">Power sensitivity to local pitch, with the rotor retrimmed: '
+    "positive where more pitch costs power, negative where it saves.</div>"
+)
+_INDUCED = ("induced", BASELINE, True)
+_KEY: Key = (("total", THIS), _INDUCED)
+
+
+class SensitivityPanel(Tab):
+    """One session's."""
+
+    def __init__(self, context: TabContext, strip: Strip) -> None:
+        self._strip, self._layout, gui = strip, context.layout, context.gui
+        self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
+        gui.add_html(_WORDS)
+        self._chart = Chart(
+            gui,
+            "dP/dθ [kW/° per r/R]",
+            _KEY,
+            (line(BASELINE, 0.7), line(BASELINE, 1.5, (5, 3)), pinned_line(), line(THIS)),
+            (0.1, 1.02),
+            _HEIGHT,
+            name="chart_sensitivity",
+        )
+        self._words = gui.add_html("")
+        self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))
+        self._paint.on_update(lambda _: context.wake())
+
+    def show(self, state: SessionState) -> None:
+        """Follow a converged solution."""
+        solution, exaggeration, paint = state.solution, state.view.exaggeration, self._paint.value
+        turning = paint and follows_azimuth(solution)  # The paint lies on the blade as flown.
+        wanted = (solution, state.pinned, paint, exaggeration, state.view.azimuth_deg if turning else 0.0)
+        if self._shown == wanted:
+            return
+        if not (paint or self._layout.drawer == "twist"):  # The chart costs an adjoint of its own.
+            self.show_failure()  # What stands here is no longer this solution's.
+            return
+        plot = sensitivity_plot(solution, self._chart.y_range, state.pinned)
+        self._chart.show(plot, _KEY if state.pinned is None else (*AB_KEY, _INDUCED))
+        self._words.content = explanation(plot)
+        if paint:
+            shape = blade_shape(solution.design.rotor)
+            twist = flown_twist(solution, math.radians(state.view.azimuth_deg))
+            self._strip.show(*strip(shape, twist, exaggeration, plot))
+        else:
+            self._strip.hide()
+        self._shown = wanted
+
+    def show_failure(self) -> None:
+        """The answer no longer holds."""
+        self._shown = None
+        self._strip.hide()

@@ -1,0 +1,146 @@
+"""What is shown: views and colour range by the buttons over the scene; units, theme and size of type."""
+
+from dataclasses import replace
+from functools import partial
+
+import viser
+
+from explorer.model.inputs import ViewState
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS
+from explorer.picture import disk_image
+from explorer.picture.camera_views import View
+from explorer.picture.fields import FIELDS, shown_field
+from explorer.picture.plan import plan
+from explorer.scene.controller import SceneController
+from explorer.tabs.actuator.cut_blade import fit_cut
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.probe.probe_panel import ProbePanel
+from explorer.text.glossary import hint
+from rotor.trim.solution import Solution
+
+
+class SettingsPanel(Tab):
+    """One session's."""
+
+    def __init__(self, context: TabContext) -> None:
+        self._context, gui, bind = context, context.gui, context.keyboard.bind
+        view = context.view()
+        self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
+        self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
+        self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
+        self._units.on_update(lambda event: self._change(units=event.target.value) if event.client else None)
+        self._dark.on_update(lambda event: self._change(dark=event.target.value) if event.client else None)
+        self._big.on_update(lambda _: self._enlarge())
+        gui.add_html(
+            '<div class="rx rx-dim rx-small"><p>Keys: press <b>?</b> for the list, Ctrl+K to find a command.</p></div>'
+        )
+        bind("units", lambda: self._change(units=_after(tuple(UNITS), context.view().units)))
+        bind("dark", lambda: self._change(dark=not context.view().dark))
+        bind("field_next", lambda: self._change(field=_after(tuple(FIELDS), context.view().field)))
+        bind("field_previous", lambda: self._change(field=_after(tuple(FIELDS), context.view().field, -1)))
+
+    def show(self, state: SessionState) -> None:
+        """Follow the view, which keys change too."""
+        self._units.value, self._dark.value = state.view.units, state.view.dark
+
+    def _change(self, **values: object) -> None:
+        display = self._context.display
+        display.set_view(replace(display.view(), **values))  # pyright: ignore[reportArgumentType]
+
+    def _enlarge(self) -> None:
+        """Big type in wider panels, or both as usual."""
+        self._context.bridge.set(big=self._big.value)
+        self._context.layout.enlarge(self._big.value)
+
+
+def _after(titles: tuple[str, ...], title: str, step: int = 1) -> str:
+    """The title so many places on, round and round."""
+    return titles[(titles.index(title) + step) % len(titles)]
+
+
+VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
+"""Views of the buttons, and their titles."""
+_PLAN_PIXELS = 720
+"""Along each edge of the plan's picture once nothing moves."""
+_COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "disk", "view_blade": "blade", "view_side": "side"}
+
+
+class SceneViews:
+    """One session's."""
+
+    def __init__(
+        self, context: TabContext, scene: SceneController, probe: ProbePanel, cut: viser.GuiCheckboxHandle
+    ) -> None:
+        """`cut`: whether the blade is shown cut open."""
+        self._context, self._scene, self._probe, self._cut = context, scene, probe, cut
+        self._view: View = "3d"
+        self._planned: tuple[object, ...] | None = None
+        """What the page's plan of the disk shows at rest."""
+        cut.on_update(lambda _: self._cut_switched())
+        context.bridge.on("view", self.look)
+        context.bridge.on("colours", self._colour)
+        context.layout.watchers.append(self._mode_changed)
+        for name, view in _COMMANDS.items():
+            context.keyboard.bind(name, partial(self.look, view))
+        context.keyboard.bind("rescale", partial(self._colour, "Rescale"))
+        context.keyboard.bind("rescale_default", partial(self._colour, "Default"))
+        self._show()
+
+    def look(self, view: View) -> None:
+        """Show the rotor from there."""
+        self._close_cut()
+        self._view = view
+        if view != "disk":
+            self._hide_plan()
+        self._scene.look(view)
+        self._show()
+        self._context.wake()
+
+    def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
+        """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
+        answer = self._context.pinboard.answer
+        pinned = answer if answer is not None and answer.converged else None
+        if self._view != "disk" or self._cut.value or (view.beside and pinned is not None):
+            self._hide_plan()
+            return
+        field = shown_field(view, pinned)
+        colour_range = self._scene.held_range(field)
+        wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned
+        if not at_rest and self._planned == wanted:
+            return  # It stands there already, finer.
+        self._planned = wanted if at_rest else None
+        pixels = _PLAN_PIXELS if at_rest else disk_image.MOVING
+        self._context.bridge.set(plan=plan(solution, view, field, colour_range, pixels, at_rest, pinned))
+
+    def _hide_plan(self) -> None:
+        self._planned = None
+        self._context.bridge.set(plan=None)
+
+    def _colour(self, order: str) -> None:
+        """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
+        self._context.display.order_range(order)
+        self._scene.order_range(order)
+        self._context.wake()
+
+    def _mode_changed(self) -> None:
+        if self._context.layout.mode != "actuate":
+            self._close_cut()
+
+    def _close_cut(self) -> None:
+        if self._cut.value:
+            self._cut.value = False
+
+    def _cut_switched(self) -> None:
+        cut, camera = self._cut.value, self._scene.camera
+        self._scene.set_seen(not cut)
+        self._probe.set_seen(not cut)
+        if camera is not None:
+            if cut:
+                camera.aim_with(partial(fit_cut, camera.radius))
+            else:
+                camera.aim(self._view)
+        self._show()
+
+    def _show(self) -> None:
+        self._context.bridge.set(views={"all": VIEWS, "now": "" if self._cut.value else self._view})

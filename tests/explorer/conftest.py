@@ -1,0 +1,36 @@
+"""A server without a page, and the sliders of the Explore mode on it."""
+
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+import viser
+
+from explorer.model.inputs import Inputs
+from explorer.model.undo import PowerTracker
+from explorer.tabs.controls import DesignControls, SessionCallbacks
+
+
+def nothing(*_: Any) -> None:
+    """For whoever must be told."""
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def controls_from(server: viser.ViserServer) -> Callable[[Inputs], DesignControls]:
+    """Makes the sliders that begin with these inputs."""
+    bridge: Any = SimpleNamespace(on=nothing)
+    callbacks = SessionCallbacks(nothing, nothing, lambda: None)
+    return lambda start: DesignControls(server.gui, bridge, start, PowerTracker(), callbacks)
+
+
+@pytest.fixture
+def controls(controls_from: Callable[[Inputs], DesignControls]) -> DesignControls:
+    return controls_from(Inputs())
