@@ -22,12 +22,14 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import viser
 
 from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.browser import PageFacts
+from explorer.hosting.viser_compat import until_called
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
 from explorer.page import Page
 from explorer.state import Inputs, baseline_of, with_optimum
@@ -76,6 +78,7 @@ class Session:
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
         self._page: SessionPage = self.page
+        self.page.bridge.on("idle", partial(self._tell_idle, client))
 
     def start(self) -> None:
         self._page.start()
@@ -179,6 +182,7 @@ class Session:
         self._worker.pause(_STILL)
         if not stop():
             page.settle(state)
+            self._worker.answer()
         elif self._curves.recent:
             return
         # On a test stand measured points take the place of power over µ.
@@ -200,6 +204,13 @@ class Session:
         """Something changed."""
         self._all_changed = True
         self._worker.wake()
+
+    def _tell_idle(self, client: viser.ClientHandle, asked: tuple[int, bool]) -> None:
+        """Give the page its number back once all that it sent before is answered (`RX.idle`)."""
+        number, wholly = asked
+        until_called(client)
+        self._worker.until_answered(wholly)
+        self.page.bridge.set(idle=number)
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

@@ -55,6 +55,9 @@ class NewestWins:
         self._idle = idle
         self._scheduler = scheduler
         self._wanted = threading.Event()
+        self._standing = threading.Condition()
+        self._answered = self._resting = False
+        """Whether what the update that runs was for is shown, and whether none runs."""
         self._stopped = False
         self._turn: Turn | None = None
         """Of the update that runs now."""
@@ -74,6 +77,8 @@ class NewestWins:
         self._stopped = True
         self._wanted.set()
         self._look()
+        with self._standing:
+            self._standing.notify_all()
         if threading.current_thread() is not self._thread and self._thread.is_alive():
             self._thread.join(timeout)
 
@@ -99,6 +104,23 @@ class NewestWins:
         if self._turn is not None:
             self._turn.give_way(lambda: self.superseded)
 
+    def answer(self) -> None:
+        """Within an update: what it was for is shown, and the rest of it can wait."""
+        with self._standing:
+            self._answered = True
+            self._standing.notify_all()
+
+    def until_answered(self, wholly: bool) -> None:
+        """Wait until all wakes that came before this call are answered, `wholly` also until no update runs; or until
+        the page has gone."""
+        with self._standing:
+            # In this order: a wake is taken only after both were unset.
+            self._standing.wait_for(
+                lambda: (
+                    self._stopped or (not self._wanted.is_set() and (self._resting or (self._answered and not wholly)))
+                )
+            )
+
     def _look(self) -> None:
         """Let an update that waits behind frames check again whether it is wanted."""
         if (turn := self._turn) is not None:
@@ -109,13 +131,16 @@ class NewestWins:
 
     def _rest(self) -> None:
         """Wait until an update is wanted."""
+        with self._standing:
+            self._resting = True
+            self._standing.notify_all()
         idle = self._idle
-        if self._wanted.wait(None if idle is None else idle.after):
-            return
-        assert idle is not None
-        idle.on_sleep()
-        self._wanted.wait()
-        idle.on_wake()
+        if not self._wanted.wait(None if idle is None else idle.after):
+            assert idle is not None
+            idle.on_sleep()
+            self._wanted.wait()
+            idle.on_wake()
+        self._answered = self._resting = False
 
     def _loop(self) -> None:
         while True:

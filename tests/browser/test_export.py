@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from watched import MEDIUM, WAIT, Watched, opened, painted
+from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.export.demo import demo_html
@@ -61,8 +61,7 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
 
 def value(app: App, label: str) -> Any:
     """What the server holds for a widget."""
-    (client,) = app.server.get_clients().values()
-    handles: Any = client.gui._gui_input_handle_from_uuid.values()
+    handles: Any = app.sessions[-1].page._client.gui._gui_input_handle_from_uuid.values()
     return next(handle.value for handle in handles if getattr(handle, "label", None) == label)
 
 
@@ -204,28 +203,6 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
     path = saved(watched, "Power", tmp_path)
     assert "the sliders have none" in watched.text("export")
     assert "8320 kg, 0 m" in path.read_text(encoding="utf-8")
-
-
-@pytest.mark.slow
-def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
-    watched = painted(browser, app.address, "light", MEDIUM)
-    watched.drawer("share")
-    watched.page.keyboard.press("m")
-    watched.choose("Picture", "3D view")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-light.png")
-    report = Watched(watched.page.context.new_page())
-    report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
-    for scheme in ("light", "dark"):
-        report.page.emulate_media(color_scheme=scheme)
-        report.page.wait_for_timeout(6000)
-        report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
-        assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
-    report.page.close()
-    watched.page.keyboard.press("n")
-    watched.page.wait_for_selector("html[data-mantine-color-scheme=dark]", state="attached")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-dark.png")
-    assert watched.complaints == report.complaints == []
-    watched.close()
 
 
 def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path: Path):

@@ -72,36 +72,39 @@ _PARTS = ['[data-explorer="total-power"]', ".rxf-sub", ".rxf-since", ".rxf-why",
 SIZES = [(1920, 1080), (1500, 940), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
 
 
-@pytest.fixture(scope="module", params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
-def sized(request: pytest.FixtureRequest, browser: "Browser", app: App) -> Iterator[tuple[Watched, tuple[int, int]]]:
-    """One page for each size: loading it is what takes the time."""
-    watched = opened(browser, app.address, size=request.param)
-    yield watched, request.param
-    watched.close()
+@pytest.fixture(params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
+def size(request: pytest.FixtureRequest) -> tuple[int, int]:
+    return request.param
 
 
 @pytest.fixture
-def watched(sized: tuple[Watched, tuple[int, int]]) -> Iterator[Watched]:
-    """The page as it opens."""
-    page = sized[0].page
-    page.evaluate("() => document.activeElement?.blur()")
-    page.keyboard.press("r")
-    page.wait_for_function("() => RX.state.power.change === '0.0 %' && RX.state.power.total.length < 4", timeout=WAIT)
-    sized[0].settled(0.4)
-    yield sized[0]
-    assert sized[0].complaints == []
+def sized(size: tuple[int, int], shared: Watched, browser: "Browser", app: App) -> Iterator[Watched]:
+    """The page as it opens. Only a telephone's differs from one that is made narrow: it opens its rail."""
+    watched = opened(browser, app.address, size=size) if size[0] <= 700 else shared
+    watched.page.set_viewport_size({"width": size[0], "height": size[1]})
+    watched.reset()
+    yield watched
+    assert watched.complaints == []
+    if watched is not shared:
+        watched.close()
 
 
-def test_everything_has_its_place(watched: Watched):
+def test_everything_has_its_place(sized: Watched, size: tuple[int, int]):
+    _units_and_power_fit_their_cards(sized)
+    if size[0] > 700:  # A telephone has no room for the sentence.
+        _a_sentence_is_not_cut_and_moves_nothing(sized)
+    _no_two_cards_meet(sized)
+    _the_bar_of_a_preview_stays_on_the_stage(sized)
+
+
+def _units_and_power_fit_their_cards(watched: Watched) -> None:
     page = watched.page
     for field in ("Power dP/dr", "Thrust dT/dr"):  # Those with the longest units.
         watched.show(field)
         page.wait_for_function("field => RX.state.field.field === field", arg=field, timeout=WAIT)
         watched.drawn()
         assert page.evaluate(_LEAVES, [".rxf-field", ".rxf-field *"]) == []
-    page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
-    page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
-    watched.settled()  # Nothing may come that puts back what is set here.
+    watched.answered(wholly=True)  # Nothing may come that puts back what is set here.
     long = {"value": "+1 903 kW", "words": "since grabbed", "kind": "bad"}
     page.evaluate("since => RX.set({power: {...RX.state.power, total: '2 801', since}})", long)
     page.wait_for_function(
@@ -131,10 +134,8 @@ _STANDS = """() => [...document.querySelectorAll('.rxf-power, .rxf-parts, .rxf-c
 })"""
 
 
-def test_a_sentence_is_not_cut_and_moves_nothing(watched: Watched, sized: tuple[Watched, tuple[int, int]]):
+def _a_sentence_is_not_cut_and_moves_nothing(watched: Watched) -> None:
     page = watched.page
-    if sized[1][0] < 700:
-        return  # A telephone has no room for the sentence.
     stands: list[object] = []
     for value, why in (("−1 kW", _WHY[0]), ("−9.2 kW", _WHY[1]), ("+128 kW", _WHY[2])):
         since = {"value": value, "words": "since grabbed", "kind": ""}
@@ -149,25 +150,24 @@ def test_a_sentence_is_not_cut_and_moves_nothing(watched: Watched, sized: tuple[
     assert stands[0] == stands[1] == stands[2]
 
 
-def test_no_two_cards_meet(watched: Watched):
+def _no_two_cards_meet(watched: Watched) -> None:
     page = watched.page
     for mode in ("optimise", "actuate", "explore"):
         watched.mode(mode)
         page.wait_for_function(f"() => ({_CARDS})().length === 0", timeout=WAIT)
     page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
-    page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
-    watched.settled(0.4)
+    watched.answered()
     page.wait_for_function(f"() => ({_CARDS})().length === 0")
     page.get_by_role("button", name="Pin A").click()
     page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
-    watched.settled(0.4)
+    watched.answered()
     page.wait_for_function(f"() => ({_CARDS})().length === 0")
     page.wait_for_function(f"() => ({_OUTSIDE})().length === 0")
     page.evaluate("() => RX.send('pin', '')")
     page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
 
 
-def test_the_bar_of_a_preview_stays_on_the_stage(watched: Watched):
+def _the_bar_of_a_preview_stays_on_the_stage(watched: Watched) -> None:
     """The longest: that of a schedule in flight, also beside an open rail."""
     page = watched.page
     text = "Speed µ 0.10 · twist, root to tip −11.0° · saved vs. starting design 6.6 kW h"
@@ -183,8 +183,8 @@ def test_the_bar_of_a_preview_stays_on_the_stage(watched: Watched):
     page.wait_for_selector(".rxf-notice", state="hidden", timeout=WAIT)
 
 
-def test_the_lecture_is_the_scene_a_caption_and_three_numbers(watched: Watched, sized: tuple[Watched, tuple[int, int]]):
-    page, size, rail = watched.page, sized[1], watched.page.locator("[data-dock-region=right]")
+def test_the_lecture_is_the_scene_a_caption_and_three_numbers(sized: Watched, size: tuple[int, int]):
+    watched, page, rail = sized, sized.page, sized.page.locator("[data-dock-region=right]")
     page.keyboard.press("t")
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]', timeout=WAIT)
     page.wait_for_function(
@@ -204,7 +204,7 @@ def test_the_lecture_is_the_scene_a_caption_and_three_numbers(watched: Watched, 
         page.wait_for_function(seen, arg=part, timeout=WAIT)
     boxes = """() => ["canvas[data-engine]", ".rxf-caption"].map(
         name => document.querySelector(name).getBoundingClientRect().toJSON())"""
-    scene, caption = watched.at_rest(lambda: page.evaluate(boxes), 0.6)
+    scene, caption = watched.at_rest(lambda: page.evaluate(boxes))
     assert scene["left"] == 0
     assert scene["right"] == size[0]  # Full-bleed.
     assert scene["height"] > 0.3 * size[1]

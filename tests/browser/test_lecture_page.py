@@ -36,8 +36,8 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
     page.get_by_role("button", name="Next").click()
     stands_at(page, 2)
     design_in_address(watched, "linear:-16;mu=0")
-    watched.reads("said", "^Induced power: A ")
-    said = watched.at_rest(lambda: watched.text("said"))
+    watched.answered()
+    said = watched.reads("said", "^Induced power: A ")
     page.evaluate("() => RX.send('knot', ['1', [1.0, -3.0]])")  # The curve's handle moves the rate.
     watched.until_changed(lambda: watched.text("said"), said)
     watched.reads("said", "^Induced power: A ")
@@ -101,7 +101,8 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     presenter.type("Adv. ratio", 0.3)
     presenter.until_changed(lambda: shown_kw(presenter), before)
     design_in_address(presenter, "mu=0.3")
-    shown = presenter.at_rest(lambda: shown_kw(presenter))
+    presenter.answered()
+    shown = shown_kw(presenter)
     assert shown != before
     follower.until(lambda: shown_kw(follower) == shown)
     follower.type("Adv. ratio", 0.2)  # Read-only: it goes back.

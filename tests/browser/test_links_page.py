@@ -71,7 +71,7 @@ def test_a_link_that_cannot_be_read_is_said_and_stays(browser: "Browser", app: A
     page = watched.page
     said = page.get_by_text("'uh60a+bends:3' is not known")
     said.wait_for(timeout=WAIT)
-    watched.settled()
+    watched.answered()
     page.wait_for_timeout(7000)  # Other notices are gone by then.
     assert said.is_visible()
     assert "d=1;uh60a~bends:3;mu=0.3" in page.url

@@ -45,7 +45,6 @@ def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
     watched.reset()
     watched.until(lambda: session.page.controls.inputs() == START)
     watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
-    watched.at_rest(lambda: watched.text("total-power"), 0.4)
     watched.mode("optimise")
     watched.section("Search")
     return watched, session
@@ -119,7 +118,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
 def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
     inputs = session.page.controls.inputs()
-    before = watched.at_rest(lambda: watched.text("total-power"), 0.6)
+    before = watched.text("total-power")
     watched.choose("Concept", "Linear")
     optimise(watched, session)
     until(watched, "done")
@@ -270,7 +269,7 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     watched.until(lambda: session.page.controls.inputs().law == "two")
     watched.until(lambda: session.page.controls.inputs().two_division != START.two_division)
-    inputs = watched.at_rest(session.page.controls.inputs, 0.4)
+    inputs = watched.at_rest(session.page.controls.inputs)
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)

@@ -50,12 +50,12 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
 def test_the_waterfall_adds_up_on_the_page(watched: Watched):
     watched.drawer("details")
     watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)', timeout=WAIT)
-    watched.settled()
+    watched.answered(wholly=True)
 
     def shown() -> list[str]:
         return watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
 
-    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in watched.at_rest(shown)]
+    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown()]
     assert len(column) == len(SWITCHES) + 2
     assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.4)
     assert column[-1] == pytest.approx(kilowatts(watched.text("total-power")), abs=0.6)
@@ -63,7 +63,8 @@ def test_the_waterfall_adds_up_on_the_page(watched: Watched):
 
 def test_each_switch_says_what_it_costs(watched: Watched):
     watched.page.wait_for_selector('[data-explorer="cost"]', timeout=WAIT)
-    costs = watched.at_rest(lambda: watched.page.locator('[data-explorer="cost"]').all_inner_texts())
+    watched.answered(wholly=True)
+    costs = watched.page.locator('[data-explorer="cost"]').all_inner_texts()
     assert len(costs) == len(SWITCHES)
     without_effect = [cost for cost in costs if not re.fullmatch(r"[+−]\d+\.\d kW here", cost)]
     parts = [f"{which} loss is part of this wake" for which in ("tip", "root")]

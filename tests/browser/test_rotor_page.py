@@ -109,7 +109,8 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.page.wait_for_function(kept, timeout=2 * WAIT)
     watched.page.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]')
     watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
-    power, address = watched.at_rest(lambda: watched.text("total-power")), watched.page.url
+    watched.answered()
+    power, address = watched.text("total-power"), watched.page.url
     watched.page.reload()  # No address holds it: the page itself does.
     watched.ready()
     watched.drawer("trust")

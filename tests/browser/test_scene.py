@@ -3,22 +3,19 @@
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched, opened
+from watched import WAIT, Watched
 
-from explorer.app import App
 from explorer.picture.wake import tip_vortices
 from explorer.state import Inputs
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
+SIZE = (1280, 720)
 ON_SCREEN = """r => {
     const viewer = window.__viserMutable, blade = viewer.nodeRefFromName['/rotor/blade_0'];
     blade.updateWorldMatrix(true, false);
@@ -44,20 +41,10 @@ AZIMUTH = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address, size=(1280, 720))
-    watched.quiet()
-    yield watched
-    watched.close()
-
-
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    shared.until(
-        lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
-    )
+    assert [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert [said for said in shared.complaints if _PASSIVE not in said] == []
@@ -75,8 +62,8 @@ def drag(watched: Watched, start: tuple[float, float], end: tuple[float, float])
     mouse.down()
     for k in range(1, 11):
         mouse.move(*(a + (b - a) * k / 10 for a, b in zip(start, end, strict=True)))
-        watched.page.wait_for_timeout(80)
-    watched.page.wait_for_timeout(800)
+        watched.page.wait_for_timeout(40)
+    watched.answered()
 
 
 def test_dragging_the_tip_up_turns_it_and_one_undo_takes_it_back(watched: Watched):

@@ -71,7 +71,8 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     watched.press("Rate", "ArrowLeft", 3)
     design_in_address(watched, "linear:-9.8;mu=0.3")
     assert "fixedDpr=0.5" in watched.page.url
-    shown = watched.at_rest(lambda: shown_kw(watched))
+    watched.answered()
+    shown = shown_kw(watched)
     watched.show("Mach number")
     watched.page.locator("[data-do=region][data-value=stall]").click()
     design_in_address(watched, "&v=1;field=mach;stall=off")
@@ -112,8 +113,9 @@ def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
     file = page.get_by_role("button", name="Load design").locator("xpath=../input[@type='file']")
     file.set_input_files(other)
     design_in_address(watched, "linear:-6;mu=0.25")
-    watched.until_changed(lambda: shown_kw(watched), before)
-    loaded = watched.at_rest(lambda: shown_kw(watched))
+    watched.answered()
+    loaded = shown_kw(watched)
+    assert loaded != before
     bad = tmp_path / "bad.json"
     bad.write_text('{"twist": "linear:-6", "wings": 2}', encoding="utf-8")
     file.set_input_files(bad)
