@@ -1,4 +1,4 @@
-"""What the browser tests share: one server for a process, since another costs more than a test, and a page for a file."""
+"""What the browser tests share: one server for a process, since another costs more than a test; a page for a file."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING

@@ -107,18 +107,14 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     follower.until(lambda: shown_kw(follower) == shown)
     follower.type("Adv. ratio", 0.2)  # Read-only: it goes back.
     here = shown_kw(presenter)
-    other.wait_for_timeout(1500)
-    other.wait_for_function(
-        "text => document.querySelector('[data-explorer=\"total-power\"]').innerText.startsWith(text)",
-        arg=here,
-        timeout=WAIT,
-    )
+    follower.answered()
+    follower.until(lambda: shown_kw(follower) == here)
     design_in_address(follower, "mu=0.3")
     other.keyboard.press("Escape")
     for key in ("h", "t", "p"):  # Nor do its keys move it, nor its buttons.
         other.keyboard.press(key)
     follower.until(other.get_by_role("button", name="Pin A").is_disabled)
-    other.wait_for_timeout(1500)
+    follower.answered()
     assert not other.locator('[data-explorer="lecture"]').is_visible()
     design_in_address(follower, "mu=0.3")
     assert "&a=" not in other.url
@@ -127,7 +123,8 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     there = shown_kw(follower)
     presenter.type("Adv. ratio", 0.1)
     presenter.until_changed(lambda: shown_kw(presenter), there)
-    other.wait_for_timeout(500)
+    presenter.answered()
+    follower.answered()
     assert shown_kw(follower) == there
     follower.type("Adv. ratio", 0.2)
     follower.until_changed(lambda: shown_kw(follower), there)

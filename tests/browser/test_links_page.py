@@ -31,7 +31,8 @@ def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
     )
 
 
-def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App):
+@pytest.mark.parametrize("designs", [DESIGNS[:1], pytest.param(DESIGNS, marks=pytest.mark.slow)], ids=["one", "all"])
+def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App, designs: tuple[Inputs, ...]):
     watched = opened(browser, app.address)
     page = watched.page
     watched.press("Δ inboard [°/R]", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
@@ -40,13 +41,13 @@ def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App):
     page.reload()
     watched.ready()
     watched.until(lambda: holds(app, watched, by_hand))
-    for inputs in DESIGNS:
+    for inputs in designs:
         watched.open(app.address, f"{COARSE}&d={code_of(inputs.design())}")
         watched.until(lambda inputs=inputs: holds(app, watched, inputs))
         page.reload()
         watched.ready()
         watched.until(lambda inputs=inputs: holds(app, watched, inputs))
-    for inputs in (*DESIGNS[-2::-1], by_hand):
+    for inputs in (*designs[-2::-1], by_hand):
         page.go_back()
         watched.ready()
         watched.until(lambda inputs=inputs: holds(app, watched, inputs))

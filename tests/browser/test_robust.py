@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
+from watched import OPEN
 
 from explorer import web
 from explorer.app import App
@@ -35,8 +36,6 @@ const look = () => {
 };
 requestAnimationFrame(look);
 """
-_OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
-    && !document.documentElement.classList.contains('rx-veiled')"""
 
 
 @pytest.fixture
@@ -59,25 +58,21 @@ def set_field(page: "Page", label: str, value: str) -> None:
     page.keyboard.press("Enter")
 
 
-def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", artefacts: Path):
-    app = App("127.0.0.1", 0)
-    try:
-        page = context.new_page()
-        page.goto(app.address)
-        page.wait_for_function(_OPEN, timeout=WAIT)  # Warms the server: the figures are those of the next page.
-        painted, opened, shift = inf, inf, inf
-        for _ in range(3):  # A machine that runs tests is busy, but not every time.
-            page.reload()
-            page.wait_for_function(_OPEN, timeout=WAIT)
-            page.wait_for_timeout(1500)
-            first_paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
-            seen = (first_paint, *page.evaluate("[window.__opened, window.__shift]"))
-            painted, opened, shift = map(min, (painted, opened, shift), seen)
-            if painted < 5_000 and opened < 15_000:
-                break
-        sheets = page.evaluate("[...document.querySelectorAll('body > style')].length")
-    finally:
-        app.stop()
+def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App, artefacts: Path):
+    page = context.new_page()
+    page.goto(app.address)
+    page.wait_for_function(OPEN, timeout=WAIT)  # Warms the server: the figures are those of the next page.
+    painted, opened, shift = inf, inf, inf
+    for _ in range(3):  # A machine that runs tests is busy, but not every time.
+        page.reload()
+        page.wait_for_function(OPEN, timeout=WAIT)
+        page.wait_for_timeout(1500)
+        first_paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        seen = (first_paint, *page.evaluate("[window.__opened, window.__shift]"))
+        painted, opened, shift = map(min, (painted, opened, shift), seen)
+        if painted < 5_000 and opened < 15_000:
+            break
+    sheets = page.evaluate("[...document.querySelectorAll('body > style')].length")
     line = f"first page: painted {painted:.0f} ms, answer seen {opened:.0f} ms, layout shift {shift:.4f}"
     print(line)
     with (artefacts / "latency.txt").open("a", encoding="utf-8") as file:
@@ -93,7 +88,7 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
     try:
         first, second = context.new_page(), context.new_page()
         first.goto(app.address)
-        first.wait_for_function(_OPEN, timeout=WAIT)
+        first.wait_for_function(OPEN, timeout=WAIT)
         second.goto(app.address)
         second.wait_for_selector("[data-explorer=lobby]", timeout=WAIT)
         assert "You are next" in second.locator("[data-explorer=lobby]").inner_text()
@@ -101,16 +96,16 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         second.wait_for_timeout(400)
         second.screenshot(path=artefacts / "full-house.png")
         first.close()
-        second.wait_for_function(_OPEN, timeout=WAIT)
+        second.wait_for_function(OPEN, timeout=WAIT)
         assert second.locator("[data-explorer=lobby]").count() == 0
         assert second.locator("[role=slider]").first.is_visible()
     finally:
         app.stop()
 
 
-def test_a_foreign_page_cannot_talk_to_the_server(context: "BrowserContext"):
+def test_a_foreign_page_cannot_talk_to_the_server(context: "BrowserContext", app: App):
     """Another server of this machine stands for any site: the browser names it in Origin."""
-    ours, foreign = App("127.0.0.1", 0), App("127.0.0.1", 0)
+    foreign = App("127.0.0.1", 0)
     try:
         page = context.new_page()
         page.goto(foreign.address)
@@ -118,19 +113,19 @@ def test_a_foreign_page_cannot_talk_to_the_server(context: "BrowserContext"):
             const socket = new WebSocket('ws' + address.slice(4), ['viser-v1.1.1']);
             socket.onopen = () => done('open'); socket.onclose = event => done(event.code);
         })"""
-        assert page.evaluate(tried, ours.address) == 1006
+        assert page.evaluate(tried, app.address) == 1006
         assert page.evaluate(tried, foreign.address) == "open"
     finally:
-        ours.stop()
         foreign.stop()
 
 
+@pytest.mark.slow
 def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     """A real restart on the same port: the page says so, comes back by itself, and shows the same design."""
     port, page = free_port(), context.new_page()
     with served(port) as address:
         page.goto(address)
-        page.wait_for_function(_OPEN, timeout=WAIT)
+        page.wait_for_function(OPEN, timeout=WAIT)
         set_field(page, "Δ inboard", "-11.5")
         page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
         page.wait_for_function("() => RX.state.power.change !== '0.0 %'", timeout=WAIT)
@@ -146,7 +141,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     with served(port):
         # A new process has everything to load before it answers.
         page.wait_for_selector("#rx-gone", state="detached", timeout=4 * WAIT)
-        page.wait_for_function(_OPEN, timeout=4 * WAIT)
+        page.wait_for_function(OPEN, timeout=4 * WAIT)
         inboard = "() => [...document.querySelectorAll('input')].some(one => one.value === '-11.5')"
         page.wait_for_function(inboard, timeout=WAIT)
         assert field(page, "Δ inboard") == "-11.5"

@@ -225,6 +225,45 @@ class TestWorker:
         worker.stop()
         assert events[:3] == ["sleep", "wake", "update"]
 
+    def test_who_waits_for_an_answer_gets_it_before_the_rest_is_done(self):
+        """An update that has answered goes on; one that a newer wake interrupts has answered nothing."""
+        go_on, end, seen, told = threading.Event(), threading.Event(), [0], list[str]()
+
+        def job(_: object) -> None:
+            go_on.wait(LONG)
+            seen[0] += 1
+            worker.answer()
+            end.wait(LONG)
+
+        worker = NewestWins(job, print, "w", scheduler=FairScheduler(1))
+
+        def ask(wholly: bool) -> None:
+            worker.until_answered(wholly)
+            told.append(f"{seen[0]} {'wholly' if wholly else 'answered'}")
+
+        worker.start()
+        worker.wake()
+        threads = [threading.Thread(target=ask, args=(wholly,)) for wholly in (True, False)]
+        for thread in threads:
+            thread.start()
+        time.sleep(0.05)
+        assert told == []
+        go_on.set()
+        until(lambda: told == ["1 answered"])
+        time.sleep(0.05)
+        assert told == ["1 answered"]
+        end.set()
+        until(lambda: told == ["1 answered", "1 wholly"])
+        go_on.clear()
+        worker.wake()
+        until(lambda: not worker.superseded)
+        later = threading.Thread(target=ask, args=(False,))
+        later.start()
+        worker.stop()  # The page has gone: nobody waits any longer.
+        later.join(LONG)
+        go_on.set()
+        assert not later.is_alive()
+
     def test_a_pause_lets_others_work_and_ends_with_a_change(self):
         turns, begun, ran = FairScheduler(1), threading.Event(), threading.Event()
         lengths: list[float] = []
