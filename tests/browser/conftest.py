@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from watched import SMALL, Watched, opened
+from watched import COARSE, SMALL, Visit, Watched, opened
 
 from explorer.app import App
 from explorer.state import OPENING
@@ -42,3 +42,18 @@ def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
     yield shared
     assert shared.complaints == []
+
+
+@pytest.fixture
+def visit(browser: "Browser", app: App) -> Iterator[Visit]:
+    """Opens a page, as `opened` does; after the test it is closed, and must not have complained."""
+    pages: list[Watched] = []
+
+    def visit(query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
+        pages.append(opened(browser, app.address, query, size))
+        return pages[-1]
+
+    yield visit
+    for one in pages:
+        one.close()
+        assert one.complaints == []

@@ -1,16 +1,11 @@
 """A and B on the real page: pin, move, read the difference, see it on the disk, swap, go back, let go."""
 
 import re
-from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, opened
+from watched import WAIT, Visit, Watched
 
-from explorer.app import App
 from explorer.state import Inputs
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 START = Inputs()
@@ -36,8 +31,8 @@ def press(watched: Watched, name: str) -> None:
     watched.page.get_by_role("button", name=name, exact=True).click()
 
 
-def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
-    watched = opened(browser, app.address, size=(1500, 940))
+def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
+    watched = visit(size=(1500, 940))
     page = watched.page
     begun = watched.text("total-power")
     watched.drawer("details")
@@ -93,5 +88,3 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     page.get_by_role("button", name="Show B − A").wait_for(state="detached", timeout=WAIT)
     page.wait_for_function("() => RX.state.strip.every(chart => !chart.pinned)", timeout=WAIT)
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))
-    assert watched.complaints == []
-    watched.close()

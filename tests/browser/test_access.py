@@ -121,16 +121,6 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
     page.wait_for_function("() => document.activeElement.dataset.value === 'share'", timeout=WAIT)
 
 
-def test_a_slider_moves_by_arrows(watched: Watched):
-    before = watched.text("total-power")
-    slider = watched.row("Δ outboard").get_by_role("slider")
-    watched.press("Δ outboard", "ArrowRight", 3)
-    watched.answered()
-    assert watched.text("total-power") != before
-    assert float(slider.get_attribute("aria-valuenow") or 0) > 0.0
-    assert watched.page.evaluate("() => document.activeElement.ariaLabel") == "Δ outboard [°/R]"
-
-
 def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
     """A finger set down, moved and lifted."""
     for k in range(13):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from watched import WAIT, Watched, opened
+from watched import WAIT, Watched, opened, window
 
 from explorer.app import App
 from explorer.export.demo import demo_html
@@ -159,6 +159,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
         report.page.goto(path.as_uri())
     assert report.page.locator('[data-report="total-power"]').first.inner_text() == shown
     assert "quasi-steady sections" in report.page.inner_text(".care")
+    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     ground = "() => getComputedStyle(document.body).backgroundColor"
     light = report.page.evaluate(ground)
     report.page.get_by_role("button", name="Dark / light").click()
@@ -208,7 +209,7 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path: Path):
     """Opened as a file: the red blade, the disk and the power change with the twist, and nothing is asked of a host."""
     (tmp_path / "demo.html").write_text(demo_html(make_design(), (-12.0, 0.0), (0.2,)), encoding="utf-8")
-    page = browser.new_page()
+    page = window(browser).new_page()
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.goto((tmp_path / "demo.html").as_uri())

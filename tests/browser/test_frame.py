@@ -1,16 +1,11 @@
 """The frame of the page: opening, prompt, modes, drawers, the twist curve, keyboard and spoken names."""
 
 import re
-from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, opened
+from watched import WAIT, Visit, Watched
 
-from explorer.app import App
 from explorer.tabs.layout import DRAWERS
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 
@@ -24,8 +19,8 @@ def middle(watched: Watched, selector: str) -> tuple[float, float]:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(browser: "Browser", app: App):
-    watched = opened(browser, app.address, size=SIZE)
+def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit):
+    watched = visit(size=SIZE)
     for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("since", "as built")):
         watched.says(part, words)
     watched.says("prompt", "Drag the twist")
@@ -35,7 +30,6 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(browser: "Br
     watched.page.get_by_role("button", name="Undo").click()
     watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'", timeout=WAIT)
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
-    watched.close()
 
 
 def test_each_mode_has_its_own_rail(watched: Watched):

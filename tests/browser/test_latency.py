@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
+from watched import Watched
 
 from explorer.app import App
 
@@ -35,17 +36,12 @@ def test_slider_to_frame(browser: "Browser", artefacts: Path, label: str):
     context.add_init_script(DRAW_NOTHING)
     page = context.new_page()
     try:
-        page.goto(app.address)
-        page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=90_000)
+        watched = Watched(page)
+        watched.open(app.address, query="")
         if label == "Rate":
-            row = page.locator("label", has_text="Twist concept").locator(
-                "xpath=ancestor::div[contains(@class,'Flex-root')][1]"
-            )
-            row.locator("input").first.click()
-            page.get_by_role("option", name="Linear", exact=True).click()
-        page.wait_for_timeout(3000)
-        row = page.locator("label", has_text=label).locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
-        row.get_by_role("slider").focus()
+            watched.choose("Twist concept", "Linear")
+        watched.answered(wholly=True)
+        watched.row(label).get_by_role("slider").focus()
         page.evaluate(_WATCH)
         for k in range(40):
             page.keyboard.press("ArrowRight" if k % 20 < 10 else "ArrowLeft")

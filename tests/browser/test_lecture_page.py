@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 from test_session_page import design_in_address, shown_kw
-from watched import COARSE, WAIT, opened
+from watched import COARSE, WAIT, Visit
 
 from explorer.app import App
 from explorer.tabs.lecture.steps import STEPS
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Page
 
 pytestmark = pytest.mark.browser
 
@@ -23,8 +23,8 @@ def stands_at(page: "Page", step: int) -> None:
     )
 
 
-def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app: App):
-    watched = opened(browser, app.address)
+def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
+    watched = visit()
     page = watched.page
     watched.drawer("lecture")
     watched.type("Adv. ratio", 0.22)
@@ -56,13 +56,11 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
         """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="drawer"]')).fontSize) > 16""",
         timeout=WAIT,
     )
-    assert watched.complaints == []
-    watched.close()
 
 
-def test_with_another_inflow_a_step_compares_like_with_like(browser: "Browser", app: App):
+def test_with_another_inflow_a_step_compares_like_with_like(visit: Visit, app: App):
     """What the step says of twist must be seen: with linear inflow it hardly saves."""
-    watched = opened(browser, app.address)
+    watched = visit()
     page = watched.page
     page.keyboard.press("t")
     for k in range(1, 4):
@@ -73,11 +71,11 @@ def test_with_another_inflow_a_step_compares_like_with_like(browser: "Browser", 
     app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="pitt-peters"))
     watched.reads("said", r"induced [+−]?0\skW")  # First the design, then A has the other inflow.
     page.wait_for_function("() => !RX.state.power.status.title.includes('different models')")
-    watched.close()
 
 
-def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App):
-    presenter = opened(browser, app.address)
+@pytest.mark.slow
+def test_others_follow_the_presenter_and_may_leave(visit: Visit):
+    presenter = visit()
     page = presenter.page
     presenter.drawer("lecture")
     page.get_by_role("button", name="Present", exact=True).click()
@@ -91,7 +89,7 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     page.reload()
     page.wait_for_selector('[data-explorer="presence"] a', timeout=WAIT)  # The page itself presents on.
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
-    follower = opened(browser, app.address, COARSE + f"&follow={name}")
+    follower = visit(COARSE + f"&follow={name}")
     other = follower.page
     follower.reads("presence", "controlled by the presenter")
     page.wait_for_function(
@@ -128,6 +126,3 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     assert shown_kw(follower) == there
     follower.type("Adv. ratio", 0.2)
     follower.until_changed(lambda: shown_kw(follower), there)
-    assert presenter.complaints == follower.complaints == []
-    follower.close()
-    presenter.close()

@@ -24,7 +24,7 @@ SLOW = "Three segments, free breaks"
 """With sixteen starts it takes many times as long as a test waits before it presses Stop."""
 
 
-def visit(browser: "Browser", app: App) -> tuple[Watched, Session]:
+def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
     known = app.sessions
     watched = opened(browser, app.address, size=(1280, 900))
     (new,) = (session for session in app.sessions if session not in known)
@@ -33,13 +33,13 @@ def visit(browser: "Browser", app: App) -> tuple[Watched, Session]:
 
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
-    watched, session = visit(browser, app)
+    watched, session = arrive(browser, app)
     yield watched, session
     watched.close()
 
 
 @pytest.fixture
-def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
+def page(shared: tuple[Watched, Session]) -> Iterator[tuple[Watched, Session]]:
     """The shared page on its first design, no search under way, on the Optimise tab."""
     watched, session = shared
     watched.reset()
@@ -47,7 +47,8 @@ def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
     watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
     watched.mode("optimise")
     watched.section("Search")
-    return watched, session
+    yield watched, session
+    assert watched.complaints == []
 
 
 def until(watched: Watched, *kinds: str) -> None:
@@ -112,7 +113,6 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
     watched.until(lambda: watched.text("total-power").startswith(f"{power / 1e3:.0f}"))
-    assert watched.complaints == []
 
 
 def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(page: tuple[Watched, Session]):
@@ -218,13 +218,12 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
     watched.until_changed(lambda: session.page.optimise.request().starts, 16)
     optimise(watched, session)
     until(watched, "done")
-    assert watched.complaints == []
 
 
 @pytest.mark.slow
 def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Session], browser: "Browser", app: App):
     watched, session = page
-    other, others = visit(browser, app)
+    other, others = arrive(browser, app)
     before = other.text("total-power")
     watched.choose("Concept", SLOW)
     optimise(watched, session)
@@ -249,7 +248,6 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     if run_of(session).under_way:
         press(watched, "Stop")
     until(watched, "stopped", "done")
-    assert watched.complaints == []
     assert other.complaints == []
 
 
@@ -269,7 +267,6 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
     session.page.map.stop()
-    assert watched.complaints == []
 
 
 def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
@@ -287,4 +284,3 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     download.value.save_as(tmp_path / "schedule.csv")
     lines = (tmp_path / "schedule.csv").read_text().splitlines()
     assert len(lines) == 1 + len(session.page.schedule._rows) + 1
-    assert watched.complaints == []

@@ -2,30 +2,25 @@
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import pytest
 from test_page import kilowatts
-from watched import WAIT, Watched, opened
+from watched import WAIT, Watched
 
 from explorer.app import App
 from explorer.state import Inputs
 from explorer.text.glossary import CONTROLS
 from rotor.aero.switches import SWITCHES
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs(law="builtin", advance_ratio=0.3)
 
 
-@pytest.fixture(scope="module")
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address)
-    yield watched
-    watched.close()
-    assert watched.complaints == []
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """As the test before left it."""
+    yield shared
+    assert shared.complaints == []
 
 
 def box(watched: Watched, label: str) -> None:

@@ -3,34 +3,28 @@
 import math
 import threading
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched, opened
+from watched import WAIT, Watched
 
-from explorer.app import App
 from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
 from explorer.state import Inputs
 from rotor.files.make_design import uh60a_rotor
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
+SIZE = (1500, 940)  # Room for the disk between drawer, rail and cards.
 START = Inputs(law="builtin")
 RADIUS = uh60a_rotor("flight").radius
 
 
-@pytest.fixture(scope="module")
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address, size=(1500, 940))  # Room for the disk between drawer, rail and cards.
-    watched.quiet()
-    watched.drawer("probe")
-    watched.page.wait_for_selector('[data-explorer="probe"]')
-    yield watched
-    assert watched.complaints == []
-    watched.close()
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """As the test before left it."""
+    if shared.page.evaluate("() => RX.state.bar.drawer") != "probe":
+        shared.drawer("probe")
+    yield shared
+    assert shared.complaints == []
 
 
 def number(watched: Watched, label: str) -> float:
@@ -263,6 +257,7 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     watched.choose("Twist concept", "Three segments")
     watched.type("Break 2", 0.3)
     page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
+    watched.reads("problem", r"break points at 0\.4 and 0\.3 R are out of order")
     page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
     watched.reset()
     page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)

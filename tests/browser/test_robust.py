@@ -12,19 +12,17 @@ from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
-from watched import OPEN
+from watched import OPEN, WAIT, Watched
 
 from explorer import web
 from explorer.app import App
 from explorer.hosting.limits import ServerLimits
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext, Page
+    from playwright.sync_api import Browser, BrowserContext
 
 pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parent.parent.parent
-WAIT = 40_000
-"""[ms]; far more than it takes, for busy machines."""
 _WATCH = """
 window.__shift = 0; window.__opened = null;
 new PerformanceObserver(list => { for (const entry of list.getEntries()) window.__shift += entry.value; })
@@ -45,17 +43,6 @@ def context(browser: "Browser") -> "Iterator[BrowserContext]":
     context.add_init_script(_WATCH)
     yield context
     context.close()
-
-
-def field(page: "Page", label: str) -> str:
-    row = page.locator("label", has_text=label).first.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
-    return row.locator("input:not([type=hidden])").last.input_value()
-
-
-def set_field(page: "Page", label: str, value: str) -> None:
-    row = page.locator("label", has_text=label).first.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
-    row.locator("input:not([type=hidden])").last.fill(value)
-    page.keyboard.press("Enter")
 
 
 def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App, artefacts: Path):
@@ -126,7 +113,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     with served(port) as address:
         page.goto(address)
         page.wait_for_function(OPEN, timeout=WAIT)
-        set_field(page, "Δ inboard", "-11.5")
+        Watched(page).type("Δ inboard", -11.5)
         page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
         page.wait_for_function("() => RX.state.power.change !== '0.0 %'", timeout=WAIT)
         page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled", timeout=WAIT)
@@ -144,7 +131,6 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
         page.wait_for_function(OPEN, timeout=4 * WAIT)
         inboard = "() => [...document.querySelectorAll('input')].some(one => one.value === '-11.5')"
         page.wait_for_function(inboard, timeout=WAIT)
-        assert field(page, "Δ inboard") == "-11.5"
         same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
         page.wait_for_function(same, arg=power, timeout=WAIT)
         page.locator("[data-do=drawer][data-value=open]").click()

@@ -45,6 +45,7 @@ def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]
     watched = opened(browser, app.address, size=(1280, 900))
     watched.drawer("open")
     yield watched, app.sessions[-1]
+    assert watched.complaints == []
     watched.close()
     app.stop()
 
@@ -80,7 +81,6 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     assert inputs.two_outer == pytest.approx(results.columns["outboard_rate_deg"][row])
     assert inputs.two_division == pytest.approx(results.columns["division"][row])
     watched.until_changed(lambda: watched.text("total-power"), before)
-    assert watched.complaints == []
 
 
 def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], artefacts: Path):
@@ -101,7 +101,6 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     watched.until(lambda: session.page.controls.inputs().advance_ratio == 0.0)
     watched.type("Point no.", 99)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
-    assert watched.complaints == []
 
 
 def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session], tmp_path: Path):
@@ -115,4 +114,3 @@ def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session],
     chooser.value.set_files(wrong)
     tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]', timeout=WAIT)
     assert "wrong.parquet" in watched.text("study-state")
-    assert watched.complaints == []

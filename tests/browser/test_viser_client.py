@@ -1,25 +1,19 @@
 """What `explorer/web/viser.js` changes in viser's client; when one of these fails, the pin may not move."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, opened
-
-from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+from watched import WAIT, Watched
 
 pytestmark = pytest.mark.browser
+SIZE = (1500, 940)
 
 
-@pytest.fixture(scope="module")
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address, size=(1500, 940))
-    yield watched
-    assert watched.complaints == []
-    watched.close()
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """As the test before left it."""
+    yield shared
+    assert shared.complaints == []
 
 
 def test_the_docks_stay_in_a_narrow_window(watched: Watched):

@@ -177,8 +177,12 @@ class Watched:
         self.page.wait_for_timeout(400)
 
 
+Visit = Callable[..., Watched]
+"""Opens a page with this query and of this size."""
+
+
 @cache
-def _window(browser: "Browser") -> "BrowserContext":
+def window(browser: "Browser") -> "BrowserContext":
     """One for all pages in which nothing is painted: what a test reads needs no pixels."""
     context = browser.new_context()
     context.add_init_script(DRAW_NOTHING)
@@ -187,7 +191,7 @@ def _window(browser: "Browser") -> "BrowserContext":
 
 def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
     """A page in which nothing is painted."""
-    watched = Watched(_window(browser).new_page())
+    watched = Watched(window(browser).new_page())
     watched.page.set_viewport_size({"width": size[0], "height": size[1]})
     watched.open(address, query)
     return watched
