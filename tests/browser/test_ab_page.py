@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from watched import WAIT, Visit, Watched
+from watched import Visit, Watched
 
 from explorer.state import Inputs
 
@@ -24,7 +24,7 @@ def total_row(watched: Watched) -> list[str]:
 def menu(watched: Watched) -> None:
     """Open the menu of A."""
     watched.page.get_by_role("button", name="A is").click()
-    watched.page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="pinned"]')
 
 
 def press(watched: Watched, name: str) -> None:
@@ -39,15 +39,15 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     assert page.get_by_role("button", name="Show B − A").count() == 0
 
     page.keyboard.press("p")
-    page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
-    page.wait_for_selector('[data-explorer="ab"]', timeout=WAIT)
+    page.wait_for_function("() => RX.state.bar.pinned")
+    page.wait_for_selector('[data-explorer="ab"]')
     menu(watched)
     watched.reads("pinned", r"A\s*Two segments −14/−8 at 0\.5\s+" + begun)
     page.keyboard.press("Escape")
     watched.says("against", "A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", "0.0"])
     watched.until(lambda: ghost_seen(watched))  # A and B are one blade: the ghost is its jig shape.
-    page.wait_for_function("() => RX.state.strip.every(chart => chart.pinned)", timeout=WAIT)
+    page.wait_for_function("() => RX.state.strip.every(chart => chart.pinned)")
 
     disk = watched.node("/rotor/disk/field")
     watched.press("Inboard", "PageUp", 9)
@@ -80,11 +80,11 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
 
     menu(watched)
     press(watched, "Unpin")
-    page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)
-    page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
+    page.wait_for_selector('[data-explorer="ab"]', state="detached")
+    page.wait_for_function("() => !RX.state.bar.pinned")
     watched.until_changed(lambda: ghost_seen(watched), False)  # Of the blade as built.
     watched.says("against", "UH-60A as built")
     watched.until(lambda: "B − A" not in page.locator('[data-part="unit"]').inner_text())
-    page.get_by_role("button", name="Show B − A").wait_for(state="detached", timeout=WAIT)
-    page.wait_for_function("() => RX.state.strip.every(chart => !chart.pinned)", timeout=WAIT)
+    page.get_by_role("button", name="Show B − A").wait_for(state="detached")
+    page.wait_for_function("() => RX.state.strip.every(chart => !chart.pinned)")
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))

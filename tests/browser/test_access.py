@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from chromium import DRAW_NOTHING
 from test_scene import ON_SCREEN
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.app import App
 
@@ -106,8 +106,8 @@ def test_focus_stays_where_a_key_was_pressed(watched: Watched):
     page = watched.page
     page.locator("[data-do=view]", has_text="Disk").focus()
     page.keyboard.press("Enter")
-    page.wait_for_selector("[data-do=view][aria-pressed=true] >> text=Disk", timeout=WAIT)
-    page.wait_for_function("() => document.activeElement.innerText === 'Disk'", timeout=WAIT)
+    page.wait_for_selector("[data-do=view][aria-pressed=true] >> text=Disk")
+    page.wait_for_function("() => document.activeElement.innerText === 'Disk'")
     page.locator("[data-do=view]", has_text="Aircraft").click()
 
 
@@ -115,10 +115,10 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
     page = watched.page
     page.get_by_role("button", name="Share").focus()
     page.keyboard.press("Enter")
-    page.wait_for_function("() => document.activeElement.ariaLabel === 'Close'", timeout=WAIT)
+    page.wait_for_function("() => document.activeElement.ariaLabel === 'Close'")
     page.keyboard.press("Escape")
-    page.wait_for_selector('[data-explorer="drawer"]', state="detached", timeout=WAIT)
-    page.wait_for_function("() => document.activeElement.dataset.value === 'share'", timeout=WAIT)
+    page.wait_for_selector('[data-explorer="drawer"]', state="detached")
+    page.wait_for_function("() => document.activeElement.dataset.value === 'share'")
 
 
 def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
@@ -131,6 +131,7 @@ def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], w
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
 
 
+@pytest.mark.slow
 def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", app: App):
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     context.add_init_script(DRAW_NOTHING)
@@ -175,5 +176,5 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
     assert by_blade > by_curve + 1.0  # The tip was turned up.
     # The camera follows the shaft tilt; an orbit would have moved it by metres.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.6)
-    watched.page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.hand === null")
     watched.close()

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 import pytest
-from watched import Watched
+from watched import WAIT, Watched
 
 pytestmark = pytest.mark.browser
-VERDICT = 60_000
-"""[ms]; four optima and their trims, beside a browser that draws in software."""
+VERDICT = 4 * WAIT
+"""[ms]; four optima and their trims, in a process of low priority."""
 
 
 @pytest.fixture
@@ -57,6 +57,7 @@ def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
     watched.until(lambda: watched.text("change") != "0.0 %")
 
 
+@pytest.mark.slow
 def test_another_actuator_gets_another_verdict(watched: Watched):
     watched.press("Derating", "ArrowLeft")
     watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
@@ -90,6 +91,7 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     watched.until(lambda: labels.inner_text() == "")
 
 
+@pytest.mark.slow
 def test_the_sweep_of_the_harmonic_follows_its_sliders(watched: Watched):
     """Power over amplitude and phase, with the limit; the sentence follows the phase at once."""
     watched.mode("explore")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from watched import WAIT, Watched, opened, window
+from watched import Watched, opened, window
 
 from explorer.app import App
 from explorer.export.demo import demo_html
@@ -43,13 +43,13 @@ def watched(shared: Watched) -> Iterator[Watched]:
 
 
 def until(watched: Watched, kind: str) -> str:
-    watched.page.wait_for_selector(f'[data-explorer="export"][data-kind="{kind}"]', timeout=WAIT)
+    watched.page.wait_for_selector(f'[data-explorer="export"][data-kind="{kind}"]')
     return watched.text("export")
 
 
 def saved(watched: Watched, button: str, folder: Path) -> Path:
     """What a button downloads."""
-    with watched.page.expect_download(timeout=WAIT) as download:
+    with watched.page.expect_download() as download:
         drawer = watched.page.locator("[data-dock-region=left]")
         drawer.get_by_role("button", name=button, exact=True).click()
     path = folder / download.value.suggested_filename
@@ -81,16 +81,17 @@ def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
     assert len([name for name in scene.graph.nodes_geometry if name.startswith("blade")]) == design.rotor.blades
 
 
-@pytest.mark.parametrize(("button", "rows"), [("Disk", 24 * 120), ("Blade", 24), ("Power", 19)])
-def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, rows: int):
-    text = saved(watched, button, tmp_path).read_text(encoding="utf-8")
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    table = np.genfromtxt(io.StringIO("\n".join(lines)), delimiter=",", skip_header=1)
-    assert table.shape == (rows, lines[0].count(",") + 1)
-    assert np.isfinite(table[:, 0]).all()
-    assert "linear:-16" in text
+def test_tables_are_read_back(watched: Watched, tmp_path: Path):
+    for button, rows in (("Disk", 24 * 120), ("Blade", 24), ("Power", 19)):
+        text = saved(watched, button, tmp_path).read_text(encoding="utf-8")
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+        table = np.genfromtxt(io.StringIO("\n".join(lines)), delimiter=",", skip_header=1)
+        assert table.shape == (rows, lines[0].count(",") + 1)
+        assert np.isfinite(table[:, 0]).all()
+        assert "linear:-16" in text
 
 
+@pytest.mark.slow
 def test_pictures_have_the_pixels_asked_for(watched: Watched, app: App, tmp_path: Path):
     watched.choose("Size [px]", "1280 × 720")
     watched.until(lambda: value(app, "Size [px]") == "1280 × 720")
@@ -115,7 +116,7 @@ def test_pictures_have_the_pixels_asked_for(watched: Watched, app: App, tmp_path
     with Image.open(saved(watched, "PNG", tmp_path)) as view:
         assert view.size == (2000, 2000)
     watched.choose("Size [px]", "Own size")
-    watched.page.get_by_text("W, H [px]").wait_for(timeout=WAIT)
+    watched.page.get_by_text("W, H [px]").wait_for()
     first, second = watched.row("W, H").locator("input:not([type=hidden])").all()
     first.fill("3000")
     watched.taken()
@@ -131,7 +132,7 @@ def test_pictures_have_the_pixels_asked_for(watched: Watched, app: App, tmp_path
 def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     page, power = watched.page, solve(START.design()).power.total
     page.get_by_role("button", name="Command", exact=True).click()
-    command = page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
+    command = page.wait_for_selector('[data-explorer="code"]')
     assert command is not None
     assert command.inner_text().strip() == "python -m rotor solve --mu 0.41 --twist linear:-16 --mass-kg 8320"
     watched.until(lambda: clipboard(watched).strip() == command.inner_text().strip())
@@ -139,7 +140,7 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
     page.wait_for_selector('[data-explorer="code"]', state="detached")
     page.get_by_role("button", name="Python", exact=True).click()
-    page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
+    page.wait_for_selector('[data-explorer="code"]')
     names: dict[str, Any] = {}
     exec(compile(watched.until_changed(lambda: clipboard(watched), copied), "copied", "exec"), names)
     assert names["solution"].power.total == pytest.approx(power, rel=1e-9)
@@ -155,7 +156,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     report = Watched(watched.page.context.new_page())
     asked: list[str] = []
     report.page.on("request", lambda request: asked.append(request.url))
-    with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text, timeout=WAIT):
+    with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text):
         report.page.goto(path.as_uri())
     assert report.page.locator('[data-report="total-power"]').first.inner_text() == shown
     assert "quasi-steady sections" in report.page.inner_text(".care")
@@ -180,7 +181,7 @@ def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
     scene.page.on("request", lambda request: asked.append(request.url))
     scene.page.goto(path.as_uri())
     blade = "() => window.__viserSceneTree?.getState()['/rotor/blade_0']?.message.props.vertices.byteLength > 10000"
-    scene.page.wait_for_function(blade, timeout=WAIT)
+    scene.page.wait_for_function(blade)
     assert shown in scene.text("caption")
     assert "µ 0.41" in scene.text("caption")
     assert "linear" in scene.page.title().lower()
@@ -192,28 +193,30 @@ def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
 
 def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):
     watched.page.keyboard.press("Escape")
-    watched.page.wait_for_selector('[data-explorer="export"]', state="detached", timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="export"]', state="detached")
     watched.page.keyboard.press("x")
-    watched.page.wait_for_selector('[data-explorer="export"]', state="visible", timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="export"]', state="visible")
 
 
 def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_path: Path):
     watched.type("Altitude", 4000.0)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
     watched.drawer("share")
     path = saved(watched, "Power", tmp_path)
     assert "the sliders have none" in watched.text("export")
     assert "8320 kg, 0 m" in path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path: Path):
     """Opened as a file: the red blade, the disk and the power change with the twist, and nothing is asked of a host."""
     (tmp_path / "demo.html").write_text(demo_html(make_design(), (-12.0, 0.0), (0.2,)), encoding="utf-8")
     page = window(browser).new_page()
+    shown = Watched(page)
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.goto((tmp_path / "demo.html").as_uri())
-    page.wait_for_selector("#demo[data-ready=true]", timeout=WAIT)
+    page.wait_for_selector("#demo[data-ready=true]")
     tip = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0'].traverse(part => {
         const {position, instanceStart} = part.geometry?.attributes ?? {};
         if (part.isMesh && !instanceStart) found = Array.from(position.array); }); return found; }"""
@@ -222,7 +225,6 @@ def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path
     before, jig_before, power = page.evaluate(tip), page.evaluate(jig), page.inner_text("#demo-total")
     page.locator("#demo-twist").press("ArrowRight")
     page.wait_for_function("power => document.getElementById('demo-total').textContent !== power", arg=power)
-    shown = Watched(page)
     for read, earlier in ((tip, before), (jig, jig_before)):
         shown.until(lambda read=read, earlier=earlier: np.max(np.abs(np.subtract(page.evaluate(read), earlier))) > 0.05)
     after, jig_after = page.evaluate(tip), page.evaluate(jig)  # [m]

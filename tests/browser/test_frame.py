@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from watched import WAIT, Visit, Watched
+from watched import Visit, Watched
 
 from explorer.tabs.layout import DRAWERS
 
@@ -25,10 +25,10 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit
         watched.says(part, words)
     watched.says("prompt", "Drag the twist")
     watched.press("Δ outboard", "ArrowRight", 3)
-    watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden", timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden")
     watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since")))
     watched.page.get_by_role("button", name="Undo").click()
-    watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'")
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
 
 
@@ -36,8 +36,8 @@ def test_each_mode_has_its_own_rail(watched: Watched):
     rail = watched.page.locator("[data-dock-region=right]")
     for mode, mark in (("optimise", "Objective"), ("actuate", "Show blade cut"), ("explore", "Adv. ratio")):
         watched.mode(mode)
-        rail.get_by_text(mark).first.wait_for(timeout=WAIT)
-    rail.get_by_text("Objective").wait_for(state="detached", timeout=WAIT)
+        rail.get_by_text(mark).first.wait_for()
+    rail.get_by_text("Objective").wait_for(state="detached")
 
 
 def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watched):
@@ -69,10 +69,10 @@ def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watche
         page.mouse.move(x, y - 3 * step)
         page.wait_for_timeout(60)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)  # While the button is down.
-    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip 1.00 R')", timeout=WAIT)
-    page.wait_for_selector(".rxf-tag[data-on]", state="attached", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip 1.00 R')")
+    page.wait_for_selector(".rxf-tag[data-on]", state="attached")
     page.mouse.up()
-    page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand === null")
     watched.until_changed(lambda: watched.text("total-power"), before)
     outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
     assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
@@ -134,14 +134,14 @@ def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
     watched.answered()
     page.evaluate("() => document.activeElement.blur()")
     page.keyboard.press("t")
-    page.wait_for_selector(".rxf-caption", state="visible", timeout=WAIT)
+    page.wait_for_selector(".rxf-caption", state="visible")
     watched.answered()
     for _ in range(3):
         assert "grabbed" not in watched.text("since")
         page.locator(".rxf-caption [data-value=next]").click()
         watched.answered()  # An answer draws the caption anew, and a button that is drawn anew misses its click.
     page.locator(".rxf-caption [data-value=end]").click()
-    page.wait_for_selector(".rxf-caption", state="hidden", timeout=WAIT)
+    page.wait_for_selector(".rxf-caption", state="hidden")
     watched.answered()
     assert "grabbed" not in watched.text("since")
 
@@ -160,7 +160,7 @@ def test_the_handles_of_the_curve_have_keys(watched: Watched):
         before = shown()
         page.keyboard.press("ArrowUp")
         watched.until(lambda before=before: all(a != b for a, b in zip(shown(), before, strict=True)))
-    page.wait_for_function("() => Number(RX.state.twist.knots.at(-1).theta) > -1", timeout=WAIT)
+    page.wait_for_function("() => Number(RX.state.twist.knots.at(-1).theta) > -1")
     watched.answered()
     assert page.evaluate("() => document.activeElement.dataset.knot") == "2"
     assert float(outer.input_value()) > 0.5
@@ -205,10 +205,10 @@ def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
     page = watched.page
     level = watched.text("total-power")
     watched.type("Climb", 5.0)
-    page.wait_for_function("() => RX.state.power.parts.some(one => one.part === 'climb')", timeout=WAIT)
+    page.wait_for_function("() => RX.state.power.parts.some(one => one.part === 'climb')")
     climbing = watched.at_rest(lambda: watched.text("total-power"))
     assert climbing != level
-    page.wait_for_function("() => location.search.includes('climb=')", timeout=WAIT)
+    page.wait_for_function("() => location.search.includes('climb=')")
     apart = """() => {
         const places = [...document.querySelectorAll('.rxf-parts dl > div')].map(e => e.getBoundingClientRect());
         return places.slice(1).every((place, k) => place.left >= places[k].right);
@@ -228,14 +228,13 @@ def test_less_motion_is_respected(watched: Watched):
 def test_on_a_tablet_the_rail_is_a_drawer(watched: Watched):
     page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
     page.set_viewport_size({"width": 768, "height": 1024})
-    rail.wait_for(state="hidden", timeout=WAIT)
+    rail.wait_for(state="hidden")
     width = "() => document.querySelector('canvas').getBoundingClientRect().width"
     page.wait_for_function(f"() => ({width})() === 768")
     page.get_by_role("button", name="Controls").click()
-    page.wait_for_function("() => document.querySelector('[data-dock-region=right]').checkVisibility()", timeout=WAIT)
+    page.wait_for_function("() => document.querySelector('[data-dock-region=right]').checkVisibility()")
     page.wait_for_function(  # Once it has slid in.
-        "() => Math.abs(document.querySelector('[data-dock-region=right]').getBoundingClientRect().right - 768) <= 1",
-        timeout=WAIT,
+        "() => Math.abs(document.querySelector('[data-dock-region=right]').getBoundingClientRect().right - 768) <= 1"
     )
     page.wait_for_function(  # The scene ends where the rail begins: no card lies under it.
         """() => Math.abs(document.querySelector('canvas').getBoundingClientRect().width
@@ -245,10 +244,10 @@ def test_on_a_tablet_the_rail_is_a_drawer(watched: Watched):
     watched.press("Δ outboard", "PageUp", 3)
     watched.until_changed(lambda: watched.text("total-power"), before)
     page.get_by_role("button", name="Controls").click()
-    rail.wait_for(state="hidden", timeout=WAIT)
+    rail.wait_for(state="hidden")
     page.wait_for_function(f"() => ({width})() === 768")
     page.set_viewport_size({"width": SIZE[0], "height": SIZE[1]})
-    rail.wait_for(state="visible", timeout=WAIT)
+    rail.wait_for(state="visible")
 
 
 def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(watched: Watched):
@@ -266,9 +265,9 @@ def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(w
     assert page.evaluate("() => RX.state.inset.ghost_name") == "jig"
     before = page.evaluate("() => RX.state.inset.cuts.at(-1).theta")
     page.evaluate("() => RX.send('azimuth', 245)")
-    page.wait_for_function(f"() => Math.abs(RX.state.inset.cuts.at(-1).theta - {before}) > 0.3", timeout=WAIT)
+    page.wait_for_function(f"() => Math.abs(RX.state.inset.cuts.at(-1).theta - {before}) > 0.3")
     page.evaluate("() => RX.send('azimuth', 65)")
-    page.wait_for_function("() => RX.state.inset.name === 'flown, ψ 65°'", timeout=WAIT)
+    page.wait_for_function("() => RX.state.inset.name === 'flown, ψ 65°'")
     page.get_by_text("Model", exact=True).click()
     page.get_by_label("Elastic twist").click()  # A rigid blade has one curve.
     page.wait_for_function("() => RX.state.twist.band === null && RX.state.inset.name === 'this blade'")

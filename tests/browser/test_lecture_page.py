@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from test_session_page import design_in_address, shown_kw
-from watched import COARSE, WAIT, Visit
+from watched import COARSE, Visit
 
 from explorer.app import App
 from explorer.tabs.lecture.steps import STEPS
@@ -17,10 +17,8 @@ pytestmark = pytest.mark.browser
 
 
 def stands_at(page: "Page", step: int) -> None:
-    page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]', timeout=WAIT)
-    page.wait_for_function(
-        """() => /\\d/.test(document.querySelector('[data-explorer="said"]').innerText)""", timeout=WAIT
-    )
+    page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
+    page.wait_for_function("""() => /\\d/.test(document.querySelector('[data-explorer="said"]').innerText)""")
 
 
 def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
@@ -32,7 +30,7 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
     design_in_address(watched, own)
     page.get_by_role("button", name="Start the lecture").click()
     stands_at(page, 1)
-    page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
+    page.wait_for_function("() => !location.search.includes('mu=')")
     page.get_by_role("button", name="Next").click()
     stands_at(page, 2)
     design_in_address(watched, "linear:-16;mu=0")
@@ -48,16 +46,16 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
     page.keyboard.press("PageUp")
     stands_at(page, len(STEPS) - 1)
     page.get_by_role("button", name="End", exact=True).click()
-    page.wait_for_selector('[data-explorer="lecture"]', state="hidden", timeout=WAIT)
+    page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.
     watched.drawer("settings")
     page.get_by_label("Big type").check()
     page.wait_for_function(
-        """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="drawer"]')).fontSize) > 16""",
-        timeout=WAIT,
+        """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="drawer"]')).fontSize) > 16"""
     )
 
 
+@pytest.mark.slow
 def test_with_another_inflow_a_step_compares_like_with_like(visit: Visit, app: App):
     """What the step says of twist must be seen: with linear inflow it hardly saves."""
     watched = visit()
@@ -79,7 +77,7 @@ def test_others_follow_the_presenter_and_may_leave(visit: Visit):
     page = presenter.page
     presenter.drawer("lecture")
     page.get_by_role("button", name="Present", exact=True).click()
-    page.wait_for_selector('[data-explorer="presence"] a', timeout=WAIT)
+    page.wait_for_selector('[data-explorer="presence"] a')
     link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
     assert link is not None
     name = link.removeprefix("?follow=")
@@ -87,13 +85,13 @@ def test_others_follow_the_presenter_and_may_leave(visit: Visit):
     secret = page.wait_for_function(present).json_value()
     assert secret not in page.url  # Whoever is sent the address must not become the presenter.
     page.reload()
-    page.wait_for_selector('[data-explorer="presence"] a', timeout=WAIT)  # The page itself presents on.
+    page.wait_for_selector('[data-explorer="presence"] a')  # The page itself presents on.
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
     follower = visit(COARSE + f"&follow={name}")
     other = follower.page
     follower.reads("presence", "controlled by the presenter")
     page.wait_for_function(
-        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follower')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follower')"""
     )
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)
@@ -117,7 +115,7 @@ def test_others_follow_the_presenter_and_may_leave(visit: Visit):
     design_in_address(follower, "mu=0.3")
     assert "&a=" not in other.url
     other.get_by_role("button", name="Leave and continue alone").click()
-    other.wait_for_function("() => !location.search.includes('follow=')", timeout=WAIT)
+    other.wait_for_function("() => !location.search.includes('follow=')")
     there = shown_kw(follower)
     presenter.type("Adv. ratio", 0.1)
     presenter.until_changed(lambda: shown_kw(presenter), there)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from watched import COARSE, WAIT, Visit, Watched
+from watched import COARSE, Visit, Watched
 
 from explorer.app import App
 from explorer.sharing.share import code_of
@@ -32,7 +32,7 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App, designs:
     watched = visit()
     page = watched.page
     watched.press("Δ inboard [°/R]", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
-    page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')", timeout=WAIT)
+    page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')")
     by_hand = replace(OPENING, built_inner=-0.3)
     page.reload()
     watched.ready()
@@ -54,16 +54,16 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App, designs:
 
 def test_a_link_that_names_a_retired_model_opens_and_says_so(visit: Visit, app: App):
     watched = visit(COARSE + "&d=1;linear:-8;mu=0;hover_inflow=free-wake")
-    watched.page.get_by_text("hover is solved by the annulus balance").wait_for(timeout=WAIT)
+    watched.page.get_by_text("hover is solved by the annulus balance").wait_for()
     assert app.sessions[-1].page.controls.inputs().hover_inflow == "annulus"
-    watched.page.wait_for_function("() => !location.search.includes('free-wake')", timeout=WAIT)
+    watched.page.wait_for_function("() => !location.search.includes('free-wake')")
 
 
 def test_a_link_that_cannot_be_read_is_said_and_stays(visit: Visit):
     watched = visit(COARSE + "&d=1;uh60a~bends:3;mu=0.3")
     page = watched.page
     said = page.get_by_text("'uh60a+bends:3' is not known")
-    said.wait_for(timeout=WAIT)
+    said.wait_for()
     watched.answered()
     assert watched.text("against") == "UH-60A as built"
     assert watched.text("change") == "0.0 %"  # The usual design.
@@ -71,4 +71,4 @@ def test_a_link_that_cannot_be_read_is_said_and_stays(visit: Visit):
     assert said.is_visible()
     assert "d=1;uh60a~bends:3;mu=0.3" in page.url
     watched.press("Δ outboard [°/R]", "ArrowLeft")
-    page.wait_for_function("() => location.search.includes('uh60a~segments:0,-0.1@0.5')", timeout=WAIT)
+    page.wait_for_function("() => location.search.includes('uh60a~segments:0,-0.1@0.5')")

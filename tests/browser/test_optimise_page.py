@@ -44,7 +44,7 @@ def page(shared: tuple[Watched, Session]) -> Iterator[tuple[Watched, Session]]:
     watched, session = shared
     watched.reset()
     watched.until(lambda: session.page.controls.inputs() == START)
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.mode("optimise")
     watched.section("Search")
     yield watched, session
@@ -97,7 +97,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
     assert session.page.controls.inputs().law == law
     run = run_of(session)
-    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.mode("explore")
     shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
     inboard = watched.row("Inboard").locator("input:not([type=hidden])").last
@@ -105,7 +105,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.until(lambda: session.page.controls.inputs().two_inner == pytest.approx(shown.two_inner))
     design = session.page.controls.inputs().design()
     assert session.page.controls.inputs().law == "two"
@@ -131,17 +131,16 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
         """power => document.querySelector('[data-explorer="total-power"]').innerText === power
             && document.querySelector('[data-explorer="frame"]').innerText.includes('starting design')""",
         arg=before,
-        timeout=WAIT,
     )
     press(watched, "Discard")
-    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached", timeout=WAIT)
+    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached")
     watched.says("total-power", before)
     assert session.page.controls.inputs() == inputs
     optimise(watched, session)
     until(watched, "done")
-    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.reset()
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.says("total-power", before)
     assert session.page.controls.inputs() == START
 
@@ -251,12 +250,13 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     assert other.complaints == []
 
 
+@pytest.mark.slow
 def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     watched, session = page
     watched.choose("Concept", "Two segments, free division")
     watched.section("Map")
     press(watched, "Compute map")
-    watched.page.wait_for_selector("svg.rx-map image", timeout=WAIT)
+    watched.page.wait_for_selector("svg.rx-map image")
     box = watched.at_rest(watched.page.locator("svg.rx-map image").bounding_box)
     assert box is not None
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
@@ -269,6 +269,7 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     session.page.map.stop()
 
 
+@pytest.mark.slow
 def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched, session = page
     watched.choose("Concept", "Linear")
@@ -277,7 +278,7 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched.until(lambda: session.page.optimise.request().starts == 1)
     watched.section("Schedule")
     press(watched, "Compute schedule")
-    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]')
     watched.reads("schedule", r"Additional saving from variable twist\s+\d")
     with watched.page.expect_download() as download:
         press(watched, "Save CSV")

@@ -5,7 +5,7 @@ import threading
 import time
 
 import pytest
-from watched import WAIT, Visit, Watched
+from watched import Visit, Watched
 
 from explorer.state import Inputs
 
@@ -66,7 +66,7 @@ def test_home_key_hovers(watched: Watched):
     watched.press("Adv. ratio", "Home")
     watched.says("speed", "hover")
     watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')"""
     )
 
 
@@ -74,11 +74,11 @@ def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Wa
     disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
         watched.type(label, value)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
     assert "Not trimmed" in watched.reads("problem", "last converged solution")
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     watched.reset()
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]')
 
 
 def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
@@ -139,7 +139,7 @@ def test_thesis_preset_brings_its_own_inflow(watched: Watched):
     watched.drawer("trust")
     watched.choose("Preset", "Thesis (as stated)")
     watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')"""
     )
     watched.reads("against", "linear −16°")
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 from test_page import kilowatts
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -44,7 +44,7 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
 
 def test_the_waterfall_adds_up_on_the_page(watched: Watched):
     watched.drawer("details")
-    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)')
     watched.answered(wholly=True)
 
     def shown() -> list[str]:
@@ -57,7 +57,7 @@ def test_the_waterfall_adds_up_on_the_page(watched: Watched):
 
 
 def test_each_switch_says_what_it_costs(watched: Watched):
-    watched.page.wait_for_selector('[data-explorer="cost"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="cost"]')
     watched.answered(wholly=True)
     costs = watched.page.locator('[data-explorer="cost"]').all_inner_texts()
     assert len(costs) == len(SWITCHES)
@@ -71,7 +71,7 @@ def test_controls_and_read_outs_explain_themselves(watched: Watched):
     assert "tail rotor that balances its torque" in (total.get_attribute("title") or "")
     assert "Eq. (3.19)" in (watched.page.locator("tr", has_text="Parasite").first.get_attribute("title") or "")
     watched.row("Adv. ratio").get_by_role("slider").hover()
-    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for(timeout=WAIT)
+    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for()
 
 
 @pytest.mark.usefixtures("watched")
@@ -97,11 +97,11 @@ def test_units_change_what_is_read_and_not_the_design(watched: Watched):
     assert kilowatts(after) == pytest.approx(kilowatts(before) / 0.745699872, abs=1.5)
     watched.reads("speed", "^129 kt")
     watched.says("change", "0.0 %")
-    watched.row("Mass [lb]").locator("input:not([type=hidden])").last.wait_for(timeout=WAIT)
+    watched.row("Mass [lb]").locator("input:not([type=hidden])").last.wait_for()
     watched.until(lambda: watched.row("Mass [lb]").locator("input:not([type=hidden])").last.input_value() == "18342")
     watched.type("Altitude [ft]", 5000)
     thin = watched.until_changed(lambda: watched.text("total-power"), after)
     watched.choose("Units", "SI")
     watched.until_changed(lambda: watched.text("total-power"), thin)
-    watched.row("Altitude [m]").locator("input:not([type=hidden])").last.wait_for(timeout=WAIT)
+    watched.row("Altitude [m]").locator("input:not([type=hidden])").last.wait_for()
     watched.until(lambda: watched.row("Altitude [m]").locator("input:not([type=hidden])").last.input_value() == "1524")

@@ -22,7 +22,7 @@ def show(watched: Watched, scene: str) -> None:
         watched.type("Adv. ratio", 0.3)
     elif scene == "ab":
         page.keyboard.press("p")
-        page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+        page.wait_for_function("() => RX.state.bar.pinned")
         watched.type("Δ outboard", 6)
         page.get_by_role("button", name="Show B − A").click()
     elif scene == "actuator":

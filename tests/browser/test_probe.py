@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
 from explorer.state import Inputs
@@ -91,7 +91,7 @@ def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     watched.until(lambda: seen(watched, "/rotor/disk/probe"))
     watched.reads("probe-alpha", "^α")
     label = page.locator('[data-explorer="labels"]').get_by_text("α")
-    label.wait_for(timeout=WAIT)
+    label.wait_for()
 
     def beside_the_place() -> bool:
         box = label.bounding_box()
@@ -145,12 +145,12 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     disk = watched.node("/rotor/disk/field")
     alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
     page.keyboard.press("Space")
-    page.get_by_role("button", name="Stop the rotor").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Stop the rotor").wait_for()
     for _ in range(3):
         blade = watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
     watched.until_changed(lambda: watched.text("probe-alpha"), alpha)
     page.keyboard.press("Space")
-    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Turn the rotor").wait_for()
     watched.at_rest(lambda: pose(watched, "/rotor/blade_0"))
     assert watched.node("/rotor/disk/field") == disk
     watched.until(lambda: not [one.name for one in threading.enumerate() if one.name.startswith("play-")])
@@ -196,20 +196,20 @@ def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_pl
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")
-    page.get_by_role("button", name="Stop the rotor").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Stop the rotor").wait_for()
     radius = number(watched, "Radius r/R")
     page.keyboard.press("ArrowUp")  # The radius alone: it plays on.
     watched.until(lambda: number(watched, "Radius r/R") != radius)
     assert page.get_by_role("button", name="Stop the rotor").count()
     page.keyboard.press("Shift+ArrowRight")
-    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Turn the rotor").wait_for()
 
 
-@pytest.mark.parametrize(("key", "view"), [("1", "3d"), ("2", "top"), ("4", "side")])
-def test_views_have_keys(watched: Watched, key: str, view: View):
-    page = watched.page
-    page.keyboard.press(key)
-    watched.until(lambda: stands(watched, view))
+def test_views_have_keys(watched: Watched):
+    views: dict[str, View] = {"1": "3d", "2": "top", "4": "side"}
+    for key, view in views.items():
+        watched.page.keyboard.press(key)
+        watched.until(lambda view=view: stands(watched, view))
 
 
 def test_the_view_along_the_blade_rides_with_it(watched: Watched):
@@ -243,12 +243,10 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     page.keyboard.press("Control+k")
     page.get_by_placeholder("Search commands").fill("hover")
     page.locator(".mantine-Spotlight-action", has_text="Hover").click()
-    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText === 'hover'", timeout=WAIT)
+    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText === 'hover'")
     page.locator("[class*=Spotlight-overlay]").wait_for(state="detached")
     page.keyboard.press("k")
-    page.wait_for_function(
-        "() => document.querySelector('[data-explorer=speed]').innerText.includes('103 kt')", timeout=WAIT
-    )
+    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText.includes('103 kt')")
 
 
 def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
@@ -256,8 +254,8 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page.keyboard.press("Space")
     watched.choose("Twist concept", "Three segments")
     watched.type("Break 2", 0.3)
-    page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
+    page.wait_for_selector(".rx-faded [data-explorer=probe]")
     watched.reads("problem", r"break points at 0\.4 and 0\.3 R are out of order")
-    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Turn the rotor").wait_for()
     watched.reset()
-    page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
+    page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached")

@@ -41,6 +41,7 @@ def context(browser: "Browser") -> "Iterator[BrowserContext]":
     context = browser.new_context(viewport={"width": 1280, "height": 720})
     context.add_init_script(DRAW_NOTHING)
     context.add_init_script(_WATCH)
+    context.set_default_timeout(WAIT)
     yield context
     context.close()
 
@@ -48,11 +49,11 @@ def context(browser: "Browser") -> "Iterator[BrowserContext]":
 def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App, artefacts: Path):
     page = context.new_page()
     page.goto(app.address)
-    page.wait_for_function(OPEN, timeout=WAIT)  # Warms the server: the figures are those of the next page.
+    page.wait_for_function(OPEN)  # Warms the server: the figures are those of the next page.
     painted, opened, shift = inf, inf, inf
     for _ in range(3):  # A machine that runs tests is busy, but not every time.
         page.reload()
-        page.wait_for_function(OPEN, timeout=WAIT)
+        page.wait_for_function(OPEN)
         page.wait_for_timeout(1500)
         first_paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
         seen = (first_paint, *page.evaluate("[window.__opened, window.__shift]"))
@@ -70,20 +71,21 @@ def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App,
     assert sheets == len(web.STYLES)  # In the body itself: a panel that is folded away would take them along.
 
 
+@pytest.mark.slow
 def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserContext", artefacts: Path):
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1))
     try:
         first, second = context.new_page(), context.new_page()
         first.goto(app.address)
-        first.wait_for_function(OPEN, timeout=WAIT)
+        first.wait_for_function(OPEN)
         second.goto(app.address)
-        second.wait_for_selector("[data-explorer=lobby]", timeout=WAIT)
+        second.wait_for_selector("[data-explorer=lobby]")
         assert "You are next" in second.locator("[data-explorer=lobby]").inner_text()
         assert second.locator("[role=slider]").count() == 0
         second.wait_for_timeout(400)
         second.screenshot(path=artefacts / "full-house.png")
         first.close()
-        second.wait_for_function(OPEN, timeout=WAIT)
+        second.wait_for_function(OPEN)
         assert second.locator("[data-explorer=lobby]").count() == 0
         assert second.locator("[role=slider]").first.is_visible()
     finally:
@@ -112,34 +114,34 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     port, page = free_port(), context.new_page()
     with served(port) as address:
         page.goto(address)
-        page.wait_for_function(OPEN, timeout=WAIT)
+        page.wait_for_function(OPEN)
         Watched(page).type("Δ inboard", -11.5)
-        page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
-        page.wait_for_function("() => RX.state.power.change !== '0.0 %'", timeout=WAIT)
-        page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled", timeout=WAIT)
+        page.wait_for_function("() => location.search.includes('-11.5')")
+        page.wait_for_function("() => RX.state.power.change !== '0.0 %'")
+        page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled")
         page.keyboard.press("Escape")  # In a field of numbers, keys are the field's own.
         page.keyboard.press("m")
         page.wait_for_function(
-            "() => JSON.parse(sessionStorage['rx-kept'] ?? '{}').steps?.includes('bookmarks\":[\"1')", timeout=WAIT
+            "() => JSON.parse(sessionStorage['rx-kept'] ?? '{}').steps?.includes('bookmarks\":[\"1')"
         )
         power = page.locator("[data-explorer=total-power]").first.inner_text()
-    page.wait_for_selector("#rx-gone", timeout=WAIT)
+    page.wait_for_selector("#rx-gone")
     page.screenshot(path=artefacts / "server-gone.png")
     with served(port):
         # A new process has everything to load before it answers.
         page.wait_for_selector("#rx-gone", state="detached", timeout=4 * WAIT)
         page.wait_for_function(OPEN, timeout=4 * WAIT)
         inboard = "() => [...document.querySelectorAll('input')].some(one => one.value === '-11.5')"
-        page.wait_for_function(inboard, timeout=WAIT)
+        page.wait_for_function(inboard)
         same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
-        page.wait_for_function(same, arg=power, timeout=WAIT)
+        page.wait_for_function(same, arg=power)
         page.locator("[data-do=drawer][data-value=open]").click()
         page.get_by_role("button", name="History").click()
-        page.locator("[data-explorer=kept]").wait_for(timeout=WAIT)
+        page.locator("[data-explorer=kept]").wait_for()
         page.get_by_role("button", name="Undo").click()
-        page.wait_for_function("() => !location.search.includes('-11.5')", timeout=WAIT)
+        page.wait_for_function("() => !location.search.includes('-11.5')")
         page.get_by_role("button", name="Redo").click()
-        page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
+        page.wait_for_function("() => location.search.includes('-11.5')")
 
 
 def free_port() -> int:

@@ -64,14 +64,15 @@ def test_other_rotors_are_flown_and_optimised(watched: Watched, app: App):
     assert watched.page.evaluate(BLADES) == 4
 
 
+@pytest.mark.slow
 def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     text = asset_path("r22.toml").read_text(encoding="utf-8").replace("Robinson R22", "Mine")
     file = tmp_path / "mine.toml"
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=radius_m is -3.8, outside", timeout=WAIT)
+    watched.page.wait_for_selector("text=radius_m is -3.8, outside")
     watched.drawer("trust")
-    watched.page.wait_for_selector('[data-explorer="provenance"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="provenance"]')
     watched.reads("provenance", "SC1095")  # Nothing is lost.
     file.write_text(text, encoding="utf-8")  # Mended, under the same name.
     load(watched, file)
@@ -80,7 +81,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
     file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.c81"\n', encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=mine.toml is loaded and needs own.c81: load that next.", timeout=WAIT)
+    watched.page.wait_for_selector("text=mine.toml is loaded and needs own.c81: load that next.")
     deck = tmp_path / "own.c81"
     deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
     load(watched, deck)
@@ -90,7 +91,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.c81')"
     watched.page.wait_for_function(kept, timeout=2 * WAIT)
     watched.page.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]')
-    watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
+    watched.page.wait_for_function("() => location.search.includes('d=own')")
     watched.answered()
     power, address = watched.text("total-power"), watched.page.url
     watched.page.reload()  # No address holds it: the page itself does.
@@ -101,5 +102,5 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
     other = watched.page.context.new_page()  # Of another window, which does not.
     other.goto(address)
-    other.wait_for_selector("text=Its rotor is the sender's own", timeout=WAIT)
+    other.wait_for_selector("text=Its rotor is the sender's own")
     other.close()

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.picture.wake import tip_vortices
 from explorer.state import Inputs
@@ -71,17 +71,17 @@ def test_dragging_the_tip_up_turns_it_and_one_undo_takes_it_back(watched: Watche
     camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
     x, y = page.evaluate(ON_SCREEN, 7.2)
     drag(watched, (x, y), (x, y - 80.0))
-    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip')", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip')")
     # While it is held, the camera stands still, and an arc shows the turn and the turn of least power.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
     turned = "RX.state.arc?.best !== null && RX.state.arc.to > RX.state.arc.from"
-    page.wait_for_function(f"() => {turned} && RX.part('arc').childElementCount > 4", timeout=WAIT)
+    page.wait_for_function(f"() => {turned} && RX.part('arc').childElementCount > 4")
     arc = page.evaluate("() => RX.state.arc")
     assert arc["to"] > arc["from"] > arc["best"]  # Turned up from −8 °/R, away from the optimum.
     assert arc["words"].startswith("+")
     page.mouse.up()
-    page.wait_for_function("() => RX.state.hand === null && RX.state.arc === null", timeout=WAIT)
-    page.wait_for_function("() => !RX.part('arc').childElementCount", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand === null && RX.state.arc === null")
+    page.wait_for_function("() => !RX.part('arc').childElementCount")
     outer = watched.at_rest(lambda: value(watched, "Outboard"))
     assert outer > -7.0
     assert value(watched, "Inboard") == -14.0
@@ -106,7 +106,7 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
     page = watched.page
     still = page.evaluate(AZIMUTH)
     page.evaluate("() => RX.send('play', '')")
-    page.wait_for_function(f"still => Math.abs(({AZIMUTH})() - still) > 0.3", arg=still, timeout=WAIT)
+    page.wait_for_function(f"still => Math.abs(({AZIMUTH})() - still) > 0.3", arg=still)
 
     def smooth() -> bool:
         """Nearly every frame moves it on, not 20 a second, and never back."""
@@ -125,13 +125,13 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
 
     watched.until(smooth)
     # Tip vortices turn with it: each begins at the tip of its blade.
-    page.wait_for_function(f"() => ({VORTEX})()", timeout=WAIT)
+    page.wait_for_function(f"() => ({VORTEX})()")
     tip, turned = page.evaluate(f"() => [({VORTEX})(), rotorScene.psi]")
     solution = solve(START.design())
     expected = tip_vortices(solution, [turned])[0][0, 0]
     np.testing.assert_allclose(tip, expected, atol=0.02)
     page.evaluate("() => RX.send('play', '')")
-    page.wait_for_function("() => !RX.state.turn.playing", timeout=WAIT)
+    page.wait_for_function("() => !RX.state.turn.playing")
     shown = watched.at_rest(lambda: round(page.evaluate(AZIMUTH), 3))
     stands = math.radians(float(page.evaluate("() => RX.state.turn.psi")))
     assert math.remainder(shown - stands, 2 * math.pi) == pytest.approx(0.0, abs=0.02)
@@ -146,8 +146,7 @@ def test_the_scene_dresses_its_surfaces(watched: Watched):
             node('/rotor/head').traverse(part => { if (part.isMesh) head = part.material; });
             node('/rotor/disk/field').traverse(part => { if (part.isMesh) field = part.material; });
             return head?.metalness === 0.55 && field?.depthWrite === false;
-        }""",
-        timeout=WAIT,
+        }"""
     )
 
 

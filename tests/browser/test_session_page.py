@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from watched import COARSE, WAIT, Visit, Watched
+from watched import COARSE, Visit, Watched
 
 from explorer.state import Inputs
 from rotor.files.design_file import load_design
@@ -16,7 +16,7 @@ START = Inputs()
 
 
 def design_in_address(watched: Watched, text: str) -> None:
-    watched.page.wait_for_function("text => location.search.includes(text)", arg=text, timeout=WAIT)
+    watched.page.wait_for_function("text => location.search.includes(text)", arg=text)
 
 
 def shown_kw(watched: Watched) -> str:
@@ -33,7 +33,7 @@ def test_undo_redo_and_history(visit: Visit):
     watched.until(lambda: watched.text("total-power") != begun)
     page.keyboard.press("Escape")  # In a field of numbers, keys are the field's own.
     page.keyboard.press("Control+z")
-    page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
+    page.wait_for_function("() => !location.search.includes('mu=')")
     assert "segments:-14.4" in page.url
     page.keyboard.press("Control+z")
     design_in_address(watched, "segments:-14,-8@0.5")
@@ -44,16 +44,16 @@ def test_undo_redo_and_history(visit: Visit):
     watched.drawer("open")
     watched.section("History")
     strip = page.locator('[data-explorer="history"]')
-    strip.wait_for(timeout=WAIT)
+    strip.wait_for()
     page.wait_for_selector('[data-explorer="history"][data-steps="3"][data-present="2"]')
     page.get_by_role("button", name="Keep this design").click()
-    page.locator('[data-explorer="kept"]').wait_for(timeout=WAIT)
+    page.locator('[data-explorer="kept"]').wait_for()
     strip.locator("g").first.click()
     design_in_address(watched, "segments:-14,-8@0.5")
     page.locator('[data-explorer="kept"] .rx-kept').click()
     design_in_address(watched, "segments:-14.4,-8@0.5;mu=0.22")
     page.locator('[data-explorer="kept"] a').click()
-    page.locator('[data-explorer="kept"]').wait_for(state="detached", timeout=WAIT)
+    page.locator('[data-explorer="kept"]').wait_for(state="detached")
 
 
 def test_the_address_is_the_design(visit: Visit):
@@ -74,9 +74,9 @@ def test_the_address_is_the_design(visit: Visit):
     watched.page.reload()
     watched.ready()
     watched.until(lambda: shown_kw(watched) == shown)
-    watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.bar.pinned")
     watched.until(lambda: watched.page.locator(".rxf-field select").input_value() == "Mach number")
-    watched.page.wait_for_selector("[data-do=region][data-value=stall][aria-pressed=false]", timeout=WAIT)
+    watched.page.wait_for_selector("[data-do=region][data-value=stall][aria-pressed=false]")
 
 
 def test_save_and_load(visit: Visit, tmp_path: Path):
@@ -103,7 +103,7 @@ def test_save_and_load(visit: Visit, tmp_path: Path):
     bad = tmp_path / "bad.json"
     bad.write_text('{"twist": "linear:-6", "wings": 2}', encoding="utf-8")
     file.set_input_files(bad)
-    page.get_by_text("unknown key 'wings'").wait_for(timeout=WAIT)
+    page.get_by_text("unknown key 'wings'").wait_for()
     assert shown_kw(watched) == loaded
     file.set_input_files(saved)
     design_in_address(watched, "spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1")

@@ -26,7 +26,7 @@ def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched
     until(watched, "() => document.querySelector('[data-explorer=total-power]').innerText.startsWith('0.0')")
     watched.page.locator(".rxf-rotor").select_option(label="UH-60A")
     until(watched, f"() => !({CHART})()")
-    watched.row("Mass").wait_for(timeout=WAIT)
+    watched.row("Mass").wait_for()
 
 
 def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
@@ -51,6 +51,7 @@ def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     until(watched, "() => document.querySelector('[data-explorer=validated]')?.innerText === 'airloads measured'")
 
 
+@pytest.mark.slow
 def test_a_flight_goes_on_in_the_wind_tunnel_and_comes_back(watched: Watched):
     """The last of the file: loaded again, the page begins with another design."""
     mass = watched.row("Mass")
@@ -59,15 +60,15 @@ def test_a_flight_goes_on_in_the_wind_tunnel_and_comes_back(watched: Watched):
     watched.answered()
     tested = watched.text("total-power")
     assert tested != flight
-    mass.wait_for(state="hidden", timeout=WAIT)
+    mass.wait_for(state="hidden")
     watched.choose("Given", "Collective")
     until(watched, "() => location.search.includes('collective_deg')")
     watched.page.reload()
     watched.ready()
-    watched.row("Collective").wait_for(timeout=WAIT)
+    watched.row("Collective").wait_for()
     watched.answered()
     reloaded = watched.text("total-power")
     assert abs(float(reloaded.split()[0]) - float(tested.split()[0])) < 5.0
     watched.choose("Flight or test", "Flight")
     watched.until_changed(lambda: watched.text("total-power"), reloaded)
-    mass.wait_for(timeout=WAIT)
+    mass.wait_for()

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-WAIT = 30_000
-"""[ms]; far more than it takes, for machines with other things to do."""
 DRAWN = "document.querySelector('.js-plotly-plot').calcdata.reduce((count, trace) => count + trace.length, 0)"
 """Points of the chart, those beyond its axes included."""
 
@@ -55,10 +53,10 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     tab = watched.page
     assert tab.evaluate("window.Plotly === undefined")  # 1.7 MB that a page without studies never asks for.
     watched.choose("Result", "blades")
-    tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]', timeout=WAIT)
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]')
     watched.reads("study-state", "36 of 36 points")
     dots = tab.locator(".js-plotly-plot .points path")
-    dots.first.wait_for(timeout=WAIT)
+    dots.first.wait_for()
     tab.wait_for_function(f"() => {DRAWN} === 12")  # Blades: each a pair of hover and cruise.
     before = watched.text("total-power")
     said = tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied"))
@@ -94,7 +92,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     watched.choose("Chart", "Scatter")  # Whose axes have all points on them again.
     tab.wait_for_function("() => document.querySelector('.js-plotly-plot')._fullLayout.yaxis.range[0] > 100")
     watched.choose("Chart", "Parallel coordinates")
-    tab.locator(".js-plotly-plot .parcoords").first.wait_for(timeout=WAIT)
+    tab.locator(".js-plotly-plot .parcoords").first.wait_for()
     tab.screenshot(path=artefacts / "studies.png")
     watched.type("Point no.", 0)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
@@ -112,5 +110,5 @@ def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session],
     with tab.expect_file_chooser() as chooser:
         tab.get_by_role("button", name="Open a Parquet file").click()
     chooser.value.set_files(wrong)
-    tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]', timeout=WAIT)
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]')
     assert "wrong.parquet" in watched.text("study-state")

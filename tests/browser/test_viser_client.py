@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from watched import WAIT, Watched
+from watched import Watched
 
 pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
@@ -37,7 +37,7 @@ def test_the_client_says_when_it_can_send(watched: Watched):
         return heard;
     }"""
     assert watched.page.evaluate(heard) == [False, True]
-    watched.page.wait_for_function("() => !document.querySelector('#rx-gone')", timeout=WAIT)
+    watched.page.wait_for_function("() => !document.querySelector('#rx-gone')")
     watched.ready()
 
 
@@ -53,7 +53,7 @@ def test_a_chart_that_is_drawn_anew_draws_its_axes(watched: Watched):
     }"""
     assert watched.page.evaluate(drawn) == [[False, True], [None, True]]
     watched.mode("actuate")
-    watched.page.locator(".uplot").first.wait_for(state="attached", timeout=WAIT)
+    watched.page.locator(".uplot").first.wait_for(state="attached")
     assert watched.page.evaluate("() => Object.keys(window.__viserTestpoints.uplots).length") > 0
     watched.mode("explore")
 

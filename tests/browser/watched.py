@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 SMALL, MEDIUM, LARGE = (1180, 640), (1280, 720), (1500, 940)
-WAIT = 45_000
+WAIT = 90_000
 """[ms]; far more than it takes, for machines that draw in software."""
 COARSE = "?fixedDpr=0.5"
 """Half as many pixels each way, for tests that read no picture."""
