@@ -42,7 +42,8 @@
     async idle(wholly = false) {
       const frame = () => new Promise(requestAnimationFrame);
       for (let asked = -1; asked !== serial;) {
-        await new Promise(done => setTimeout(done, 150));  // Nothing is kept back for longer before it is sent.
+        await frame();  // A slider that is moved changes in the next frame; nothing is kept back for longer than 120 ms then.
+        await new Promise(done => setTimeout(done, 150));
         RX.send('idle', [asked = serial + 1, wholly]);
         while (state.idle !== asked) await frame();
         await frame();

@@ -145,44 +145,18 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
     assert session.page.controls.inputs() == START
 
 
-def stopped(watched: Watched, session: Session) -> float:
-    """How long a search takes to stop [s], from the press that reaches the server."""
-    panel = session.page.optimise
-    optimise(watched, session)
-    until(watched, "running")
-    until_better(session)
-    pressed: list[float] = []
-    halt = panel.halt
-    panel.halt = lambda: (pressed.append(time.monotonic()), halt())[1]  # pyright: ignore[reportAttributeAccessIssue]
-    try:
-        press(watched, "Stop")
-        while run_of(session).under_way:
-            time.sleep(0.002)
-        answered = time.monotonic() - pressed[0]
-        while 'data-kind="stopped"' not in panel._standing.content:
-            time.sleep(0.002)
-        shown = time.monotonic() - pressed[0]
-    finally:
-        panel.halt = halt  # pyright: ignore[reportAttributeAccessIssue]
-    print(f"stop: answered after {1e3 * answered:.0f} ms, on the page after {1e3 * shown:.0f} ms")
-    until(watched, "stopped")
-    return answered
-
-
-def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
+def test_stop_keeps_the_best(page: tuple[Watched, Session]):
+    """That it answers at once is proved where jobs are: `tests/explorer/workers/test_pool.py`."""
     watched, session = page
     watched.choose("Concept", SLOW)
     watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
     watched.until(lambda: session.page.optimise.request().starts == 16)
-    least = stopped(watched, session)
-    for _ in range(4):  # A busy machine may answer late, but not every time.
-        if least < 0.3:
-            break
-        press(watched, "Discard")
-        watched.page.wait_for_function("() => RX.state.notice === null")
-        least = min(least, stopped(watched, session))
-    assert least < 0.3
+    optimise(watched, session)
+    until(watched, "running")
+    until_better(session)
+    press(watched, "Stop")
+    until(watched, "stopped")
     run = run_of(session)
     assert run.best is not None
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)

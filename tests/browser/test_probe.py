@@ -179,8 +179,10 @@ def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_pl
     page = watched.page
     click_disk(watched, 0.8, 200.0)
     page.wait_for_selector(".rxf-label", state="visible")
+    watched.answered()
+    stood = pose(watched, "/rotor/blade_0")
     page.evaluate("() => RX.send('play')")
-    watched.until(lambda: page.evaluate("() => rotorScene.psi") != 0.0)
+    watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), stood)
     page.wait_for_timeout(1000)
     played = page.evaluate(WATCH_PLAY, 3.0)
     page.evaluate("() => RX.send('play')")
