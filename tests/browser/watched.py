@@ -142,7 +142,7 @@ class Watched:
     def answered(self, wholly: bool = False) -> None:
         """Wait until all that was done on the page is answered and drawn; `wholly`, until nothing more is computed: the
         curve of power, the worth of each slider, the waterfall. A fact that the page and the server agree on."""
-        self.page.wait_for_function("wholly => RX.idle(wholly)", arg=wholly, timeout=2 * WAIT)
+        self.page.wait_for_function("wholly => RX.idle(wholly)", arg=wholly, timeout=4 * WAIT)
 
     def at_rest(self, read: Callable[[], Any]) -> Any:
         """What is read once all is answered and it no longer moves on the page itself, as a camera or a panel does."""
