@@ -13,7 +13,7 @@ WARM  := $(VENV)/.warm
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test test-code test-page slow slow-code slow-page check-all lint format bench docs trust release pictures browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page nightly check-all lint format bench docs trust release pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -24,7 +24,8 @@ run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run P
 
 # Without a browser on all cores; the page in two processes, for its tests wait more than they compute, but a busier
 # machine draws late.
-# The slow tests of one file are shared by the cores: some take minutes, and a few files hold most of them.
+# The slow tests of one file are shared by the cores, but for files that tests/conftest.py names: their tests share what
+# takes long to make.
 test: test-code test-page ## run all tests but the slow ones, browser included
 
 test-code: setup-dev
@@ -36,10 +37,15 @@ test-page: setup-dev browser $(WARM)
 slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies
 
 slow-code: setup-dev
-	$(BIN)/python -m pytest -m 'slow and not browser' --dist worksteal $(ARGS) $(NONE)
+	$(BIN)/python -m pytest -m 'slow and not browser and not nightly' --dist loadgroup $(ARGS) $(NONE)
 
-slow-page: setup-dev browser
-	$(BIN)/python -m pytest -n 0 -m 'slow and browser' $(ARGS) $(NONE)
+slow-page: setup-dev browser $(WARM)
+	$(BIN)/python -m pytest -n 2 -m 'slow and browser and not nightly' $(ARGS) $(NONE)
+
+# Pages by themselves: some tests measure times.
+nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
+	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
+	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 
 check-all: lint docs test slow ## everything CI checks
 

@@ -24,12 +24,14 @@ import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import viser
 
 from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.browser import PageFacts
+from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import Failure, Frame, Reading, SessionState
 from explorer.page import Page
@@ -69,6 +71,7 @@ class Session:
         self._worker = NewestWins(self._update, self._failed)
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
+        self.page.context.bridge.on("idle", partial(self._tell_idle, client))
 
     def start(self) -> None:
         self.page.start()
@@ -175,6 +178,7 @@ class Session:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
         page.refine(self._turned(state))
+        self._worker.answer()
         yield 0.0
         if sweep() and not self._overtaken():
             yield 0.0
@@ -200,6 +204,13 @@ class Session:
         """Something changed."""
         self._all_changed = True
         self._worker.wake()
+
+    def _tell_idle(self, client: viser.ClientHandle, asked: tuple[int, bool]) -> None:
+        """Give the page its number back once all that it sent before is answered (`RX.idle`)."""
+        number, wholly = asked
+        until_called(client)
+        self._worker.until_answered(wholly)
+        self.page.context.bridge.set(idle=number)
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

@@ -18,13 +18,24 @@ ROOT = Path(__file__).parent.parent
 IN_CI = os.environ.get("CI", "").lower() in ("1", "true")
 
 # The same examples every time and no clock: a test that fails here fails everywhere.
-# CI looks at more of them (HYPOTHESIS_PROFILE=thorough); `wide` searches further, and differently every time.
+# CI looks at more of them (HYPOTHESIS_PROFILE=ci), each night at many; `wide` goes on, and differently every time.
 hypothesis.settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=25)
+hypothesis.settings.register_profile("ci", derandomize=True, deadline=None, max_examples=50)
 hypothesis.settings.register_profile("thorough", derandomize=True, deadline=None, max_examples=200)
 hypothesis.settings.register_profile("wide", deadline=None, max_examples=1000)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 # It also tries the constants of our modules that happen to be loaded: others in a whole run than in one of a file.
 providers._get_local_constants = providers.Constants  # pyright: ignore[reportPrivateImportUsage]
+
+
+ONE_PROCESS = {"test_wheel", "test_chapter_4"}
+"""Files whose slow tests share what takes long to make: with `--dist loadgroup` one process makes it, once."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if item.path.stem in ONE_PROCESS:
+            item.add_marker(pytest.mark.xdist_group(item.path.stem))
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:

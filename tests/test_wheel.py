@@ -62,6 +62,7 @@ def test_it_runs_a_study(installed: Path, tmp_path: Path):
     assert "3 points" in release.study(installed, tmp_path)
 
 
+@pytest.mark.nightly  # The documentation runs them on each push, in the checkout.
 @pytest.mark.parametrize("notebook", sorted((ROOT / "docs" / "notebooks").glob("*.py")), ids=lambda path: path.stem)
 def test_it_runs_the_notebooks(notebook: Path, installed: Path, tmp_path: Path):
     """Figures included; the last cell starts the page, which ends with the script."""

@@ -22,7 +22,7 @@ import io
 import logging
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
@@ -224,7 +224,9 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
             return
         await assign(client_id, message)
 
-    setattr(gui, "_thread_executor", _Callbacks(gui._thread_executor))  # noqa: B010 - not of its type
+    callbacks = _Callbacks(gui._thread_executor)
+    for part in (gui, client.scene):
+        setattr(part, "_thread_executor", callbacks)  # noqa: B010 - not of its type
     connection.unregister_handler(_messages.GuiUpdateMessage, assign)
     connection.register_handler(_messages.GuiUpdateMessage, checked)
 
@@ -246,16 +248,27 @@ class _Callbacks:
 
     def __init__(self, threads: ThreadPoolExecutor) -> None:
         self._threads = threads
+        self.under_way: set[Future[Any]] = set()
 
     def submit(self, callback: Callable[..., Any], *arguments: Any) -> Future[Any]:
         if not getattr(callback, "quick", False):
-            return self._threads.submit(callback, *arguments)
+            begun = self._threads.submit(callback, *arguments)
+            self.under_way.add(begun)
+            begun.add_done_callback(self.under_way.discard)
+            return begun
         done: Future[Any] = Future()
         try:
             done.set_result(callback(*arguments))
         except Exception as error:
             done.set_exception(error)
         return done
+
+
+def until_called(client: viser.ClientHandle) -> None:
+    """Wait until the callbacks of all that has come from a page with `guard_values` have ended."""
+    threads = client.gui._thread_executor
+    assert isinstance(threads, _Callbacks)
+    wait(tuple(threads.under_way))
 
 
 def set_png(handle: viser.ImageHandle, png: bytes) -> None:

@@ -39,6 +39,20 @@
       if (!client?.sendMessage || bridge === null) return;
       client.sendMessage({type: 'GuiUpdateMessage', uuid: bridge, updates: {value: JSON.stringify([++serial, name, value])}});
     },
+    // For tests: true once all that was sent is answered and drawn, and nothing more was sent meanwhile; wholly, once the
+    // server computes nothing more for this page, searches apart. It gives the number back that it is sent.
+    async idle(wholly = false) {
+      const frame = () => new Promise(requestAnimationFrame);
+      for (let asked = -1; asked !== serial;) {
+        await frame();  // A slider that is moved changes in the next frame; nothing is kept back for longer than 120 ms then.
+        await new Promise(done => setTimeout(done, 150));
+        RX.send('idle', [asked = serial + 1, wholly]);
+        while (state.idle !== asked) await frame();
+        await frame();
+        await frame();
+      }
+      return true;
+    },
     say(sentence) { const place = root.querySelector('.rxf-said'); if (place.textContent !== sentence) place.textContent = sentence; },
   };
 

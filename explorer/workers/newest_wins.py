@@ -106,6 +106,8 @@ class NewestWins:
         self._state: Literal["idle", "frame", "step", "running"] = "idle"
         self._ticket = self._thread = 0
         self._steps: Iterator[float] | None = None
+        self._answered = False
+        """Whether what the last update was for is shown."""
         self._pause = self._took = 0.0
         """[s] before the next step, and that the last frame took."""
 
@@ -135,6 +137,24 @@ class NewestWins:
         """Within an update of a pool of one's own: wait until a newer one is wanted, at most so long."""
         self._wanted.wait(seconds)
 
+    def answer(self) -> None:
+        """Within a step: what the update was for is shown, and the rest of it can wait."""
+        with self._pool.change:
+            self._answered = True
+            self._pool.change.notify_all()
+
+    def until_answered(self, wholly: bool) -> None:
+        """Wait until all wakes that came before this call are answered, `wholly` also until nothing is left to do; or
+        until the page has gone."""
+        with self._pool.change:
+            self._pool.change.wait_for(
+                lambda: (
+                    self._stopped
+                    or (self._state == "idle" and self._steps is None and not self._wanted.is_set())
+                    or (self._answered and not wholly and not self._wanted.is_set())
+                )
+            )
+
     def waits(self, ticket: int) -> bool:
         """Whether the step of this ticket is still to be done."""
         return self._state == "step" and self._ticket == ticket and not self._stopped
@@ -149,11 +169,15 @@ class NewestWins:
         try:
             if self._wanted.is_set():
                 # Cleared before the update reads anything, so that a change during the update wakes it again.
+                answered, self._answered = self._answered, False
                 self._wanted.clear()
                 begun = time.monotonic()
                 self._pause, steps = 0.0, self._update()
                 self._took = time.monotonic() - begun
-                self._steps = self._steps if steps is None else steps
+                if steps is None:
+                    self._answered = answered
+                else:
+                    self._steps = steps
             elif self._steps is not None:
                 pause = next(self._steps, None)
                 self._pause, self._steps = pause or 0.0, None if pause is None else self._steps

@@ -1,15 +1,59 @@
-"""The server that the tests of one file share."""
+"""What the browser tests share: one server for a process, since another costs more than a test; a page for a file."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
+from watched import COARSE, SMALL, Visit, Watched, opened
 
 from explorer.app import App
+from explorer.model.inputs import OPENING
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+
+@pytest.fixture(scope="session")
+def server() -> Iterator[App]:
+    server = App("127.0.0.1", 0)
+    yield server
+    server.stop()
 
 
 @pytest.fixture(scope="module")
-def app(request: pytest.FixtureRequest) -> Iterator[App]:
-    """Begins with the design that the file names `START`, else with the page's own."""
-    app = App("127.0.0.1", 0, getattr(request.module, "START", None))
-    yield app
-    app.stop()
+def app(request: pytest.FixtureRequest, server: App) -> App:
+    """Its pages begin with the design that the file names `START`, else with their own."""
+    server._start = getattr(request.module, "START", OPENING)
+    return server
+
+
+@pytest.fixture(scope="module")
+def shared(request: pytest.FixtureRequest, browser: "Browser", app: App) -> Iterator[Watched]:
+    """One page for all tests of a file that leave it usable, of the file's `SIZE`."""
+    watched = opened(browser, app.address, size=getattr(request.module, "SIZE", SMALL))
+    watched.quiet()
+    yield watched
+    watched.close()
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """That page with the design it began with."""
+    shared.reset()
+    yield shared
+    assert shared.complaints == []
+
+
+@pytest.fixture
+def visit(browser: "Browser", app: App) -> Iterator[Visit]:
+    """Opens a page, as `opened` does; after the test it is closed, and must not have complained."""
+    pages: list[Watched] = []
+
+    def visit(query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
+        pages.append(opened(browser, app.address, query, size))
+        return pages[-1]
+
+    yield visit
+    for one in pages:
+        one.close()
+        assert one.complaints == []

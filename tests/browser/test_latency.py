@@ -5,20 +5,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from chromium import DRAW_NOTHING
+from watched import Watched
 
 from explorer.app import App
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.nightly]
 
-# With the draw calls emptied the browser does all but paint: the nearest thing to a client with a GPU.
-_NO_DRAWING = """
-for (const type of [WebGLRenderingContext, WebGL2RenderingContext])
-  for (const name of Object.getOwnPropertyNames(type.prototype))
-    if (/^draw(Elements|Arrays|RangeElements)/.test(name)) type.prototype[name] = () => {};
-"""
 _WATCH = """
 () => {
   const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
@@ -37,20 +33,15 @@ _WATCH = """
 def test_slider_to_frame(browser: "Browser", artefacts: Path, label: str):
     app = App("127.0.0.1", 0)
     context = browser.new_context(viewport={"width": 1500, "height": 940})
-    context.add_init_script(_NO_DRAWING)
+    context.add_init_script(DRAW_NOTHING)
     page = context.new_page()
     try:
-        page.goto(app.address)
-        page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=90_000)
+        watched = Watched(page)
+        watched.open(app.address, query="")
         if label == "Rate":
-            row = page.locator("label", has_text="Twist concept").locator(
-                "xpath=ancestor::div[contains(@class,'Flex-root')][1]"
-            )
-            row.locator("input").first.click()
-            page.get_by_role("option", name="Linear", exact=True).click()
-        page.wait_for_timeout(3000)
-        row = page.locator("label", has_text=label).locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
-        row.get_by_role("slider").focus()
+            watched.choose("Twist concept", "Linear")
+        watched.answered(wholly=True)
+        watched.row(label).get_by_role("slider").focus()
         page.evaluate(_WATCH)
         for k in range(40):
             page.keyboard.press("ArrowRight" if k % 20 < 10 else "ArrowLeft")

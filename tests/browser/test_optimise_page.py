@@ -24,7 +24,7 @@ SLOW = "Three segments, free breaks"
 """With sixteen starts it takes many times as long as a test waits before it presses Stop."""
 
 
-def visit(browser: "Browser", app: App) -> tuple[Watched, Session]:
+def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
     known = app.sessions
     watched = opened(browser, app.address, size=(1280, 900))
     (new,) = (session for session in app.sessions if session not in known)
@@ -33,22 +33,22 @@ def visit(browser: "Browser", app: App) -> tuple[Watched, Session]:
 
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
-    watched, session = visit(browser, app)
+    watched, session = arrive(browser, app)
     yield watched, session
     watched.close()
 
 
 @pytest.fixture
-def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
+def page(shared: tuple[Watched, Session]) -> Iterator[tuple[Watched, Session]]:
     """The shared page on its first design, no search under way, on the Optimise tab."""
     watched, session = shared
     watched.reset()
     watched.until(lambda: session.page.controls.inputs() == START)
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
-    watched.at_rest(lambda: watched.text("total-power"), 0.4)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.mode("optimise")
     watched.section("Search")
-    return watched, session
+    yield watched, session
+    assert watched.complaints == []
 
 
 def until(watched: Watched, *kinds: str) -> None:
@@ -97,7 +97,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
     assert session.page.controls.inputs().law == law
     run = run_of(session)
-    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.mode("explore")
     shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
     inboard = watched.row("Inboard").locator("input:not([type=hidden])").last
@@ -105,7 +105,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.until(lambda: session.page.controls.inputs().two_inner == pytest.approx(shown.two_inner))
     design = session.page.controls.inputs().design()
     assert session.page.controls.inputs().law == "two"
@@ -113,13 +113,12 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
     watched.until(lambda: watched.text("total-power").startswith(f"{power / 1e3:.0f}"))
-    assert watched.complaints == []
 
 
-def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
+def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
     inputs = session.page.controls.inputs()
-    before = watched.at_rest(lambda: watched.text("total-power"), 0.6)
+    before = watched.text("total-power")
     watched.choose("Concept", "Linear")
     optimise(watched, session)
     until(watched, "done")
@@ -132,66 +131,32 @@ def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tu
         """power => document.querySelector('[data-explorer="total-power"]').innerText === power
             && document.querySelector('[data-explorer="frame"]').innerText.includes('starting design')""",
         arg=before,
-        timeout=WAIT,
     )
     press(watched, "Discard")
-    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached", timeout=WAIT)
+    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached")
     watched.says("total-power", before)
     assert session.page.controls.inputs() == inputs
-
-
-def test_reset_design_discards_a_preview(page: tuple[Watched, Session]):
-    watched, session = page
-    before = watched.text("total-power")
-    watched.choose("Concept", "Linear")
     optimise(watched, session)
     until(watched, "done")
-    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
-    watched.until(lambda: watched.text("total-power") != before)
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.reset()
-    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.page.wait_for_function("() => RX.state.notice === null")
     watched.says("total-power", before)
     assert session.page.controls.inputs() == START
 
 
-def stopped(watched: Watched, session: Session) -> float:
-    """How long a search takes to stop [s], from the press that reaches the server."""
-    panel = session.page.optimise
-    optimise(watched, session)
-    until(watched, "running")
-    until_better(session)
-    pressed: list[float] = []
-    halt = panel.halt
-    panel.halt = lambda: (pressed.append(time.monotonic()), halt())[1]  # pyright: ignore[reportAttributeAccessIssue]
-    try:
-        press(watched, "Stop")
-        while run_of(session).under_way:
-            time.sleep(0.002)
-        answered = time.monotonic() - pressed[0]
-        while 'data-kind="stopped"' not in panel._standing.content:
-            time.sleep(0.002)
-        shown = time.monotonic() - pressed[0]
-    finally:
-        panel.halt = halt  # pyright: ignore[reportAttributeAccessIssue]
-    print(f"stop: answered after {1e3 * answered:.0f} ms, on the page after {1e3 * shown:.0f} ms")
-    until(watched, "stopped")
-    return answered
-
-
-def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
+def test_stop_keeps_the_best(page: tuple[Watched, Session]):
+    """That it answers at once is proved where jobs are: `tests/explorer/workers/test_pool.py`."""
     watched, session = page
     watched.choose("Concept", SLOW)
     watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
     watched.until(lambda: session.page.optimise.request().starts == 16)
-    least = stopped(watched, session)
-    for _ in range(4):  # A busy machine may answer late, but not every time.
-        if least < 0.3:
-            break
-        press(watched, "Discard")
-        watched.page.wait_for_function("() => RX.state.notice === null")
-        least = min(least, stopped(watched, session))
-    assert least < 0.3
+    optimise(watched, session)
+    until(watched, "running")
+    until_better(session)
+    press(watched, "Stop")
+    until(watched, "stopped")
     run = run_of(session)
     assert run.best is not None
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
@@ -200,6 +165,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
     assert solve(session.page.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
     watched, session = page
     watched.choose("Concept", SLOW)
@@ -225,12 +191,12 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
     watched.until_changed(lambda: session.page.optimise.request().starts, 16)
     optimise(watched, session)
     until(watched, "done")
-    assert watched.complaints == []
 
 
+@pytest.mark.slow
 def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Session], browser: "Browser", app: App):
     watched, session = page
-    other, others = visit(browser, app)
+    other, others = arrive(browser, app)
     before = other.text("total-power")
     watched.choose("Concept", SLOW)
     optimise(watched, session)
@@ -255,29 +221,29 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     if run_of(session).under_way:
         press(watched, "Stop")
     until(watched, "stopped", "done")
-    assert watched.complaints == []
     assert other.complaints == []
 
 
+@pytest.mark.slow
 def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     watched, session = page
     watched.choose("Concept", "Two segments, free division")
     watched.section("Map")
     press(watched, "Compute map")
-    watched.page.wait_for_selector("svg.rx-map image", timeout=WAIT)
+    watched.page.wait_for_selector("svg.rx-map image")
     box = watched.at_rest(watched.page.locator("svg.rx-map image").bounding_box)
     assert box is not None
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     watched.until(lambda: session.page.controls.inputs().law == "two")
     watched.until(lambda: session.page.controls.inputs().two_division != START.two_division)
-    inputs = watched.at_rest(session.page.controls.inputs, 0.4)
+    inputs = watched.at_rest(session.page.controls.inputs)
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
     session.page.map.stop()
-    assert watched.complaints == []
 
 
+@pytest.mark.slow
 def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched, session = page
     watched.choose("Concept", "Linear")
@@ -286,11 +252,10 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched.until(lambda: session.page.optimise.request().starts == 1)
     watched.section("Schedule")
     press(watched, "Compute schedule")
-    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]')
     watched.reads("schedule", r"Additional saving from variable twist\s+\d")
     with watched.page.expect_download() as download:
         press(watched, "Save CSV")
     download.value.save_as(tmp_path / "schedule.csv")
     lines = (tmp_path / "schedule.csv").read_text().splitlines()
     assert len(lines) == 1 + len(session.page.schedule._rows) + 1
-    assert watched.complaints == []

@@ -3,43 +3,14 @@
 import re
 import threading
 import time
-from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, looks, opened, painted
+from watched import Visit, Watched
 
-from explorer.app import App
 from explorer.model.inputs import Inputs
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 START = Inputs(law="builtin")
-
-
-@pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> Iterator[Watched]:
-    """One page for all tests that leave it usable: loading it is what takes the time."""
-    watched = opened(browser, app.address)
-    yield watched
-    watched.close()
-
-
-@pytest.fixture
-def watched(shared: Watched) -> Iterator[Watched]:
-    """The page with the design it began with."""
-    shared.reset()
-    shared.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="change"]')?.innerText === '0.0 %'
-            && document.querySelector('[data-explorer="speed"]')?.innerText.startsWith('159 km/h')""",
-        timeout=WAIT,
-    )
-    shared.at_rest(lambda: shared.node("/rotor/disk/field"), 0.4)
-    yield shared
-    assert shared.complaints == []
 
 
 def kilowatts(text: str) -> float:
@@ -55,32 +26,39 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
     assert watched.page.evaluate("() => RX.state.bar.mode") == "explore"
 
 
-def test_twist_slider_moves_power_blade_and_disk(watched: Watched):
+def test_the_strip_has_four_charts_with_axes(watched: Watched):
+    watched.answered(wholly=True)
+    names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
+    assert names == ["power", "alpha", "lift", "worth"]
+    for chart in watched.page.locator(".rxf-chart").all():
+        assert chart.locator("svg text").count() >= 6
+        assert chart.locator("svg g path").count() >= 1
+    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R", "r/R"]
+    before = watched.page.locator('[data-name="alpha"] svg').inner_html()
+    turn = watched.page.get_by_label("Azimuth of the reference blade")
+    turn.focus()
+    for _ in range(8):
+        watched.page.keyboard.press("ArrowRight")
+    watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
+
+
+def test_sliders_of_twist_and_speed_move_power_blade_and_disk(watched: Watched):
+    def shown() -> tuple[str, str, str]:
+        return watched.text("total-power"), watched.node("/rotor/blade_0"), watched.node("/rotor/disk/field")
+
     watched.choose("Twist concept", "Linear")
-    watched.until_changed(lambda: watched.text("change"), "0.0 %")
-    power, blade, disk = (
-        watched.text("total-power"),
-        watched.node("/rotor/blade_0"),
-        watched.node("/rotor/disk/field"),
-    )
+    watched.answered()
+    assert watched.text("change") != "0.0 %"
+    before = shown()
     watched.press("Rate", "PageUp", 3)
     watched.press("Rate", "ArrowRight", 25)
-    watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
-
-
-def test_speed_slider_moves_power_disk_and_the_flown_blade(watched: Watched):
-    power, blade, disk = (
-        watched.text("total-power"),
-        watched.node("/rotor/blade_0"),
-        watched.node("/rotor/disk/field"),
-    )
+    watched.answered()
+    twisted = shown()
+    assert all(a != b for a, b in zip(before, twisted, strict=True))
     watched.press("Adv. ratio", "ArrowRight", 10)
-    assert watched.until_changed(lambda: watched.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
-    watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)  # Its elastic twist follows the loads.
+    watched.answered()
+    assert all(a != b for a, b in zip(twisted, shown(), strict=True))  # The elastic twist follows the loads.
+    assert not watched.text("speed").startswith("159 km/h")
 
 
 def test_home_key_hovers(watched: Watched):
@@ -88,7 +66,7 @@ def test_home_key_hovers(watched: Watched):
     watched.press("Adv. ratio", "Home")
     watched.says("speed", "hover")
     watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')"""
     )
 
 
@@ -96,12 +74,11 @@ def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Wa
     disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
         watched.type(label, value)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    watched.reads("problem", "Not trimmed")
-    watched.reads("problem", "last converged solution")
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
+    assert "Not trimmed" in watched.reads("problem", "last converged solution")
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     watched.reset()
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]')
 
 
 def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
@@ -130,17 +107,17 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
         seen_while_down = page.evaluate("() => window.__seen.size")
     page.mouse.up()
     assert seen_while_down >= 5
-    field = watched.row("Adv. ratio").locator("input:not([type=hidden])").last
-    shown = float(watched.at_rest(field.input_value))
-    watched.until(lambda: watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h"))
+    watched.answered()
+    shown = float(watched.row("Adv. ratio").locator("input:not([type=hidden])").last.input_value())
+    assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
-def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
+def test_sessions_end_with_their_browsers(visit: Visit):
     def working() -> set[str]:
         return {thread.name for thread in threading.enumerate() if thread.name.startswith("session-")}
 
     before = working()
-    watched = opened(browser, app.address)
+    watched = visit()
     assert len(working()) == len(before) + 1
     watched.press("Adv. ratio", "ArrowRight")
     watched.close()
@@ -150,23 +127,11 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
     assert working() == before
 
 
-def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Browser", app: App):
-    other = opened(browser, app.address)
+def test_two_browsers_do_not_disturb_each_other(watched: Watched, visit: Visit):
+    other = visit()
     other.press("Adv. ratio", "ArrowRight", 5)
     other.until_changed(lambda: other.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
     assert watched.text("speed") == "159 km/h · 44.2 m/s · 86 kt"
-    assert other.complaints == []
-    other.close()
-
-
-def test_crossed_divisions_are_one_red_sentence(watched: Watched):
-    watched.choose("Twist concept", "Three segments")
-    watched.until_changed(lambda: watched.text("change"), "0.0 %")
-    watched.type("Break 2", 0.3)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    watched.reads("problem", r"break points at 0\.4 and 0\.3 R are out of order")
-    watched.type("Break 2", 0.8)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
 
 
 def test_thesis_preset_brings_its_own_inflow(watched: Watched):
@@ -174,47 +139,13 @@ def test_thesis_preset_brings_its_own_inflow(watched: Watched):
     watched.drawer("trust")
     watched.choose("Preset", "Thesis (as stated)")
     watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')"""
     )
     watched.reads("against", "linear −16°")
 
 
-def test_the_strip_has_four_charts_with_axes(watched: Watched):
-    watched.page.wait_for_function("() => RX.state.strip.length === 4 && RX.state.strip.every(one => one)")
-    watched.settled()
-    names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
-    assert names == ["power", "alpha", "lift", "worth"]
-    for chart in watched.page.locator(".rxf-chart").all():
-        assert chart.locator("svg text").count() >= 6
-        assert chart.locator("svg g path").count() >= 1
-    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R", "r/R"]
-    before = watched.page.locator('[data-name="alpha"] svg').inner_html()
-    turn = watched.page.get_by_label("Azimuth of the reference blade")
-    turn.focus()
-    for _ in range(8):
-        watched.page.keyboard.press("ArrowRight")
-    watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
-
-
 def test_no_number_on_screen_is_not_a_number(watched: Watched):
     for key in ("Home", "End"):
-        speed = watched.text("speed")
         watched.press("Adv. ratio", key)
-        watched.until_changed(lambda: watched.text("speed"), speed)
-        watched.settled(0.6)
+        watched.answered()
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
-
-
-@pytest.mark.slow
-def test_screenshots(browser: "Browser", app: App, artefacts: Path):
-    watched = painted(browser, app.address, "dark")
-    watched.type("Adv. ratio", 0.3)
-    watched.quiet()
-    for look in looks(watched, "dark", "light"):
-        path = artefacts / f"explorer-{look}.png"
-        watched.page.screenshot(path=path)
-        assert path.stat().st_size > 50_000
-        beside = "() => document.querySelector('canvas').getBoundingClientRect().width <= innerWidth - 330"
-        assert watched.page.evaluate(beside)  # The rail is not on the canvas.
-    assert watched.complaints == []
-    watched.close()

@@ -2,30 +2,25 @@
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import pytest
 from test_page import kilowatts
-from watched import WAIT, Watched, opened
+from watched import Watched
 
 from explorer.app import App
 from explorer.model.inputs import Inputs
 from explorer.text.glossary import CONTROLS
 from rotor.aero.switches import SWITCHES
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs(law="builtin", advance_ratio=0.3)
 
 
-@pytest.fixture(scope="module")
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address)
-    yield watched
-    watched.close()
-    assert watched.complaints == []
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """As the test before left it."""
+    yield shared
+    assert shared.complaints == []
 
 
 def box(watched: Watched, label: str) -> None:
@@ -49,21 +44,22 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
 
 def test_the_waterfall_adds_up_on_the_page(watched: Watched):
     watched.drawer("details")
-    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)', timeout=WAIT)
-    watched.settled()
+    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)')
+    watched.answered(wholly=True)
 
     def shown() -> list[str]:
         return watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
 
-    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in watched.at_rest(shown)]
+    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown()]
     assert len(column) == len(SWITCHES) + 2
     assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.4)
     assert column[-1] == pytest.approx(kilowatts(watched.text("total-power")), abs=0.6)
 
 
 def test_each_switch_says_what_it_costs(watched: Watched):
-    watched.page.wait_for_selector('[data-explorer="cost"]', timeout=WAIT)
-    costs = watched.at_rest(lambda: watched.page.locator('[data-explorer="cost"]').all_inner_texts())
+    watched.page.wait_for_selector('[data-explorer="cost"]')
+    watched.answered(wholly=True)
+    costs = watched.page.locator('[data-explorer="cost"]').all_inner_texts()
     assert len(costs) == len(SWITCHES)
     without_effect = [cost for cost in costs if not re.fullmatch(r"[+−]\d+\.\d kW here", cost)]
     parts = [f"{which} loss is part of this wake" for which in ("tip", "root")]
@@ -75,7 +71,7 @@ def test_controls_and_read_outs_explain_themselves(watched: Watched):
     assert "tail rotor that balances its torque" in (total.get_attribute("title") or "")
     assert "Eq. (3.19)" in (watched.page.locator("tr", has_text="Parasite").first.get_attribute("title") or "")
     watched.row("Adv. ratio").get_by_role("slider").hover()
-    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for(timeout=WAIT)
+    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for()
 
 
 @pytest.mark.usefixtures("watched")
@@ -101,11 +97,11 @@ def test_units_change_what_is_read_and_not_the_design(watched: Watched):
     assert kilowatts(after) == pytest.approx(kilowatts(before) / 0.745699872, abs=1.5)
     watched.reads("speed", "^129 kt")
     watched.says("change", "0.0 %")
-    watched.row("Mass [lb]").locator("input:not([type=hidden])").last.wait_for(timeout=WAIT)
+    watched.row("Mass [lb]").locator("input:not([type=hidden])").last.wait_for()
     watched.until(lambda: watched.row("Mass [lb]").locator("input:not([type=hidden])").last.input_value() == "18342")
     watched.type("Altitude [ft]", 5000)
     thin = watched.until_changed(lambda: watched.text("total-power"), after)
     watched.choose("Units", "SI")
     watched.until_changed(lambda: watched.text("total-power"), thin)
-    watched.row("Altitude [m]").locator("input:not([type=hidden])").last.wait_for(timeout=WAIT)
+    watched.row("Altitude [m]").locator("input:not([type=hidden])").last.wait_for()
     watched.until(lambda: watched.row("Altitude [m]").locator("input:not([type=hidden])").last.input_value() == "1524")

@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 import pytest
-from watched import MEDIUM, WAIT, Watched, opened
+from watched import MEDIUM, Watched, opened
 
 from explorer.app import App
 from explorer.model.inputs import OPENING
@@ -31,7 +31,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     page.get_by_role("button", name="Disk").click()
-    page.wait_for_function(_READY, timeout=WAIT)
+    page.wait_for_function(_READY)
     solution = solve(OPENING.design())
     disk = solution.disk
     row, column = len(disk.r) - 4, len(disk.psi) // 6
@@ -52,7 +52,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     page.locator("[data-pin]").wait_for(state="visible")
     place = page.locator("[data-pin] b").inner_text()
     page.get_by_role("button", name="Open", exact=True).click()
-    page.wait_for_function(_READY, timeout=WAIT)
+    page.wait_for_function(_READY)
     assert page.locator("[data-pin] b").inner_text() == place
     page.get_by_role("button", name="Unpin this reading").click()
     assert page.locator("[data-pin]").count() == 0
@@ -65,10 +65,8 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     # Another design's values follow; and the scene comes back.
     before = page.evaluate("() => RX.state.plan.values.alpha.data")
     watched.press("Mass [t]", "ArrowRight", 5)
-    page.wait_for_function(
-        f"before => ({_READY})() && RX.state.plan.values.alpha.data !== before", arg=before, timeout=WAIT
-    )
+    page.wait_for_function(f"before => ({_READY})() && RX.state.plan.values.alpha.data !== before", arg=before)
     page.get_by_role("button", name="Aircraft").click()
-    page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')", timeout=WAIT)
+    page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')")
     assert watched.complaints == []
     watched.close()

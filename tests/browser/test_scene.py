@@ -3,22 +3,19 @@
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched, opened
+from watched import Watched
 
-from explorer.app import App
 from explorer.model.inputs import Inputs
 from explorer.picture.wake import tip_vortices
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
+SIZE = (1280, 720)
 ON_SCREEN = """r => {
     const viewer = window.__viserMutable, blade = viewer.nodeRefFromName['/rotor/blade_0'];
     blade.updateWorldMatrix(true, false);
@@ -44,20 +41,10 @@ AZIMUTH = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address, size=(1280, 720))
-    watched.quiet()
-    yield watched
-    watched.close()
-
-
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    shared.until(
-        lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
-    )
+    assert [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert [said for said in shared.complaints if _PASSIVE not in said] == []
@@ -75,8 +62,8 @@ def drag(watched: Watched, start: tuple[float, float], end: tuple[float, float])
     mouse.down()
     for k in range(1, 11):
         mouse.move(*(a + (b - a) * k / 10 for a, b in zip(start, end, strict=True)))
-        watched.page.wait_for_timeout(80)
-    watched.page.wait_for_timeout(800)
+        watched.page.wait_for_timeout(40)
+    watched.answered()
 
 
 # Distance [px] from the pointer to the nearest point of the tip's outline, where the blade is seen from the tip.
@@ -96,21 +83,19 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     page.wait_for_timeout(300)  # viser looks for what is below the pointer.
     page.mouse.down()
     page.mouse.move(x, y + 12, steps=4)
-    page.wait_for_function(
-        "() => RX.state.rubber && document.documentElement.hasAttribute('data-rubber')", timeout=WAIT
-    )
+    page.wait_for_function("() => RX.state.rubber && document.documentElement.hasAttribute('data-rubber')")
     watched.at_rest(lambda: page.evaluate("() => RX.part('rubber').style.opacity"))
     for step in range(1, 11):
         page.mouse.move(x, y + 12 + 4 * step)
         page.wait_for_timeout(60)
-    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip') && RX.state.hand.best", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip') && RX.state.hand.best")
     # The trailing edge is under the pointer; nose up, away from the optimum at more washout.
     assert page.evaluate(FROM_TIP, [x, y + 52]) < 12.0
     assert page.evaluate("() => RX.state.hand.best.theta") < -2.0  # It began at −2°.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
     page.mouse.up()
-    page.wait_for_function("() => RX.state.hand === null && RX.state.rubber === null", timeout=WAIT)
-    page.wait_for_function("() => !document.documentElement.hasAttribute('data-rubber')", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand === null && RX.state.rubber === null")
+    page.wait_for_function("() => !document.documentElement.hasAttribute('data-rubber')")
     outer = watched.at_rest(lambda: value(watched, "Outboard"))
     assert outer > -7.0
     assert value(watched, "Inboard") == -14.0
@@ -124,20 +109,20 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
 def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched):
     page = watched.page
     page.keyboard.press("g")
-    page.wait_for_function("() => RX.state.rubber?.by_key", timeout=WAIT)
+    page.wait_for_function("() => RX.state.rubber?.by_key")
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
     watched.until(lambda: value(watched, "Outboard") > -3.0)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)
-    page.wait_for_function("() => RX.state.rubber === null", timeout=WAIT)
+    page.wait_for_function("() => RX.state.rubber === null")
 
 
 def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has_them(watched: Watched):
     page = watched.page
     still = page.evaluate(AZIMUTH)
     page.evaluate("() => RX.send('play', '')")
-    page.wait_for_function(f"still => Math.abs(({AZIMUTH})() - still) > 0.3", arg=still, timeout=WAIT)
+    page.wait_for_function(f"still => Math.abs(({AZIMUTH})() - still) > 0.3", arg=still)
 
     def smooth() -> bool:
         """Nearly every frame moves it on, not 20 a second, and never back."""
@@ -156,13 +141,13 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
 
     watched.until(smooth)
     # Tip vortices turn with it: each begins at the tip of its blade.
-    page.wait_for_function(f"() => ({VORTEX})()", timeout=WAIT)
+    page.wait_for_function(f"() => ({VORTEX})()")
     tip, turned = page.evaluate(f"() => [({VORTEX})(), rotorScene.psi]")
     solution = solve(START.design())
     expected = tip_vortices(solution, [turned])[0][0, 0]
     np.testing.assert_allclose(tip, expected, atol=0.02)
     page.evaluate("() => RX.send('play', '')")
-    page.wait_for_function("() => !RX.state.turn.playing", timeout=WAIT)
+    page.wait_for_function("() => !RX.state.turn.playing")
     shown = watched.at_rest(lambda: round(page.evaluate(AZIMUTH), 3))
     stands = math.radians(float(page.evaluate("() => RX.state.turn.psi")))
     assert math.remainder(shown - stands, 2 * math.pi) == pytest.approx(0.0, abs=0.02)
@@ -177,8 +162,7 @@ def test_the_scene_dresses_its_surfaces(watched: Watched):
             node('/rotor/head').traverse(part => { if (part.isMesh) head = part.material; });
             node('/rotor/disk/field').traverse(part => { if (part.isMesh) field = part.material; });
             return head?.metalness === 0.55 && field?.depthWrite === false;
-        }""",
-        timeout=WAIT,
+        }"""
     )
 
 

@@ -1,25 +1,19 @@
 """What `explorer/web/viser.js` changes in viser's client; when one of these fails, the pin may not move."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, opened
-
-from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+from watched import Watched
 
 pytestmark = pytest.mark.browser
+SIZE = (1500, 940)
 
 
-@pytest.fixture(scope="module")
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    watched = opened(browser, app.address, size=(1500, 940))
-    yield watched
-    assert watched.complaints == []
-    watched.close()
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """As the test before left it."""
+    yield shared
+    assert shared.complaints == []
 
 
 def test_the_docks_stay_in_a_narrow_window(watched: Watched):
@@ -43,7 +37,7 @@ def test_the_client_says_when_it_can_send(watched: Watched):
         return heard;
     }"""
     assert watched.page.evaluate(heard) == [False, True]
-    watched.page.wait_for_function("() => !document.querySelector('#rx-gone')", timeout=WAIT)
+    watched.page.wait_for_function("() => !document.querySelector('#rx-gone')")
     watched.ready()
 
 
@@ -59,7 +53,7 @@ def test_a_chart_that_is_drawn_anew_draws_its_axes(watched: Watched):
     }"""
     assert watched.page.evaluate(drawn) == [[False, True], [None, True]]
     watched.mode("actuate")
-    watched.page.locator(".uplot").first.wait_for(state="attached", timeout=WAIT)
+    watched.page.locator(".uplot").first.wait_for(state="attached")
     assert watched.page.evaluate("() => Object.keys(window.__viserTestpoints.uplots).length") > 0
     watched.mode("explore")
 

@@ -1,17 +1,17 @@
 """The explorer in a browser as tests use it: sliders moved, parts read, complaints collected."""
 
 import re
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from chromium import DRAW_NOTHING
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator, Page
+    from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 SMALL, MEDIUM, LARGE = (1180, 640), (1280, 720), (1500, 940)
-WAIT = 45_000
+WAIT = 90_000
 """[ms]; far more than it takes, for machines that draw in software."""
 COARSE = "?fixedDpr=0.5"
 """Half as many pixels each way, for tests that read no picture."""
@@ -49,8 +49,7 @@ class Watched:
         self.page.evaluate(_TAKEN)
 
     def close(self) -> None:
-        """With all pages of its window."""
-        self.page.context.close()
+        self.page.close()
 
     def row(self, label: str) -> "Locator":
         named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
@@ -91,12 +90,17 @@ class Watched:
         self.page.wait_for_selector(f'.rxp-sections button[aria-pressed=true] >> text="{title}"')
 
     def reset(self) -> None:
-        """Back to the design the page began with. The server resets on a thread of its own, at any time."""
-        if self.page.evaluate("() => RX.state.bar?.mode") != "explore":
-            self.mode("explore")
-        self.page.get_by_role("button", name="Reset design").click()
-        self.taken()
-        self.settled(0.4)
+        """Back to the design the page began with, in Explore, with no drawer open and nothing pinned."""
+        self.page.evaluate(
+            """() => {
+                document.activeElement?.blur();
+                if (RX.state.bar.drawer) RX.send('drawer', '');
+                if (RX.state.bar.pinned) RX.send('pin', '');
+                if (RX.state.bar.mode !== 'explore') RX.send('mode', 'explore');
+            }"""
+        )
+        self.page.keyboard.press("r")
+        self.answered()
 
     def show(self, field: str) -> None:
         """Another quantity on the disk."""
@@ -135,25 +139,22 @@ class Watched:
             text = self.text(part)
         raise AssertionError(f"{part} says {text!r}, without {pattern!r}")
 
-    def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
-        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key.
+    def answered(self, wholly: bool = False) -> None:
+        """Wait until all that was done on the page is answered and drawn; `wholly`, until nothing more is computed: the
+        curve of power, the worth of each slider, the waterfall. A fact that the page and the server agree on."""
+        self.page.wait_for_function("wholly => RX.idle(wholly)", arg=wholly, timeout=4 * WAIT)
 
-        Time in which nothing was read does not count: the machine may have halted, the server with it.
-        """
-        now, last, rested = read(), time.monotonic(), 0.0
-        deadline = last + WAIT / 1e3
-        while rested < rest:
-            assert time.monotonic() < deadline, f"never at rest: {now!r:.200}"
+    def at_rest(self, read: Callable[[], Any]) -> Any:
+        """What is read once all is answered and it no longer moves on the page itself, as a camera or a panel does."""
+        self.answered()
+        now = read()
+        for _ in range(WAIT // 100):
             self.page.wait_for_timeout(100)
-            new, before, last = read(), last, time.monotonic()
-            rested = rested + min(last - before, 0.25) if new == now else 0.0
-            now = new
-        return now
-
-    def settled(self, rest: float = 1.2) -> None:
-        """Wait until the frame of the page has nothing new to draw."""
-        self.at_rest(lambda: self.page.evaluate("() => JSON.stringify(RX.state)"), rest)
-        self.drawn()
+            self.drawn()
+            before, now = now, read()
+            if now == before:
+                return now
+        raise AssertionError(f"never at rest: {now!r:.200}")
 
     def node(self, name: str) -> str:
         """A digest of what the browser holds for a scene node: vertices or picture."""
@@ -176,11 +177,22 @@ class Watched:
         self.page.wait_for_timeout(400)
 
 
-def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
-    """A window of its own in which nothing is painted: what a test reads needs no pixels."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]})
+Visit = Callable[..., Watched]
+"""Opens a page with this query and of this size."""
+
+
+@cache
+def window(browser: "Browser") -> "BrowserContext":
+    """One for all pages in which nothing is painted: what a test reads needs no pixels."""
+    context = browser.new_context()
     context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
+    return context
+
+
+def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
+    """A page in which nothing is painted."""
+    watched = Watched(window(browser).new_page())
+    watched.page.set_viewport_size({"width": size[0], "height": size[1]})
     watched.open(address, query)
     return watched
 
@@ -191,20 +203,3 @@ def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int]
     watched = Watched(context.new_page())
     watched.open(address, query="")
     return watched
-
-
-def looks(watched: Watched, *schemes: str) -> Iterator[str]:
-    """An open page in each scheme, the first as its browser asks, the next by key, and in both sizes: their names.
-
-    For pictures that are not compared with anything: kept for people to look at.
-    """
-    page = watched.page
-    for k, scheme in enumerate(schemes):
-        if k:
-            page.evaluate("() => document.activeElement?.blur()")
-            page.keyboard.press("n")
-        page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]", state="attached")
-        for width, height in (LARGE, MEDIUM):
-            page.set_viewport_size({"width": width, "height": height})
-            page.wait_for_timeout(2000)
-            yield f"{scheme}-{width}x{height}"

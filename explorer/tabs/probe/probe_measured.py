@@ -7,7 +7,6 @@ from html import escape
 import numpy as np
 
 from explorer.charts import svg
-from explorer.charts.strip import
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
 from explorer.tabs.probe.element import Probe

@@ -255,3 +255,47 @@ class TestCrowd:
         until(lambda: min(rounds) >= 5)
         ended.set()
         assert most == 1
+
+
+class TestAnswers:
+    def test_who_waits_for_an_answer_gets_it_before_the_rest_is_done(self):
+        """An update that has answered goes on; one that a newer wake interrupts has answered nothing."""
+        go_on, end, seen, told = threading.Event(), threading.Event(), [0], list[str]()
+
+        def update() -> Iterator[float]:
+            go_on.wait(10.0)
+            seen[0] += 1
+
+            def steps() -> Iterator[float]:
+                worker.answer()
+                yield 0.0
+                end.wait(10.0)
+
+            return steps()
+
+        worker = NewestWins(update, fail, UpdatePool(1))
+
+        def ask(wholly: bool) -> None:
+            worker.until_answered(wholly)
+            told.append(f"{seen[0]} {'wholly' if wholly else 'answered'}")
+
+        worker.wake()
+        for wholly in (True, False):
+            threading.Thread(target=ask, args=(wholly,), daemon=True).start()
+        time.sleep(0.05)
+        assert told == []
+        go_on.set()
+        until(lambda: told == ["1 answered"])
+        time.sleep(0.05)
+        assert told == ["1 answered"]
+        end.set()
+        until(lambda: told == ["1 answered", "1 wholly"])
+        go_on.clear()
+        worker.wake()
+        until(lambda: not worker.superseded)
+        later = threading.Thread(target=ask, args=(False,), daemon=True)
+        later.start()
+        worker.stop(0.1)  # The page has gone: nobody waits any longer.
+        later.join(10.0)
+        go_on.set()
+        assert not later.is_alive()

@@ -24,8 +24,14 @@ def test_variants():
     assert_allclose(powers[1], powers[0], rtol=2e-3)
 
 
+_EACH_NIGHT = {"4.4", "4.6", "4.7", "4.10"}
+"""Other divisions than that of 4.5, and a third segment."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("number", FIGURES)
+@pytest.mark.parametrize(
+    "number", [pytest.param(one, marks=[pytest.mark.nightly] * (one in _EACH_NIGHT)) for one in FIGURES]
+)
 def test_optimum(number: str):
     """No reference; converged; optimum within its band; never worse than the baseline or one linear twist."""
     one = optimum_figure(number, QUICK)
@@ -70,6 +76,7 @@ def test_figure_4_12():
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_figure_4_13():
     """More parameters never save less; beyond one linear twist they save under a per cent."""
     numbers = side_by_side.figure_4_13(QUICK).numbers
@@ -84,6 +91,7 @@ def test_figure_4_13():
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_table_4_1():
     """Variable twist is never worse than the best fixed blade, and a fixed blade has part of every saving."""
     numbers = side_by_side.table_4_1(QUICK).numbers

@@ -1,26 +1,18 @@
 """Real browsers among the visitors: Chromium pages that press the slider's keys and watch their own scene."""
 
 import asyncio
-import os
-import shutil
 import time
 from typing import Any
 
+from tests.chromium import DRAW_NOTHING, LAUNCH_ARGUMENTS, find_chromium
 from tests.tools.soak.drag import SLIDER
 from tests.tools.soak.figures import Visit
 
-_ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 _PATIENCE = 30_000.0
 """[ms] after which a frame that has not come is lost."""
 _PAUSE = 100.0
 """[ms] between two keys: the page keeps an edit back that follows another within 50."""
 
-# Everything works but nothing is drawn: software WebGL of several pages would be all that this machine did.
-_DRAW_NOTHING = """
-for (const draw of ["drawArrays", "drawElements", "drawRangeElements", "drawArraysInstanced", "drawElementsInstanced"])
-    WebGL2RenderingContext.prototype[draw] = () => {};
-"""
 _READY = "() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'"
 _BLADE = "window.__viserSceneTree.getState()['/rotor/blade_0'].message.props.vertices"
 _CHANGED = f"""() => new Promise((done, lost) => {{
@@ -37,8 +29,9 @@ async def visit(address: str, pages: int, begin: float, end: float) -> list[Visi
         from playwright.async_api import async_playwright
     except ImportError:
         raise RuntimeError("Real browsers need playwright: pip install 'rotor-explorer[test]'.") from None
+    path = await asyncio.to_thread(find_chromium)  # Which may ask Playwright in its other way, not for a loop.
     async with async_playwright() as playwright:
-        browser = await playwright.chromium.launch(executable_path=_chromium(), args=list(_ARGUMENTS))
+        browser = await playwright.chromium.launch(executable_path=path, args=list(LAUNCH_ARGUMENTS))
         visits = [_press(browser, f"page {k + 1}", address, begin, end) for k in range(pages)]
         seen = await asyncio.gather(*visits)
         await browser.close()
@@ -50,7 +43,7 @@ async def _press(browser: Any, name: str, address: str, begin: float, end: float
     lost: list[str] = []
     complaints: list[str] = []
     context = await browser.new_context(viewport={"width": 1280, "height": 720})
-    await context.add_init_script(_DRAW_NOTHING)
+    await context.add_init_script(DRAW_NOTHING)
     page = await context.new_page()
     page.on("pageerror", lambda error: complaints.append(f"{name}: {error}"))
     try:
@@ -74,9 +67,3 @@ async def _press(browser: Any, name: str, address: str, begin: float, end: float
         complaints.append(f"{name}: {error}")
     await context.close()
     return Visit(len(delays) + len(lost), tuple(delays), 0, tuple(lost), len(delays), 0.0, tuple(complaints))
-
-
-def _chromium() -> str | None:
-    """ROTOR_CHROMIUM, else one that is installed, else None: Playwright's own."""
-    named = os.environ.get("ROTOR_CHROMIUM")
-    return named or next((path for name in _NAMES if (path := shutil.which(name))), None)

@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import psutil
+
 from tests.tools.soak.drag import Dragger, expected
 from tests.tools.soak.figures import SoakReport, judge
-from tests.tools.soak.process import processor_seconds, resident_mb
 from tests.tools.soak.real import visit
 
 _END = 10.0
@@ -61,6 +62,8 @@ def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> SoakRep
         try:
             return asyncio.run(_soak(plan, address, pid, tell))
         except ExceptionGroup as group:
+            if group.subgroup(psutil.NoSuchProcess):
+                raise RuntimeError("The server ended during the soak: its own messages say why.") from None
             raise group.exceptions[0] from None
 
 
@@ -76,14 +79,15 @@ async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None])
             visits.append(group.create_task(Dragger(f"browser {k + 1}", k).run(address, begin, end, plan.rate)))
             await asyncio.sleep(_ARRIVAL)
         await asyncio.sleep(max(begin - time.monotonic(), 0.0))
-        before, told = processor_seconds(pid), begin
+        server = psutil.Process(pid)
+        before, told = sum(server.cpu_times()[:2]), begin
         every = min(_WATCH, plan.minutes * 60.0 / 40.0)
         while not all(task.done() for task in visits):
             await asyncio.sleep(every)
-            samples.append((time.monotonic(), resident_mb(pid)))
+            samples.append((time.monotonic(), server.memory_info().rss / 1e6))
             if samples[-1][0] - told > 30.0:
                 told = samples[-1][0]
                 tell(f"{(told - begin) / 60.0:5.1f} min  {samples[-1][1]:.0f} MB")
-        seconds, used = time.monotonic() - begin, processor_seconds(pid) - before
+        seconds, used = time.monotonic() - begin, sum(server.cpu_times()[:2]) - before
     real = pages.result() if pages else []
     return judge([task.result() for task in visits], plan.rate, seconds, used, samples, real)
