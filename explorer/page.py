@@ -261,7 +261,7 @@ class Page:
 
         It comes before the power curve: an early reload must find it.
         """
-        self.scene.settle()
+        self.scene.draw_finely()
         self.file.follow(state)
         self.file.keep()
         self.history.store()
