@@ -146,12 +146,10 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 
 
 @pytest.mark.slow
-def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
+def test_screenshots_of_the_report(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
     watched = painted(browser, app.address, "light", MEDIUM)
     watched.drawer("share")
     watched.page.keyboard.press("m")
-    watched.choose("Picture", "3D view")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-light.png")
     report = Watched(watched.page.context.new_page())
     report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
     for scheme in ("light", "dark"):
@@ -160,9 +158,6 @@ def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefa
         report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     report.page.close()
-    watched.page.keyboard.press("n")
-    watched.page.wait_for_selector("html[data-mantine-color-scheme=dark]", state="attached")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-dark.png")
     assert watched.complaints == report.complaints == []
     watched.close()
 
