@@ -235,7 +235,7 @@ class Page:
 
         It comes before the power curve: an early reload must find it.
         """
-        self.scene.settle()
+        self.scene.draw_finely()
         self._views.show_plan(state.solution, state.view, at_rest=True)
         self.file.follow(state)
         self.file.keep()

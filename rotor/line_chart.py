@@ -109,10 +109,19 @@ def draw(chart: LineChart, inline: bool = False) -> str:
         + f'<path d="{"".join(grid)}" fill="none" stroke="currentColor" stroke-opacity=".14"/>'
         + f'<path d="M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}" fill="none" stroke="currentColor"/>'
         + f'<g fill="currentColor">{"".join(words)}</g>{key}'
-        + f'<svg x="{left:.1f}" y="{top - 5.0:.1f}" width="{axes.wide:.1f}" height="{high + 10.0:.1f}" '
-        f'viewBox="{left:.1f} {top - 5.0:.1f} {axes.wide:.1f} {high + 10.0:.1f}">'
-        + "".join(_series(axes, one, 4.0, 2.0) for one in chart.series)
-        + "</svg></svg>\n"
+        + _cut_off(axes, "".join(_series(axes, one, 4.0, 2.0) for one in chart.series))
+        + "</svg>\n"
+    )
+
+
+def _cut_off(axes: _Axes, drawn: str) -> str:
+    """What is drawn, cut off a little beyond the axes where their ends are given: an inner drawing shows no more."""
+    if axes.chart.x_range is None and axes.chart.y_range is None:
+        return drawn
+    top, high = axes.top - 5.0, axes.high + 10.0
+    return (
+        f'<svg x="{axes.left:.1f}" y="{top:.1f}" width="{axes.wide:.1f}" height="{high:.1f}" '
+        f'viewBox="{axes.left:.1f} {top:.1f} {axes.wide:.1f} {high:.1f}">{drawn}</svg>'
     )
 
 

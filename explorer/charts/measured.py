@@ -71,7 +71,7 @@ class MeasuredChart:
         known = _Known(self._points.get(_key(measured, solution.design), ()), now)
         return _drawn(measured, solution, known, previous)
 
-    def rest(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
+    def trim_points(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
         """Trim at every measured point, unless newer input comes; `shown`: called when there is more to draw."""
         measured = set_shown(solution)
         if measured is None:
@@ -211,7 +211,7 @@ class FlownPowers:
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         return f"{here.case}: {number(percent, 1, sign=True)} %"
 
-    def rest(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
+    def trim_flights(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
         """Trim in every measured flight, unless newer input comes; `shown`: called when there is more to draw."""
         flights = _shown(solution.design)
         if not flights:

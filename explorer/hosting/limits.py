@@ -107,7 +107,7 @@ class RateLimiter:
         self._buckets = [[messages, messages.burst], [size, size.burst]]
         self._then = now
 
-    def take(self, size: int, now: float) -> bool:
+    def allows(self, size: int, now: float) -> bool:
         """Count a message of `size` bytes that came at `now` [s]; False when that is more than is allowed."""
         since, self._then = max(now - self._then, 0.0), now
         within = True

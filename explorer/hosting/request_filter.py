@@ -154,7 +154,7 @@ class RateLimitedConnection(ServerConnection):
     async def recv(self, decode: bool | None = None) -> Any:
         """The next message, counted."""
         message = await super().recv(decode)
-        if not self._limiter.take(len(message), time.monotonic()):
+        if not self._limiter.allows(len(message), time.monotonic()):
             _log.warning("a browser sent too much; its connection was closed")
             # The page shows the reason for this code alone.
             await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from explorer.picture.solids import Faces
+from explorer.picture.solids import Faces, sides
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
@@ -182,17 +182,13 @@ def _with_ends(rings: Array) -> Array:
 
 
 def _loft_faces(rings: int, points: int) -> Faces:
-    start = np.arange(rings - 1)[:, None] * points + np.arange(points)[None, :]
-    following = np.arange(rings - 1)[:, None] * points + (np.arange(points)[None, :] + 1) % points
-    a, b = start.ravel(), following.ravel()
-    sides = np.concatenate((np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1)))
     root, tip = rings * points, (rings + 1) * points
     root_centre, tip_centre = (rings + 2) * points, (rings + 2) * points + 1
     around = np.arange(points)
     after = (around + 1) % points
     root_cap = np.stack((root + around, root + after, np.full(points, root_centre)), 1)
     tip_cap = np.stack((tip + after, tip + around, np.full(points, tip_centre)), 1)
-    return np.concatenate((sides, root_cap, tip_cap)).astype(np.uint32)
+    return np.concatenate((sides(rings, points), root_cap, tip_cap)).astype(np.uint32)
 
 
 def circle_segments(radius: float, count: int = 180) -> Array:

@@ -71,20 +71,14 @@ def filled(disk: DiskFields, values: Array) -> Array:
     return np.where(reverse, values[first_outside, np.arange(values.shape[1])], values)
 
 
-def _induced(solution: Solution, grid: PolarGrid) -> Array:
-    return grid.refine(solution.disk.induced)
+def _refined(name: str, least: float = -math.inf) -> Callable[[Solution, PolarGrid], Array]:
+    """Samples a field of the disk as it is, at least `least`."""
+    return lambda solution, grid: np.maximum(grid.refine(getattr(solution.disk, name)), least)
 
 
-def _inflow(solution: Solution, grid: PolarGrid) -> Array:
-    return grid.refine(solution.disk.inflow)
-
-
-def _alpha_deg(solution: Solution, grid: PolarGrid) -> Array:
-    return np.degrees(refined(solution, grid).alpha).astype(np.float64)
-
-
-def _mach(solution: Solution, grid: PolarGrid) -> Array:
-    return np.maximum(grid.refine(solution.disk.mach), 0.0)
+def _degrees(name: str) -> Callable[[Solution, PolarGrid], Array]:
+    """Samples an angle that pictures read."""
+    return lambda solution, grid: np.degrees(getattr(refined(solution, grid), name)).astype(np.float64)
 
 
 def _cl(solution: Solution, grid: PolarGrid) -> Array:
@@ -141,10 +135,6 @@ def _drag(solution: Solution, grid: PolarGrid) -> Array:
     return np.maximum(force, 0.0) * (solution.design.thrust_unit / (rotor.blades * rotor.radius))
 
 
-def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
-    return np.degrees(refined(solution, grid).margin).astype(np.float64)
-
-
 def _elastic_deg(solution: Solution, grid: PolarGrid) -> Array:
     elastic = solution.disk.elastic_twist
     if elastic is None:
@@ -159,10 +149,10 @@ def _rigid(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
-        Field("Angle of attack", "°", -4.0, 14.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
-        Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
-        Field("Total inflow λ", "", -0.02, 0.12, "sequential", _inflow),
-        Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
+        Field("Angle of attack", "°", -4.0, 14.0, "sequential", _degrees("alpha"), void_in_reverse_flow=True),
+        Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _refined("induced")),
+        Field("Total inflow λ", "", -0.02, 0.12, "sequential", _refined("inflow")),
+        Field("Mach number", "", 0.0, 0.9, "sequential", _refined("mach", 0.0)),
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust, speeds=2),
@@ -171,7 +161,7 @@ FIELDS: dict[str, Field] = {
         Field("Power dP/dr", "kW/m per blade", -20.0, 150.0, "sequential", _power, speeds=3),
         Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
-        Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
+        Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
         Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_rigid),
     )
 }

@@ -43,20 +43,25 @@ def loft(rings: ArrayLike) -> Mesh:
     count, points = rings.shape[:2]
     k = np.arange(points)
     following = (k + 1) % points
-    a = (np.arange(count - 1)[:, None] * points + k).ravel()
-    b = (np.arange(count - 1)[:, None] * points + following).ravel()
     first, last = count * points, count * points + 1
     tip = (count - 1) * points
     faces = np.concatenate(
         (
-            np.stack((a, b + points, b), 1),
-            np.stack((a, a + points, b + points), 1),
+            sides(count, points),
             np.stack((k, following, np.full(points, first)), 1),
             np.stack((tip + following, tip + k, np.full(points, last)), 1),
         )
     ).astype(np.uint32)
     vertices = np.concatenate((rings.reshape(-1, 3), rings[[0, -1]].mean(axis=1)))
     return Mesh(vertices, faces if _volume(vertices, faces) > 0.0 else faces[:, ::-1])
+
+
+def sides(rings: int, points: int) -> NDArray[np.intp]:
+    """Triangles between neighbouring rings of so many points, numbered ring by ring."""
+    start = np.arange(rings - 1)[:, None] * points
+    a = (start + np.arange(points)).ravel()
+    b = (start + (np.arange(points) + 1) % points).ravel()
+    return np.concatenate((np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1)))
 
 
 def _volume(vertices: Array, faces: Faces) -> float:

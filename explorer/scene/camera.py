@@ -51,8 +51,8 @@ class FittedCamera:
         self._view = view
         self._aim(partial(self._fitted, view))
 
-    def _fitted(self, view: View, aspect: float, cover: Cover | None = None) -> Camera:
-        return fit(view, self.radius, aspect, self._azimuth, self._tilt, cover or self._cover, self._beside)
+    def _fitted(self, view: View, aspect: float) -> Camera:
+        return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover, self._beside)
 
     def resize(self, radius: float) -> None:
         """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""

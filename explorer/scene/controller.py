@@ -1,6 +1,6 @@
 """The picture of one session: rotor, disk, ghost and colour range; draws only what has changed.
 
-While something moves, the disk is small and only the reference blade is bent. `settle` draws the rest.
+While something moves, the disk is small and only the reference blade is bent. `draw_finely` draws the rest.
 """
 
 from dataclasses import dataclass, replace
@@ -67,7 +67,7 @@ class SceneController:
         """Follows the shaft tilt, once the page has one."""
         self._look: View = "3d"
         self._drawn: _Drawn | None = None
-        self._settled = False
+        self._fine = False
         """Whether the frame is drawn as finely as it can be."""
         self._ranges: dict[str, Range] = {}
         """By title of the field, once one was held."""
@@ -99,7 +99,7 @@ class SceneController:
                 if not self._page.playing:  # Else the page moves them.
                     self._air.hide_vortices()
             self._client.flush()
-            self._drawn, self._settled = wanted, False
+            self._drawn, self._fine = wanted, False
             return
         first = self._drawn is None
         picture = make_picture(solution, view, colour_range, field, MOVING)
@@ -114,15 +114,15 @@ class SceneController:
         self._display.show_range(field, colour_range, faded=False)
         if self.camera is not None:
             self.camera.follow(solution.controls.shaft_tilt, view.beside and pinned is not None)
-        self._drawn, self._settled = wanted, False
+        self._drawn, self._fine = wanted, False
 
-    def settle(self) -> None:
+    def draw_finely(self) -> None:
         """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A beside B.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """
         drawn = self._drawn
-        if drawn is None or self._settled:
+        if drawn is None or self._fine:
             return
         solution, view = drawn.solution, drawn.view
         field = _field(view, drawn.pinned)
@@ -147,7 +147,7 @@ class SceneController:
                 radius = max(beside.design.rotor.radius, solution.design.rotor.radius)
                 self.scene.show_beside(beside.design.rotor, other, apart(radius))
         self._client.flush()
-        self._drawn, self._settled = drawn, True
+        self._drawn, self._fine = drawn, True
 
     def fade(self, good: Solution | None, view: ViewState, pinned: Solution | None = None) -> None:
         """Show that the picture, of the last converged solution, no longer holds."""

@@ -166,9 +166,9 @@ class ChartStrip:
             if self._power is not None:
                 self.show_power(*self._power)
 
-        self._measured.rest(state.solution, superseded, shown)
+        self._measured.trim_points(state.solution, superseded, shown)
         if self._plain:
-            self._flown.rest(state.solution, superseded, flown)
+            self._flown.trim_flights(state.solution, superseded, flown)
 
     def _show_measured(self, solution: Solution) -> None:
         chart = self._measured.chart(solution, self._held(_MEASURED))

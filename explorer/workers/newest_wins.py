@@ -22,7 +22,7 @@ next [s]. None: what waited before goes on."""
 _FRAMES_IN_A_ROW = 20
 """Frames after which a step of what can wait has its turn, in a crowd. A step is charts of some three frames' time."""
 _SLOW = 0.15
-"""[s] that a frame takes which does not converge, or with a costly model."""
+"""[s] of processor time that a frame takes which does not converge, or with a costly model."""
 _IDLE = 10.0
 """[s] after which a thread without work ends."""
 
@@ -109,7 +109,7 @@ class NewestWins:
         self._answered = False
         """Whether what the last update was for is shown."""
         self._pause = self._took = 0.0
-        """[s] before the next step, and that the last frame took."""
+        """[s] before the next step, and of processor time that the last frame took."""
 
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
@@ -171,9 +171,9 @@ class NewestWins:
                 # Cleared before the update reads anything, so that a change during the update wakes it again.
                 answered, self._answered = self._answered, False
                 self._wanted.clear()
-                begun = time.monotonic()
+                begun = time.thread_time()
                 self._pause, steps = 0.0, self._update()
-                self._took = time.monotonic() - begun
+                self._took = time.thread_time() - begun
                 if steps is None:
                     self._answered = answered
                 else:

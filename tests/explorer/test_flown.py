@@ -68,7 +68,7 @@ class TestFlights:
         ]
         assert [mark.elsewhere for mark in before] == [False, True, True, True]
         assert "ours" not in before[1].words
-        flown.rest(solution, lambda: False, lambda: drawn.append(True))
+        flown.trim_flights(solution, lambda: False, lambda: drawn.append(True))
         assert drawn
         other = solve(at_test("gazelle", "FC2").design())
         ends = between_drag_areas(other)
@@ -82,10 +82,10 @@ class TestFlights:
 
     def test_rest_gives_way_and_does_not_trim_twice(self):
         solution, flown, drawn = solve(FC1.design()), FlownPowers(), list[bool]()
-        flown.rest(solution, lambda: True, lambda: drawn.append(True))
+        flown.trim_flights(solution, lambda: True, lambda: drawn.append(True))
         assert not drawn
         for _ in range(2):
-            flown.rest(solution, lambda: False, lambda: drawn.append(True))
+            flown.trim_flights(solution, lambda: False, lambda: drawn.append(True))
         assert len(drawn) == 1
 
     @pytest.mark.parametrize(

@@ -82,16 +82,16 @@ class TestCoarseAndFine:
         page.controller.draw(built, VIEW, None)
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
         small = len(page["/rotor/disk/field"]._data)
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * AT_REST / (AT_REST - 2))
         assert len(page["/rotor/disk/field"]._data) > 2 * small
 
     def test_settling_twice_draws_once(self, page: Page, built: Solution):
         page.controller.draw(built, VIEW, None)
-        page.controller.settle()
+        page.controller.draw_finely()
         fine = page["/rotor/disk/field"]._data
         page["/rotor/disk/field"]._data = b""
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/rotor/disk/field"]._data == b""
         assert fine
 
@@ -101,7 +101,7 @@ class TestCoarseAndFine:
         page.controller.draw(changed, VIEW, None)
         assert np.array_equal(page["/rotor/blade_2"].vertices, before)
         assert not np.array_equal(page["/rotor/blade_0"].vertices, before)
-        page.controller.settle()
+        page.controller.draw_finely()
         opposite = flown_twist(changed, math.radians(VIEW.azimuth_deg + 180.0))
         expected = blade_vertices(blade_shape(ROTOR), opposite, VIEW.exaggeration)
         np.testing.assert_allclose(page["/rotor/blade_2"].vertices, expected, atol=1e-5)
@@ -130,7 +130,7 @@ class TestLook:
         for view in ("3d", "disk"):
             page.controller.look(view)
             page.controller.draw(built, VIEW, None)
-            page.controller.settle()
+            page.controller.draw_finely()
             pictures.append(page["/rotor/disk/field"]._data)
         assert pictures[0] != pictures[1]
 
@@ -144,7 +144,7 @@ class TestGhost:
     def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, built: Solution):
         """By its edges alone: its surface would cut the flown one at small angles."""
         page.controller.draw(built, VIEW, None)
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/rotor/blade_0/ghost"].visible
         assert not page["/rotor/blade_0/other"].visible
         flown = flown_twist(built, math.radians(VIEW.azimuth_deg))
@@ -164,7 +164,7 @@ class TestGhost:
         page.controller.draw(changed, VIEW, None)
         assert page["/rotor/blade_0/other"].visible
         assert not page["/rotor/blade_0/ghost"].visible  # Its edges follow at rest.
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/rotor/blade_0/ghost"].visible
 
     def test_another_blade_can_take_its_place(self, page: Page, changed: Solution):
@@ -182,7 +182,7 @@ class TestRanges:
         light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
         for solution in (light, heavy):
             page.controller.draw(solution, view, None)
-            page.controller.settle()
+            page.controller.draw_finely()
         assert {held for _, held, _, _ in page.shown.calls} == {usual_range(FIELDS["Thrust dT/dr"], ROTOR)}
         for order, fits in (("Rescale", True), ("Default", False)):
             page.controller.order_range(order)
@@ -215,7 +215,7 @@ class TestRanges:
         page.controller.draw(light, view, None)
         asked = page.shown.calls[-1][1]
         page.controller.draw(heavy, view, None)
-        page.controller.settle()
+        page.controller.draw_finely()
         _, held, _, beyond = page.shown.calls[-1]
         assert held == asked
         assert beyond[1]  # The bar says that values lie above it.
@@ -225,13 +225,13 @@ class TestBeside:
     def test_a_stands_beside_b_at_rest(self, page: Page, built: Solution, changed: Solution):
         view = replace(VIEW, beside=True)
         page.controller.draw(changed, view, None, built)
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/compared"].visible
         assert np.allclose(page["/rotor"].position, apart(ROTOR.radius))
         assert np.allclose(page["/compared"].position, -apart(ROTOR.radius))
         assert not np.array_equal(page["/compared/blade_0"].vertices, page["/rotor/blade_0"].vertices)
         page.controller.draw(changed, VIEW, None)
-        page.controller.settle()
+        page.controller.draw_finely()
         assert not page["/compared"].visible
         assert np.allclose(page["/rotor"].position, 0.0)
 
@@ -242,7 +242,7 @@ class TestBeside:
 class TestPlay:
     def test_the_page_turns_the_blades_and_the_scene_leaves_them(self, page: Page, built: Solution):
         page.controller.draw(built, VIEW, None)
-        page.controller.settle()
+        page.controller.draw_finely()
         assert page["/rotor/vortices"].visible
         before = page["/rotor/blade_0"].wxyz.copy()
         page.controller.play(True)
@@ -270,7 +270,7 @@ class TestOverlays:
     def test_vortices_and_arrows_are_switched(self, page: Page, built: Solution):
         for wake, arrows in ((True, False), (False, True)):
             page.controller.draw(built, replace(VIEW, wake=wake, arrows=arrows), None)
-            page.controller.settle()
+            page.controller.draw_finely()
             assert page["/rotor/vortices"].visible == wake
             assert page["/rotor/inflow"].visible == arrows
 

@@ -197,7 +197,7 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
 def test_at_rest_the_picture_is_fine_before_the_address_and_what_the_page_keeps():
     called: list[str] = []
     part = SimpleNamespace(
-        settle=lambda: called.append("picture"),
+        draw_finely=lambda: called.append("picture"),
         follow=lambda _: called.append("address"),
         keep=lambda: called.append("kept"),
         store=lambda: called.append("steps"),

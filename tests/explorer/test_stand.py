@@ -135,7 +135,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert len(before.marks) == 4
     assert len(before.lines[0].x) == 0
     drawn: list[bool] = []
-    chart.rest(solution, lambda: False, lambda: drawn.append(True))
+    chart.trim_points(solution, lambda: False, lambda: drawn.append(True))
     after = chart.chart(solution)
     assert drawn
     assert after is not None

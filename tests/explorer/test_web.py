@@ -19,7 +19,7 @@ JAVASCRIPT_OR_CSS = re.compile(
 
 
 ALLOWED = {("web/__init__.py", "<style>"), ("web/__init__.py", "<script>"), ("web/__init__.py", '<script id="')} | {
-    ("hosting/served_page.py", "<script")
+    ("hosting/request_filter.py", "<script")
 }
 """Elements around the files, and the seam of viser's page."""
 

@@ -1,6 +1,5 @@
 """Tables of the report as HTML: the comparison of designs, and condition, power, trim and twist of each."""
 
-import math
 from collections.abc import Callable
 from html import escape
 
@@ -59,16 +58,16 @@ def comparison(report: DesignReport) -> str:
         _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
         _row("Mass, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
         _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
-        _row("<b>Total power</b>", compared(_total), "total"),
+        _row("<b>Total power</b>", compared(lambda solution: solution.power.total), "total"),
         *(
             _row(
                 f'<i style="background:{PARTS[name]}"></i>{title}',
-                compared(_part(name)),
+                compared(lambda solution, name=name: getattr(solution.power, name)),
             )
             for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
-        _row("Efficiency", [_efficiency(e.solution) for e in report.all]),
+        _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
         _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
     ]
     return (
@@ -135,11 +134,11 @@ def trim(solution: Solution) -> str:
     """The trim and the coefficients of the rotor."""
     c = solution.controls
     rows = [
-        ("Collective θ0, at 0.75 R", _degrees(c.collective)),
-        ("Cyclic θ1c, θ1s", f"{_degrees(c.cyclic_1c)}, {_degrees(c.cyclic_1s)}"),
-        ("Shaft tilt α, forward", _degrees(c.shaft_tilt)),
-        ("Coning β0", _degrees(c.coning)),
-        ("Flapping β1c, β1s", f"{_degrees(c.flap_1c)}, {_degrees(c.flap_1s)}"),
+        ("Collective θ0, at 0.75 R", degrees(c.collective)),
+        ("Cyclic θ1c, θ1s", f"{degrees(c.cyclic_1c)}, {degrees(c.cyclic_1s)}"),
+        ("Shaft tilt α, forward", degrees(c.shaft_tilt)),
+        ("Coning β0", degrees(c.coning)),
+        ("Flapping β1c, β1s", f"{degrees(c.flap_1c)}, {degrees(c.flap_1s)}"),
         ("Mean induced inflow λ0", number(c.lambda0, 5)),
         ("CT, CT/σ", f"{number(solution.ct, 5)}, {number(solution.ct_over_sigma, 4)}"),
         ("CP", number(solution.cp, 6)),
@@ -192,14 +191,6 @@ def _with_change(solution: Solution, reference: Solution, value: Callable[[Solut
     return f"{units.watts(here, 1)}<br><small>{units.watts(here - there, 1, sign=True)}{per_cent}</small>"
 
 
-def _total(solution: Solution) -> float:
-    return solution.power.total
-
-
-def _part(name: str) -> Callable[[Solution], float]:
-    return lambda solution: float(getattr(solution.power, name))
-
-
 def _share(part: float, total: float, units: Units) -> str:
     return f"{units.watts(part, 1)} <small>{number(100.0 * part / total)} %</small>"
 
@@ -223,15 +214,8 @@ def _model(design: Design) -> str:
     return f"{escape(inflow_words(design))}<br><small>{escape(design.preset)}, {escape(physics_words(design))}</small>"
 
 
-def _efficiency(solution: Solution) -> str:
-    return f"{'FM' if solution.design.hovering else 'L/De'} {_efficiency_number(solution)}"
-
-
-def _efficiency_number(solution: Solution) -> str:
+def _efficiency_number(solution: Solution, merit: str = "", ratio: str = "") -> str:
+    """Figure of merit in hover, lift to drag in flight, after their names."""
     if solution.design.hovering:
-        return number(solution.figure_of_merit, 3)
-    return number(solution.lift_to_drag, 2)
-
-
-def _degrees(angle: float) -> str:
-    return f"{number(math.degrees(angle), 2)}°"
+        return merit + number(solution.figure_of_merit, 3)
+    return ratio + number(solution.lift_to_drag, 2)

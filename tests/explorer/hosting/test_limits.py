@@ -15,19 +15,19 @@ from explorer.hosting.limits import LARGEST_FILE, RateLimit, RateLimiter, refuse
 class TestRateLimiter:
     def test_a_burst_is_allowed_then_only_the_rate(self):
         limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
-        assert all(limiter.take(1, 0.0) for _ in range(20))
-        assert not limiter.take(1, 0.0)
+        assert all(limiter.allows(1, 0.0) for _ in range(20))
+        assert not limiter.allows(1, 0.0)
         limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
-        assert all(limiter.take(1, 0.1 * k) for k in range(1000))
+        assert all(limiter.allows(1, 0.1 * k) for k in range(1000))
 
     def test_bytes_are_limited_too(self):
         limiter = RateLimiter(0.0, RateLimit(100.0, 100.0), RateLimit(1e3, 1e4))
-        assert limiter.take(10_000, 0.0)
-        assert not limiter.take(1_000, 0.5)
+        assert limiter.allows(10_000, 0.0)
+        assert not limiter.allows(1_000, 0.5)
 
     def test_slider_and_camera_together_stay_below_the_limit(self):
         limiter = RateLimiter(0.0)
-        assert all(limiter.take(300, k / 70.0) for k in range(70 * 600))
+        assert all(limiter.allows(300, k / 70.0) for k in range(70 * 600))
 
 
 class TestUploads:

@@ -218,7 +218,7 @@ class TestPlaces:
                 await visitor.close()
 
         alone(work)
-        settle(app)
+        until_all_have_left(app)
 
     def test_a_page_is_sent_in_one_piece_with_its_first_solution(self, app: App):
         async def work() -> None:
@@ -238,7 +238,7 @@ class TestPlaces:
                 await visitor.close()
 
         alone(work)
-        settle(app)
+        until_all_have_left(app)
 
     def test_too_many_connections_are_refused(self):
         server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
@@ -299,7 +299,7 @@ def words(visitor: Visitor) -> str:
     return " ".join(str(w.get("content")) for w in visitor.widgets.values() if "rx-lobby" in str(w.get("content")))
 
 
-def settle(app: App) -> None:
+def until_all_have_left(app: App) -> None:
     """Until the server has noticed that all have left."""
     for _ in range(3000):
         if not app._connections and not app._seated:
