@@ -259,50 +259,30 @@ class TestBestTurn:
             assert least < power_and_slope(best.turn + 1.0)[1]
 
 
-class TestUndo:
-    def test_one_drag_is_one_step_however_long_and_whatever_it_moves(self):
-        history = History(TWO)
+def test_one_drag_is_one_step_of_undo_however_long_and_whatever_it_moves():
+    history = History(TWO)
+    for drag in (((-13.9, -8.0), (-13.5, -8.5), (-13.0, -9.0)), ((-12.0, -9.0),)):
         history.hold()
-        for inner, outer in ((-13.9, -8.0), (-13.5, -8.5), (-13.0, -9.0)):
+        for inner, outer in drag:
             history.note(replace(TWO, two_inner=inner, two_outer=outer), pause=5.0)
         history.release()
-        assert len(history.past) == 1
-        assert history.undo() == TWO
-
-    def test_the_next_drag_is_another_step(self):
-        history = History(TWO)
-        for inner in (-13.0, -12.0):
-            history.hold()
-            history.note(replace(TWO, two_inner=inner), pause=0.1)
-            history.release()
-        assert len(history.past) == 2
-
-
-class _Bridge:
-    """What the frame was told, and what it would say."""
-
-    def __init__(self) -> None:
-        self.actions: dict[str, Any] = {}
-        self.state: dict[str, Any] = {}
-
-    def on(self, name: str, action: Any) -> None:
-        self.actions[name] = action
-
-    def set(self, **parts: Any) -> None:
-        self.state |= parts
+    assert len(history.past) == 2
+    assert history.undo() == replace(TWO, two_inner=-13.0, two_outer=-9.0)
+    assert history.undo() == TWO
 
 
 class TestTwistCurve:
     """Handles of the twist curve in the rail."""
 
     def test_a_held_handle_has_a_place_that_ends_with_the_drag(self):
-        bridge, now = _Bridge(), [Inputs(law="two")]
+        actions: dict[str, Any] = {}
+        bridge, now = SimpleNamespace(on=actions.__setitem__), [Inputs(law="two")]
         page: Any = SimpleNamespace(
             inputs=lambda: now[0], drag_to=lambda new: now.__setitem__(0, new), held=False, bridge=bridge
         )
         took: list[bool] = []
         editor = TwistCurveEditor(page, took.append)
-        drag = bridge.actions["knot"]
+        drag = actions["knot"]
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
         assert editor.place == ""
         drag(["2", "start"])
