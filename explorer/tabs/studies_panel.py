@@ -147,7 +147,7 @@ class StudiesPanel(Tab):
         self._now: int | None = None
         self._asked = 0
         """Counts what was asked to be opened: what comes late is passed over."""
-        self._found: dict[str, FoundStudy] = {}
+        self._studies: dict[str, FoundStudy] = {}
         self._lock = threading.RLock()
         gui = context.gui
         if find_spec("pyarrow") is None:
@@ -184,13 +184,13 @@ class StudiesPanel(Tab):
         """Find the results there are now."""
         shipped = {one.path.resolve(): one for one in find_studies(asset_path("studies"))}
         own = [one for one in find_studies(self._root) if one.path.resolve() not in shipped]
-        found = {one.label(self._root): one for one in own}
-        found |= {f"Shipped: {one.title}": one for one in shipped.values()}
-        self._found = found
-        kept = self._menu.value if self._menu.value in found else _NONE
-        self._menu.options = (_NONE, *found)
+        studies = {one.label(self._root): one for one in own}
+        studies |= {f"Shipped: {one.title}": one for one in shipped.values()}
+        self._studies = studies
+        kept = self._menu.value if self._menu.value in studies else _NONE
+        self._menu.options = (_NONE, *studies)
         self._menu.value = kept
-        if not found:
+        if not studies:
             self._say(_EMPTY)
 
     def open(self, read: Callable[[], Results], name: str) -> None:
@@ -222,7 +222,7 @@ class StudiesPanel(Tab):
         self._asked += 1
 
     def _chosen(self, label: str) -> None:
-        study = self._found.get(label)
+        study = self._studies.get(label)
         if study is not None:
             self.open(lambda: open_study(study.path), study.path.name)
 
