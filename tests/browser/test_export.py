@@ -4,7 +4,7 @@ import io
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -59,17 +59,6 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
     return path
 
 
-def value(app: App, label: str) -> Any:
-    """What the server holds for a widget."""
-    (client,) = app.server.get_clients().values()
-    handles: Any = client.gui._gui_input_handle_from_uuid.values()
-    return next(handle.value for handle in handles if getattr(handle, "label", None) == label)
-
-
-def clipboard(watched: Watched) -> str:
-    return watched.page.evaluate("navigator.clipboard.readText()")
-
-
 def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
     design = START.design()
     blade = trimesh.load_mesh(saved(watched, "Jig STL", tmp_path))
@@ -92,60 +81,19 @@ def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, row
     assert "linear:-16" in text
 
 
-def test_pictures_have_the_pixels_asked_for(watched: Watched, app: App, tmp_path: Path):
-    watched.choose("Size [px]", "1280 × 720")
-    watched.until(lambda: value(app, "Size [px]") == "1280 × 720")
-    with Image.open(saved(watched, "PNG", tmp_path)) as disk:
-        assert disk.size == (1280, 720)
-        assert disk.getpixel((3, 3)) == (255, 255, 255, 255)
-        assert len(disk.convert("RGB").getcolors(1 << 21) or []) > 200  # Something is drawn.
-    watched.page.get_by_label("Transparent").first.click()
-    watched.until(lambda: value(app, "Transparent"))
-    with Image.open(saved(watched, "PNG", tmp_path)) as disk:
-        assert disk.getpixel((3, 3))[3] == 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
-    watched.page.get_by_label("Transparent").first.click()
-    watched.until(lambda: not value(app, "Transparent"))
-    drawing = saved(watched, "SVG", tmp_path).read_text(encoding="utf-8")
-    assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg" width="1280" height="720"')
-    watched.choose("Picture", "3D view")
-    watched.until(lambda: value(app, "Picture") == "3D view")
-    watched.page.get_by_role("button", name="SVG", exact=True).click()
-    assert "save it as PNG" in until(watched, "problem")
-    watched.choose("Size [px]", "2000 × 2000")
-    watched.until(lambda: value(app, "Size [px]") == "2000 × 2000")
-    with Image.open(saved(watched, "PNG", tmp_path)) as view:
-        assert view.size == (2000, 2000)
-    watched.choose("Size [px]", "Own size")
-    watched.page.get_by_text("W, H [px]").wait_for(timeout=WAIT)
-    first, second = watched.row("W, H").locator("input:not([type=hidden])").all()
-    first.fill("3000")
-    watched.taken()
-    second.fill("400")
-    watched.page.keyboard.press("Enter")
-    watched.until(lambda: tuple(value(app, "W, H [px]")) == (3000, 400))
-    watched.page.get_by_role("button", name="PNG", exact=True).click()
-    assert re.search(r"3000 × 400 leaves no room", until(watched, "problem"))
-    watched.choose("Picture", "Disk")
-    watched.until(lambda: value(app, "Picture") == "Disk")
+def test_the_disk_is_a_drawing(watched: Watched, tmp_path: Path):
+    drawing = saved(watched, "Disk as SVG", tmp_path).read_text(encoding="utf-8")
+    assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg"')
+    assert "µ 0.410" in drawing
+    assert "drag divergence" in drawing
 
 
-def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
-    page, power = watched.page, solve(START.design()).power.total
-    page.get_by_role("button", name="Command", exact=True).click()
-    command = page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
-    assert command is not None
-    assert command.inner_text().strip() == "python -m rotor solve --mu 0.41 --twist linear:-16 --mass-kg 8320"
-    watched.until(lambda: clipboard(watched).strip() == command.inner_text().strip())
-    copied = clipboard(watched)
-    page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
-    page.wait_for_selector('[data-explorer="code"]', state="detached")
-    page.get_by_role("button", name="Python", exact=True).click()
-    page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
-    names: dict[str, Any] = {}
-    exec(compile(watched.until_changed(lambda: clipboard(watched), copied), "copied", "exec"), names)
-    assert names["solution"].power.total == pytest.approx(power, rel=1e-9)
-    page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
-    page.wait_for_selector('[data-explorer="code"]', state="detached")
+def test_the_view_is_a_picture_of_the_scene(watched: Watched, tmp_path: Path):
+    with Image.open(saved(watched, "View as PNG", tmp_path)) as picture:
+        size = watched.page.locator("canvas").first.bounding_box()
+        assert size is not None
+        assert picture.width == 1920
+        assert picture.width / picture.height == pytest.approx(size["width"] / size["height"], rel=0.02)
 
 
 def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched, tmp_path: Path):
@@ -207,12 +155,10 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 
 
 @pytest.mark.slow
-def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
+def test_screenshots_of_the_report(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
     watched = painted(browser, app.address, "light", MEDIUM)
     watched.drawer("share")
     watched.page.keyboard.press("m")
-    watched.choose("Picture", "3D view")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-light.png")
     report = Watched(watched.page.context.new_page())
     report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
     for scheme in ("light", "dark"):
@@ -221,9 +167,6 @@ def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefa
         report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     report.page.close()
-    watched.page.keyboard.press("n")
-    watched.page.wait_for_selector("html[data-mantine-color-scheme=dark]", state="attached")
-    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-dark.png")
     assert watched.complaints == report.complaints == []
     watched.close()
 
