@@ -82,6 +82,7 @@ class Page:
         bridge = context.bridge
         self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""))
         layout = context.layout = self.layout = Layout(client.gui, bridge)
+        layout.watchers.append(callbacks.wake)
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
         context.display = self.display
         with layout.in_mode("explore"):

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Protocol
 
 import viser
@@ -39,6 +40,7 @@ from explorer.model.stand import (
 from explorer.model.undo import Pauses, PowerTracker
 from explorer.model.units import SI, Units
 from explorer.overlay.bridge import Bridge
+from explorer.tabs.layout import by_hand
 from explorer.text import readout
 from explorer.text.glossary import hint
 from rotor.aero.inflow import INFLOW_MODELS
@@ -92,13 +94,13 @@ class StandControls:
         )
         for name, s in _SLIDERS.items():
             handle = gui.add_slider(s.label, s.low, s.high, s.step, s.low, visible=False, hint=hint(name))
-            handle.on_update(self._slid(name))
+            by_hand(handle, partial(self._slid, name))
             self._sliders[name] = handle
-        self._trim.on_update(self._trim_chosen)
-        self._test.on_update(self._test_chosen)
-        self._point.on_update(self._point_chosen)
-        self._load.on_update(self._load_chosen)
-        self._flapping.on_update(self._flapping_chosen)
+        by_hand(self._trim, self._trim_chosen)
+        by_hand(self._test, self._test_chosen)
+        by_hand(self._point, self._point_chosen)
+        by_hand(self._load, self._load_chosen)
+        by_hand(self._flapping, self._flapping_chosen)
         self.place(start)
 
     @property
@@ -161,10 +163,8 @@ class StandControls:
         same = state is not None and state.inputs.aircraft == self._inputs().aircraft
         return state.solution if same and state is not None else None
 
-    def _trim_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is None:
-            return
-        trim = next(key for key, title in TRIM_TITLES.items() if title == event.target.value)
+    def _trim_chosen(self, title: str) -> None:
+        trim = key_of(TRIM_TITLES, title)
         if trim == "flight":
             self._change(None)
             return
@@ -173,44 +173,34 @@ class StandControls:
         collective = None if solution is None else load_of(solution, "collective_deg")
         self._change(begin.with_trim(next(one for one in STAND_TRIMS if one == trim), collective))
 
-    def _load_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is None or self.stand is None:
-            return
-        load = next(key for key, title in LOAD_TITLES.items() if title == event.target.value)
-        solution = self._solution()
+    def _load_chosen(self, title: str) -> None:
+        load, solution = key_of(LOAD_TITLES, title), self._solution()
         usual = {
             "ct_over_sigma": 0.07,
             "collective_deg": 8.0,
             "thrust_n": 0.3 * _slider("thrust_n", self._inputs().aircraft).high,
         }
-        value = usual[load] if solution is None else load_of(solution, load)
-        self._change(replace(self.stand, load=load, value=value))
+        self._change_stand(load=load, value=usual[load] if solution is None else load_of(solution, load))
 
-    def _flapping_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None and self.stand is not None:
-            chosen = next(name for name, title in _FLAPPING.items() if title == event.target.value)
-            self._change(replace(self.stand, flapping=chosen))
+    def _flapping_chosen(self, title: str) -> None:
+        self._change_stand(flapping=key_of(_FLAPPING, title))
 
-    def _slid(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
-        def moved(event: viser.GuiEvent[Any]) -> None:
-            if event.client is not None and self.stand is not None:
-                field = "value" if name in LOAD_TITLES else name
-                self.stand = replace(self.stand, **{field: float(event.target.value)})
-                self._moved()
+    def _change_stand(self, **changes: Any) -> None:
+        if self.stand is not None:
+            self._change(replace(self.stand, **changes))
 
-        return moved
+    def _slid(self, name: str, value: float) -> None:
+        if self.stand is not None:
+            self.stand = replace(self.stand, **{"value" if name in LOAD_TITLES else name: float(value)})  # pyright: ignore[reportArgumentType]
+            self._moved()
 
-    def _test_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is None or event.target.value == _NONE:
-            return
-        points = [one for one in measured_conditions(self._inputs().rotor) if one.test == event.target.value]
-        self.set_measured(opening(points))
+    def _test_chosen(self, title: str) -> None:
+        if title != _NONE:
+            self.set_measured(opening([one for one in measured_conditions(self._inputs().rotor) if one.test == title]))
 
-    def _point_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is None:
-            return
+    def _point_chosen(self, label: str) -> None:
         for one in measured_conditions(self._inputs().rotor):
-            if one.test == self._test.value and one.label == event.target.value:
+            if one.test == self._test.value and one.label == label:
                 self.set_measured(one)
 
     def set_measured(self, condition: MeasuredCondition) -> None:
@@ -299,7 +289,7 @@ class DesignControls:
         self._inputs["law"] = self._watched(self._law)
         self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         self._speed = gui.add_html(_flight_heading(0.0, SI))
-        self.stand = StandControls(gui, self.inputs, self.set_inputs, self._hand_moved, callbacks.state)
+        self.stand = StandControls(gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state)
         self._sliders(gui, FLIGHT)
         self.stand.add_sliders(gui, start)
         with gui.add_folder("Model", expand_by_default=False):
@@ -317,7 +307,7 @@ class DesignControls:
                 self._costs[name] = gui.add_html("")
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
-        self._inputs["preset"].on_update(self._preset_changed)
+        by_hand(preset, self._preset_chosen)
         bridge.on("rotor", self._choose_rotor)
         bridge.on("flown", self._set_measured)
 
@@ -331,8 +321,7 @@ class DesignControls:
         values["law"] = key_of(self._laws, values["law"])
         values["preset"] = key_of(PRESET_TITLES, values["preset"])
         values |= {name: key_of(titles, values[name]) for name, titles in INFLOW_MENUS.items()}
-        held = {name: getattr(special, name) for name in _HELD}
-        return Inputs(**values, **held)
+        return replace(special, **values)
 
     def reset(self) -> None:
         """Back to the design the page began with."""
@@ -473,13 +462,9 @@ class DesignControls:
         self.pauses.moved(time.monotonic())
         self._changed()
 
-    def _hand_moved(self) -> None:
-        self._moved(True)
-
-    def _preset_changed(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None:  # Not when the reset button moved it.
-            for name, value in preset_inflow(self.inputs().preset).items():
-                self._inputs[name].value = INFLOW_MENUS[name][value]
+    def _preset_chosen(self, title: str) -> None:
+        for name, value in preset_inflow(key_of(PRESET_TITLES, title)).items():
+            self._inputs[name].value = INFLOW_MENUS[name][value]
 
     def _choose_rotor(self, name: str) -> None:
         """Another rotor of the menu, as it is built."""
@@ -512,10 +497,6 @@ def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:
 
 
 _LAW_INPUTS = frozenset(name for law in LAWS.values() for name in law.inputs)
-_HELD = (
-    "stand", "rotor", "own_rotor", "given", "found", "airfoils", "pitch_per_rev", "twist_per_rev", "active_shape",
-)  # fmt: skip
-"""Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 
 
 def _laws_of(inputs: Inputs) -> dict[str, str]:
@@ -523,6 +504,6 @@ def _laws_of(inputs: Inputs) -> dict[str, str]:
     return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
 
 
-def key_of(titles: dict[str, str], title: str) -> str:
+def key_of(titles: Mapping[Any, str], title: str) -> Any:
     """The key of what a menu shows."""
     return next(key for key, value in titles.items() if value == title)

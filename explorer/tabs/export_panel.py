@@ -44,7 +44,7 @@ class ExportPanel(Tab):
             "Blade": files.along_file,
             "Power": lambda state: files.power_file(state, self._curves),
         }
-        pictures = {"Disk SVG": self._disk_drawing, "View PNG": self._view_picture}
+        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
         gui = context.gui
         with gui.add_folder("Export"):
             for label, makers, name in (

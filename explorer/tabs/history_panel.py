@@ -15,6 +15,7 @@ from explorer.model.units import SI, Units
 from explorer.sharing import stored_history
 from explorer.sharing.stored_history import StoredHistory
 from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, NOW, THIS
@@ -140,7 +141,7 @@ class HistoryPanel(Tab):
         for name, act in (("undo", self.undo), ("redo", self.redo)):
             context.bridge.on(name, lambda _, act=act: None if context.held else act())
         keep.on_click(lambda _: self.keep())
-        self._field.on_update(lambda event: self._clicked() if event.client is not None else None)
+        by_hand(self._field, self._clicked)
 
     def read(self, pause: float) -> Inputs:
         """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
@@ -240,8 +241,8 @@ class HistoryPanel(Tab):
         else:
             self._context.set_inputs(inputs)
 
-    def _clicked(self) -> None:
-        asked = _asked(self._field.value)
+    def _clicked(self, text: str) -> None:
+        asked = _asked(text)
         self._field.value = ""  # The same click again is a change again.
         if asked is None:
             return

@@ -27,6 +27,11 @@ _WIDER = 1.22
 """Widths with big type, to those without."""
 
 
+def by_hand(handle: Any, action: Callable[[Any], None]) -> None:
+    """Call `action` with the value of a widget whenever the user changes it, not when the program does."""
+    handle.on_update(lambda event: action(event.target.value) if event.client is not None else None)
+
+
 class Layout:
     """One session's. What is not shown is not in the page, so that it costs the browser nothing."""
 

@@ -11,7 +11,6 @@ from functools import lru_cache, partial
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import viser
 
@@ -20,6 +19,7 @@ from explorer.model.units import number
 from explorer.sharing import share
 from explorer.tabs import study_charts
 from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.layout import by_hand
 from explorer.tabs.study_charts import FIELD, axis_names, title, value_text
 from explorer.text.glossary import hint
 from rotor.assets import asset_path
@@ -147,7 +147,7 @@ class StudiesPanel(Tab):
         self._now: int | None = None
         self._asked = 0
         """Counts what was asked to be opened: what comes late is passed over."""
-        self._found: dict[str, FoundStudy] = {}
+        self._studies: dict[str, FoundStudy] = {}
         self._lock = threading.RLock()
         gui = context.gui
         if find_spec("pyarrow") is None:
@@ -172,25 +172,25 @@ class StudiesPanel(Tab):
         self._chart = gui.add_html("")
         self._point = gui.add_text(FIELD, "", visible=False, hint=hint("study_point"))
         self._point_row = gui.add_html("")
-        self._menu.on_update(self._by_browser(self._chosen))
+        by_hand(self._menu, self._chosen)
         look.on_click(lambda _: self.look())
         file.on_upload(lambda event: self._uploaded(event.target.value))
         for menu in (self._kind, self._x, self._y, self._colour, self._cruise):
-            menu.on_update(self._by_browser(self._draw))
-        self._point.on_update(self._by_browser(self._apply))
+            by_hand(menu, lambda _: self._draw())
+        by_hand(self._point, self._apply)
         threading.Thread(target=self.look, name="studies", daemon=True).start()
 
     def look(self) -> None:
         """Find the results there are now."""
         shipped = {one.path.resolve(): one for one in find_studies(asset_path("studies"))}
         own = [one for one in find_studies(self._root) if one.path.resolve() not in shipped]
-        found = {one.label(self._root): one for one in own}
-        found |= {f"Shipped: {one.title}": one for one in shipped.values()}
-        self._found = found
-        kept = self._menu.value if self._menu.value in found else _NONE
-        self._menu.options = (_NONE, *found)
+        studies = {one.label(self._root): one for one in own}
+        studies |= {f"Shipped: {one.title}": one for one in shipped.values()}
+        self._studies = studies
+        kept = self._menu.value if self._menu.value in studies else _NONE
+        self._menu.options = (_NONE, *studies)
         self._menu.value = kept
-        if not found:
+        if not studies:
             self._say(_EMPTY)
 
     def open(self, read: Callable[[], Results], name: str) -> None:
@@ -221,10 +221,10 @@ class StudiesPanel(Tab):
         """What is being read is no longer wanted."""
         self._asked += 1
 
-    def _chosen(self) -> None:
-        found = self._found.get(self._menu.value)
-        if found is not None:
-            self.open(lambda: open_study(found.path), found.path.name)
+    def _chosen(self, label: str) -> None:
+        study = self._studies.get(label)
+        if study is not None:
+            self.open(lambda: open_study(study.path), study.path.name)
 
     def _uploaded(self, file: viser.UploadedFile) -> None:
         self.open(lambda: read_bounded(file.content, file.name), file.name)
@@ -273,9 +273,9 @@ class StudiesPanel(Tab):
                 x, y, colour = (self._names[menu.value] for menu in (self._x, self._y, self._colour))
                 self._chart.content = study_charts.scatter(results, x, y, colour, self._now)
 
-    def _apply(self) -> None:
+    def _apply(self, text: str) -> None:
         """Put the point in the field onto the sliders."""
-        results, text = self._results, self._point.value.strip()
+        results, text = self._results, text.strip()
         if results is None or not text:
             return
         try:
@@ -299,10 +299,6 @@ class StudiesPanel(Tab):
         self._state.content = (
             f'<div class="rx rx-small{tone}" data-explorer="study-state" data-kind="{kind}">{escape(sentence)}</div>'
         )
-
-    def _by_browser(self, action: Callable[[], None]) -> Callable[[Any], None]:
-        """Only what a person does in the browser counts, not what this file writes into the widgets."""
-        return lambda event: action() if event.client is not None else None
 
 
 def _menu(gui: viser.GuiApi, label: str, entry: str, *, visible: bool = False) -> viser.GuiDropdownHandle[str]:

@@ -15,6 +15,7 @@ from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
 from explorer.tabs.actuator.cut_blade import fit_cut
 from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.probe_panel import ProbePanel
 from explorer.text.glossary import hint
 from rotor.trim.solution import Solution
@@ -29,8 +30,8 @@ class SettingsPanel(Tab):
         self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
-        self._units.on_update(lambda event: self._change(units=event.target.value) if event.client else None)
-        self._dark.on_update(lambda event: self._change(dark=event.target.value) if event.client else None)
+        by_hand(self._units, lambda title: self._change(units=title))
+        by_hand(self._dark, lambda dark: self._change(dark=dark))
         self._big.on_update(lambda _: self._enlarge())
         gui.add_html(
             '<div class="rx rx-dim rx-small"><p>Keys: press <b>?</b> for the list, Ctrl+K to find a command.</p></div>'

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 from watched import Watched, opened, window
 
 from explorer.app import App
@@ -85,6 +86,14 @@ def test_the_disk_is_a_drawing(watched: Watched, tmp_path: Path):
     assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg"')
     assert "µ 0.410" in drawing
     assert "drag divergence" in drawing
+
+
+def test_the_view_is_a_picture_of_the_scene(watched: Watched, tmp_path: Path):
+    with Image.open(saved(watched, "View as PNG", tmp_path)) as picture:
+        size = watched.page.locator("canvas").first.bounding_box()
+        assert size is not None
+        assert picture.width == 1920
+        assert picture.width / picture.height == pytest.approx(size["width"] / size["height"], rel=0.02)
 
 
 def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched, tmp_path: Path):

@@ -1,4 +1,4 @@
-"""The Studies tab in a real browser: a result opened, a click on a point flown, charts changed; Plotly only then."""
+"""The Studies section in a real browser: a result opened, a click on a point flown, charts changed."""
 
 import os
 import re
@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-DRAWN = "document.querySelector('.js-plotly-plot').calcdata.reduce((count, trace) => count + trace.length, 0)"
-"""Points of the chart, those beyond its axes included."""
+WAIT = 30_000
+"""[ms]; far more than it takes, for machines with other things to do."""
+POINTS = "[data-explorer=study-chart] circle[data-value]"
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +44,6 @@ def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]
     watched = opened(browser, app.address, size=(1280, 900))
     watched.drawer("open")
     yield watched, app.sessions[-1]
-    assert watched.complaints == []
     watched.close()
     app.stop()
 
@@ -51,34 +51,25 @@ def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]
 def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session], studies: Path):
     watched, session = page
     tab = watched.page
-    assert tab.evaluate("window.Plotly === undefined")  # 1.7 MB that a page without studies never asks for.
     watched.choose("Result", "blades")
-    tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]')
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]', timeout=WAIT)
     watched.reads("study-state", "36 of 36 points")
-    dots = tab.locator(".js-plotly-plot .points path")
-    dots.first.wait_for()
-    tab.wait_for_function(f"() => {DRAWN} === 12")  # Blades: each a pair of hover and cruise.
+    dots = tab.locator(POINTS)
+    dots.first.wait_for(timeout=WAIT)
+    assert 2 <= dots.count() <= 12  # Blades near the front: each a pair of hover and cruise.
     before = watched.text("total-power")
-    said = tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied"))
-
-    def taken() -> bool:
-        """Plotly takes a click on a point once it has found the pointer over it."""
-        dots.last.hover(force=True)
-        tab.wait_for_timeout(300)
-        dots.last.click(force=True)
-        tab.wait_for_timeout(1500)
-        return said.count() > 0
-
-    watched.until(taken)
+    dots.last.click(force=True)
+    tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied")).wait_for(timeout=WAIT)
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
-    inputs = watched.at_rest(session.page.controls.inputs)
+    inputs = watched.at_rest(session.page.controls.inputs, 0.4)
     assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
     assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
     assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
     assert inputs.two_outer == pytest.approx(results.columns["outboard_rate_deg"][row])
     assert inputs.two_division == pytest.approx(results.columns["division"][row])
     watched.until_changed(lambda: watched.text("total-power"), before)
+    assert watched.complaints == []
 
 
 def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], artefacts: Path):
@@ -86,19 +77,16 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     tab = watched.page
     watched.choose("Chart", "Scatter")
     watched.choose("Horizontal", "break point r/R")
-    tab.wait_for_function(f"() => {DRAWN} >= 36")
+    tab.wait_for_function(f"() => document.querySelectorAll('{POINTS}').length === 36")
     watched.choose("Chart", "Hover against cruise")
-    tab.wait_for_function(f"() => {DRAWN} == 13")
-    watched.choose("Chart", "Scatter")  # Whose axes have all points on them again.
-    tab.wait_for_function("() => document.querySelector('.js-plotly-plot')._fullLayout.yaxis.range[0] > 100")
-    watched.choose("Chart", "Parallel coordinates")
-    tab.locator(".js-plotly-plot .parcoords").first.wait_for()
+    tab.wait_for_function(f"() => document.querySelectorAll('{POINTS}').length <= 12")
     tab.screenshot(path=artefacts / "studies.png")
     watched.type("Point no.", 0)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
     watched.until(lambda: session.page.controls.inputs().advance_ratio == 0.0)
     watched.type("Point no.", 99)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
+    assert watched.complaints == []
 
 
 def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session], tmp_path: Path):
@@ -110,5 +98,6 @@ def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session],
     with tab.expect_file_chooser() as chooser:
         tab.get_by_role("button", name="Open a Parquet file").click()
     chooser.value.set_files(wrong)
-    tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]')
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]', timeout=WAIT)
     assert "wrong.parquet" in watched.text("study-state")
+    assert watched.complaints == []

@@ -1,8 +1,6 @@
 """The test stand of the page: its inputs, links, measured conditions, the chart over measured points, and the chip."""
 
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
@@ -104,24 +102,21 @@ class TestWidgets:
     def test_choices_by_hand(self, controls: DesignControls):
         panel = controls.stand
 
-        def choose(handler: Any, value: Any) -> None:
-            handler(SimpleNamespace(client="someone", target=SimpleNamespace(value=value)))
-
-        choose(panel._trim_chosen, TRIM_TITLES["wind-tunnel"])
+        panel._trim_chosen(TRIM_TITLES["wind-tunnel"])
         assert controls.inputs().stand == StandInputs()
         assert panel._test.visible
-        choose(panel._load_chosen, LOAD_TITLES["collective_deg"])
-        choose(panel._slid("collective_deg"), 6.5)
+        panel._load_chosen(LOAD_TITLES["collective_deg"])
+        panel._slid("collective_deg", 6.5)
         assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
-        choose(panel._trim_chosen, TRIM_TITLES["flight"])
+        panel._trim_chosen(TRIM_TITLES["flight"])
         assert controls.inputs().stand is None
         assert not panel._test.visible
         controls._choose_rotor("xv15")
         assert TRIM_TITLES["flight"] not in panel._trim.options
-        choose(panel._test_chosen, XV15.test)
+        panel._test_chosen(XV15.test)
         assert controls.inputs().stand is not None
         assert panel._point.visible
-        choose(panel._slid("shaft_tilt_deg"), 12.0)
+        panel._slid("shaft_tilt_deg", 12.0)
         controls.refresh(controls.inputs(), controls._units)
         assert not panel._point.visible
         controls.set_inputs(FORWARD)

@@ -8,7 +8,7 @@ import numpy as np
 from explorer.export.report.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
-from explorer.model.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
+from explorer.model.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title

@@ -243,14 +243,16 @@ class ActuatorControls:
         actuator = find_actuator(installed.actuator.id)
         if isinstance(actuator, PiezoPly):
             unit = actuator.voltage_swing
-            made = [pair[which] / unit for pair in voltages]
+            shares = [pair[which] / unit for pair in voltages]
             wanted = [swing[which] for swing in zip(*swings, strict=True)]
             # Fibres laid the other way where the verdict's voltages oppose its twists.
-            opposed = installed.host.kind == "retrofit" and sum(a * b for a, b in zip(made, wanted, strict=True)) < 0.0
+            opposed = (
+                installed.host.kind == "retrofit" and sum(a * b for a, b in zip(shares, wanted, strict=True)) < 0.0
+            )
             self._handles["crossed"].value = opposed
         else:
-            made = list(swings[which])
-        drives = [drive_of(actuator, swing) for swing in made]
+            shares = list(swings[which])
+        drives = [drive_of(actuator, swing) for swing in shares]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
 
     def drive(self, drives: tuple[float, ...]) -> None:

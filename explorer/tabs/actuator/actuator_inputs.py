@@ -99,22 +99,22 @@ class ActuatorInputs:
         """What the whole range makes at the chosen harmonic, as counted on; at rest for an elastic trim."""
         if not self.per_rev:
             return None
-        made = dynamic_twist(installed, self.per_rev, elastic=elastic)
+        response = dynamic_twist(installed, self.per_rev, elastic=elastic)
         return replace(
-            made,
-            amplitude=self.share * made.amplitude,
-            static=self.share * made.static,
-            at_rest=self.share * made.at_rest,
+            response,
+            amplitude=self.share * response.amplitude,
+            static=self.share * response.static,
+            at_rest=self.share * response.at_rest,
         )
 
     def harmonic_twist(self, installed: InstalledActuator, psi: float, r: ArrayLike) -> Array:
         """The part of a rigid trim that follows the azimuth, at one azimuth [rad]."""
-        made = self.turning(installed)
+        response = self.turning(installed)
         stations = np.asarray(r, dtype=float)
-        if made is None:
+        if response is None:
             return np.zeros_like(stations)
-        wave = 0.01 * self.amplitude * made.amplitude * math.cos(self.per_rev * psi - math.radians(self.phase))
-        return wave * np.interp(stations, made.stations, made.shape)
+        wave = 0.01 * self.amplitude * response.amplitude * math.cos(self.per_rev * psi - math.radians(self.phase))
+        return wave * np.interp(stations, response.stations, response.shape)
 
     def apply(self, design: Design) -> Design:
         """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
@@ -127,13 +127,13 @@ class ActuatorInputs:
             design = installed.on(
                 replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady)))
             )
-        made = self.turning(installed, design.elastic)
-        if made is not None and made.amplitude > 0.0 and self.amplitude > 0.0:
+        response = self.turning(installed, design.elastic)
+        if response is not None and response.amplitude > 0.0 and self.amplitude > 0.0:
             if design.active_twist is not None:
                 raise ValueError(
                     "The actuator's harmonic and the twist at n/rev cannot both be set: take one to zero under Actuate."
                 )
-            design = with_harmonic(design, made, 0.01 * self.amplitude, math.radians(self.phase))
+            design = with_harmonic(design, response, 0.01 * self.amplitude, math.radians(self.phase))
         return design
 
     @property

@@ -74,10 +74,10 @@ class SweepTask:
         """The map, or the sentence that says why there is none."""
         del tell, stop  # It takes a second.
         try:
-            made = self.inputs.turning(self.inputs.installed(self.design.rotor), self.design.elastic)
-            if made is None or not made.amplitude:
+            response = self.inputs.turning(self.inputs.installed(self.design.rotor), self.design.elastic)
+            if response is None or not response.amplitude:
                 return f"This actuator cannot respond at {self.inputs.per_rev}/rev."
-            return power_map(self.design, made)
+            return power_map(self.design, response)
         except (ValueError, RuntimeError) as error:
             return str(error)
 

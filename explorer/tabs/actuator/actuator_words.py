@@ -65,9 +65,9 @@ def now_panel(
         power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
     drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
     lines = [f'<div class="rx-dim rx-small">tip relative to root, now: {drives}</div>']
-    made = inputs.turning(installed, elastic)
-    if made is not None:
-        half = math.degrees(made.amplitude)
+    response = inputs.turning(installed, elastic)
+    if response is not None:
+        half = math.degrees(response.amplitude)
         if half:
             used = number(0.01 * inputs.amplitude * half, 2)
             text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"

@@ -106,21 +106,21 @@ def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: tuple[flo
     """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
     inner, outer, weight = rotor.blade.section_at(r)
     scale = float(rotor.blade.chord(r)) / spec.chord
-    made = np.zeros((points, 2))
+    line = np.zeros((points, 2))
     for name, share in ((inner, 1.0 - weight), (outer, weight)):
         if share:
             own = replace(spec, contour=_contour(name))
-            made += share * skin(own, side, *chord, points)
-    return scale * np.stack((0.25 * spec.chord - made[:, 0], made[:, 1]), axis=1)
+            line += share * skin(own, side, *chord, points)
+    return scale * np.stack((0.25 * spec.chord - line[:, 0], line[:, 1]), axis=1)
 
 
 def _thickness(spec: SectionSpec, rotor: Rotor, r: Array, chord: tuple[float, float], points: int) -> Array:
-    found = [
+    heights = [
         _line(spec, rotor, float(at), "upper", chord, points)[:, 1]
         - _line(spec, rotor, float(at), "lower", chord, points)[:, 1]
         for at in r
     ]
-    return np.maximum(np.array(found), 0.0)
+    return np.maximum(np.array(heights), 0.0)
 
 
 def _contour(section: str) -> str:

@@ -56,16 +56,16 @@ class FlownTwist:
     """What voltage changes: twist of the plies and what the blade answers, zero at the root."""
 
 
-def flown_twist(solution: Solution, rest: Solution, psi: float) -> FlownTwist | None:
+def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwist | None:
     """From trims with and without the actuator; None for a rigid blade."""
-    driven, alone = solution.disk.elastic_twist, rest.disk.elastic_twist
+    driven, alone = solution.disk.elastic_twist, undriven.disk.elastic_twist
     if driven is None or alone is None:
         return None
     r, design = solution.disk.r, solution.design
     at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
-    moved = driven[:, at] - alone[:, at] + design.twist(r) - rest.design.twist(r)
+    moved = driven[:, at] - alone[:, at] + design.twist(r) - undriven.design.twist(r)
     given = [np.zeros(len(r)) if one is None else one(r, np.array([psi]))[:, 0]
-             for one in (design.active_twist, rest.design.active_twist)]  # fmt: skip
+             for one in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
     moved = moved + given[0] - given[1]
     return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
 
@@ -119,11 +119,11 @@ def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: fl
         return steady
     wave = 0.01 * inputs.amplitude * math.cos(inputs.per_rev * psi - math.radians(inputs.phase))
     low, high = installed.actuator.voltage_range
-    found = []
+    shares = []
     for volts in inputs.volts(installed):
         now = volts + 0.5 * installed.actuator.voltage_swing * (-wave if inputs.crossed else wave)
-        found.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
-    return tuple(min(max(share, -1.0), 1.0) for share in found)
+        shares.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
+    return tuple(min(max(share, -1.0), 1.0) for share in shares)
 
 
 def share_colour(share: float) -> colours.Rgb:

@@ -115,10 +115,10 @@ def ranges_panel(actuator: PiezoPly, volts: tuple[float, ...]) -> str:
 
 def _present(sheet: PiezoPly, volts: tuple[float, ...]) -> str:
     """Voltage, field and free strain of the first segment."""
-    first, *rest = volts
+    first, *others = volts
     field = _KV_MM * float(electric_field(sheet, first))
     strain = _PPM * float(free_strain(sheet, first)[0])
-    which = "Now, segment 1" if rest else "Now"
+    which = "Now, segment 1" if others else "Now"
     return (
         f'<div class="rx-line"><span class="rx-dim">{which}</span><span class="rx-num" data-explorer="field-now">'
         f"{number(first, sign=True)} V · {number(field, 2, sign=True)} kV/mm · {number(strain, sign=True)} µε"
@@ -163,9 +163,9 @@ def _image(strength: Array) -> bytes:
 
 
 def _sheet(id: str) -> PiezoPly:
-    found = find_actuator(id)
-    assert isinstance(found, PiezoPly)
-    return found
+    actuator = find_actuator(id)
+    assert isinstance(actuator, PiezoPly)
+    return actuator
 
 
 class ElectrodesPanel:

@@ -1,7 +1,7 @@
 """Pitch and twist at n/rev in the Actuate mode: widgets ↔ `Inputs`."""
 
 import math
-from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import viser
@@ -9,6 +9,7 @@ import viser
 from explorer.hosting.viser_compat import quick
 from explorer.model.inputs import Inputs
 from explorer.tabs.context import TabContext
+from explorer.tabs.layout import by_hand
 from explorer.text.design_words import harmonic_words
 from explorer.text.glossary import hint
 from rotor.design.active_twist import HIGHEST, LARGEST_PITCH, Harmonic
@@ -40,9 +41,9 @@ class PerRevControls:
                     f"{title} ampl. [°]", 0.0, _WAVE_DEG, 0.05, 0.0, hint=hint("wave_amplitude")
                 )
                 self._phases[name] = gui.add_slider(f"{title} phase [°]", 0.0, 360.0, 5.0, 0.0, hint=hint("wave_phase"))
-                self._orders[name].on_update(self._by_hand(self._chosen, name))
+                by_hand(self._orders[name], partial(self._chosen, name))
                 for handle in (self._sizes[name], self._phases[name]):
-                    handle.on_update(quick(self._by_hand(self._slid, name)))
+                    handle.on_update(quick(partial(self._moved, name)))
         self.refresh(context.inputs())
 
     def refresh(self, inputs: Inputs) -> None:
@@ -83,11 +84,12 @@ class PerRevControls:
         if wave is not None and phase.value % 360.0 != (angle := round(math.degrees(wave.phase), 6)):
             phase.value = angle
 
-    def _by_hand(self, action: Callable[[str], None], name: str) -> Callable[[viser.GuiEvent[Any]], None]:
-        return lambda event: action(name) if event.client is not None else None
-
-    def _chosen(self, name: str) -> None:
+    def _chosen(self, name: str, _: object = None) -> None:
         self._show(name, getattr(self._controls.inputs(), name))
+
+    def _moved(self, name: str, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:
+            self._slid(name)
 
     def _slid(self, name: str) -> None:
         order, size = self._order(name), math.radians(float(self._sizes[name].value))

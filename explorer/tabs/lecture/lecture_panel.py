@@ -10,6 +10,7 @@ from explorer.model.inputs import OWN, Inputs, ViewState
 from explorer.model.pinned import same_but_flight
 from explorer.model.session_state import SessionState
 from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.layout import by_hand
 from explorer.tabs.lecture.steps import CASES, FLIGHTS, STEPS, beside, view_of
 from explorer.text.glossary import hint
 
@@ -67,7 +68,7 @@ class LecturePanel(Tab):
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
         self._begin.on_click(lambda _: self.toggle())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
-        self._case.on_update(self._case_chosen)
+        by_hand(self._case, self._case_chosen)
         context.bridge.on("lecture", self._clicked)
         bind = context.keyboard.bind
         bind("lecture", self.toggle)
@@ -186,9 +187,9 @@ class LecturePanel(Tab):
     def _fly(self, advance_ratio: float) -> None:
         self._context.set_inputs(replace(self._context.inputs(), advance_ratio=advance_ratio))
 
-    def _case_chosen(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None and event.target.value in CASES:
-            self._context.set_inputs(self._kept(CASES[event.target.value]))
+    def _case_chosen(self, title: str) -> None:
+        if title in CASES:
+            self._context.set_inputs(self._kept(CASES[title]))
 
     def _name_case(self, inputs: Inputs) -> None:
         """The menu names a case for as long as the sliders hold it."""

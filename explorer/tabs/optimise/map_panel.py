@@ -15,6 +15,7 @@ from explorer.model.inputs import with_optimum
 from explorer.model.units import SI, Units, number
 from explorer.picture.png import encode_png
 from explorer.tabs.context import TabContext
+from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.theme.colours import NOW, colour_map, css
@@ -265,7 +266,7 @@ class MapPanel:
         self._point = gui.add_text(FIELD, "", visible=False, hint=hint("map_point"))
         self._legend = gui.add_html("")
         self._draw.on_click(lambda _: self.begin())
-        self._point.on_update(lambda event: self._apply() if event.client is not None else None)
+        by_hand(self._point, self._apply)
 
     def begin(self) -> None:
         """Draw the map of the concept chosen for the search, about the design on the sliders."""
@@ -357,13 +358,13 @@ class MapPanel:
         _, place, exact = self._here
         return (place[0], place[1]), exact
 
-    def _apply(self) -> None:
+    def _apply(self, text: str) -> None:
         drawn = self._map
-        if drawn is None or not self._point.value.strip():
+        if drawn is None or not text.strip():
             return
         try:
             inputs = self._context.inputs()
-            design = drawn.task.concept.apply(inputs.design(), point_of(self._point.value, drawn))
+            design = drawn.task.concept.apply(inputs.design(), point_of(text, drawn))
         except ValueError as error:
             self._line = str(error)
             self._context.wake()

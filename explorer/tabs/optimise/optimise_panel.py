@@ -11,6 +11,7 @@ import viser
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.units import number
 from explorer.tabs.context import TabContext
+from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import FRAME, OBJECTIVES, TRACES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
@@ -77,9 +78,9 @@ class OptimisePanel:
         bridge.on("halt", lambda _: self.halt())
         context.controls.optimise_button.on_click(lambda _: self._begin_from_rail())
         context.keyboard.bind("optimise", self.toggle)
-        self._scrubber.on_update(self._scrubbed)
+        by_hand(self._scrubber, self._scrubbed)
         for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
-            widget.on_update(lambda event: context.wake() if event.client is not None else None)
+            by_hand(widget, lambda _: context.wake())
 
     def request(self) -> SearchRequest:
         """What the widgets ask for."""
@@ -255,9 +256,9 @@ class OptimisePanel:
             self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))
         self._context.wake()
 
-    def _scrubbed(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None and self._run is not None:
-            self._run.scrub(round(self._scrubber.value))
+    def _scrubbed(self, cursor: float) -> None:
+        if self._run is not None:
+            self._run.scrub(round(cursor))
             self._context.wake()
 
 

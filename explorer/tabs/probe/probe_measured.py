@@ -155,8 +155,8 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
         min((one for one in curves if one.quantity == quantity), key=lambda one: abs(one.r - r))
         for quantity in dict.fromkeys(one.quantity for one in curves)
     ]
-    found = tuple((one, *our_curve(one, solution)) for one in nearest)
-    return BesideMeasured(case, is_at(case, design), as_measured(design), found)
+    pairs = tuple((one, *our_curve(one, solution)) for one in nearest)
+    return BesideMeasured(case, is_at(case, design), as_measured(design), pairs)
 
 
 def measured_panel(beside: BesideMeasured, psi: float) -> str:
@@ -226,11 +226,11 @@ def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike:
     closed = points(np.append(psi, psi[0] + 2.0 * math.pi), np.append(ours, ours[0]))
     line = " ".join(f"{x:.1f},{y:.1f}" for x, y in closed)
     marks.append(f'<polyline points="{line}" fill="none" stroke="{THIS}" stroke-width="1.8"/>')
-    told = f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else ""
+    caption = f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else ""
     hint = f"{meaning[0].upper()}{meaning[1:]}. Correlation of harmonics 1 to {measured.highest}, without the mean."
     return (
         f'<div class="rx-line rx-small" title="{escape(hint)}"><span>{title}{where}</span>'
-        f'<span class="rx-dim rx-num rx-push" data-explorer="correlation">{told}</span></div>'
+        f'<span class="rx-dim rx-num rx-push" data-explorer="correlation">{caption}</span></div>'
         f'<svg viewBox="0 0 {_WIDTH:g} {_LOAD_HEIGHT:g}" width="100%" role="img" '
         f'aria-label="{escape(meaning)} over azimuth, measured and ours">{"".join(marks)}</svg>'
     )

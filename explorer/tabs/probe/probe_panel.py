@@ -19,6 +19,7 @@ from explorer.scene.controller import SceneController
 from explorer.scene.page_scene import tie
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.keys import COARSE
+from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.element import Probe, probe
 from explorer.tabs.probe.probe_drawing import outline, probe_panel
 from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
@@ -164,10 +165,10 @@ class ProbePanel(Tab):
         self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
         self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
-        self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
-        self._r.on_update(lambda event: self._moved() if event.client is not None else None)
+        by_hand(self._psi, self._psi_moved)
+        by_hand(self._r, lambda _: self._moved())
         for box in (self._follow, self._shown, self._opened):
-            box.on_update(lambda event: context.wake() if event.client is not None else None)
+            by_hand(box, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
