@@ -71,7 +71,7 @@ def parse_polars(text: str, name: str) -> PolarSet:
             raise ValueError(f"{name}, line {number}: {line!r} is not `{COLUMNS}` with cd > 0: fix the line")
         rows.append(row)
     if not rows:
-        raise ValueError(f"{name} holds no polar: rebuild it with `python -m rotor airfoil build`")
+        raise ValueError(f"{name} holds no polar: give one row at least")
     data = np.array(rows, dtype=np.float64)
     polars: list[Polar] = []
     for mach in np.unique(data[:, 0]):

@@ -53,7 +53,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
-    add_design_arguments(parser, one_twist=True)
+    add_design_arguments(parser)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
         _show(table_5_1(), args.json)
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
-    pair = ConditionPair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
+    pair = ConditionPair(design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
     check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
     if args.harmonic is not None:

@@ -1,102 +1,36 @@
-"""`airfoil`: rebuilds, verifies or shows the deck of a section.
-
-Exit codes: 0 done, 1 `verify` found a difference, 2 bad input (raised as ValueError, printed by the caller).
-"""
+"""`airfoil`: shows the data of a section. How the bundled decks are made: `tests/tools/sections`."""
 
 import argparse
 import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.build.decks import RECIPES, check_name, compare_decks, make_deck, run_thesis_polar, run_trip_polars
-from rotor.airfoil.build.xfoil import XfoilError
-from rotor.airfoil.c81 import format_c81, read_c81
-from rotor.airfoil.polars import read_polars, write_polars
-from rotor.airfoil.polynomial import THESIS_NAME
-from rotor.airfoil.sections import load_installed
-from rotor.assets import asset_path
+from rotor.airfoil.sections import TABLE_NAMES, load_installed
 from rotor.command.common import add_command
-
-CL_TOLERANCE = 0.01  # XFOIL's convergence depends on version and machine, so files cannot be compared byte by byte.
-CD_TOLERANCE = 0.03
 
 
 def add_parser(subparsers: Any) -> None:
-    """Register the command and its three actions."""
-    parser = add_command(subparsers, "airfoil", "builds, verifies or shows section data")
-    parser.add_argument("action", choices=("build", "verify", "show"), help="what to do")
-    parser.add_argument("name", metavar="NAME", help=f"{', '.join(RECIPES)}; show also takes {THESIS_NAME}")
-    parser.add_argument(
-        "--from-polars", action="store_true", help="build, verify: start from the bundled raw polars, without XFOIL"
-    )
-    parser.add_argument("--out", metavar="DIR", help="build: where to write (default: the bundled data)")
-    parser.add_argument("--json", action="store_true", help="show: one JSON object instead of a table")
-    parser.add_argument("--mach", type=float, metavar="M", help="show: one point, with --alpha")
-    parser.add_argument("--alpha", type=float, metavar="DEG", help="show: angle of attack of that point [deg]")
+    """Register the command."""
+    parser = add_command(subparsers, "airfoil", "shows section data")
+    parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
+    parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
+    parser.add_argument("--mach", type=float, metavar="M", help="one point, with --alpha")
+    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point [deg]")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 done, 1 the rebuilt deck differs from the bundled one; ValueError on bad input or when XFOIL fails."""
-    try:
-        if args.action == "build":
-            return _build(args.name, args.from_polars, args.out)
-        if args.action == "verify":
-            return _verify(args.name, args.from_polars)
-        if args.mach is not None or args.alpha is not None:
-            return _point(args.name, args.mach, args.alpha, args.json)
-        return _show(args.name, args.json)
-    except XfoilError as error:
-        raise ValueError(str(error)) from None
-    except PermissionError as error:
-        raise ValueError(f"cannot write {error.filename!r}: give --out a folder of your own") from None
-
-
-def _progress(message: str) -> None:
-    print(f"  {message}", flush=True)
-
-
-def _polar_file(name: str) -> str:
-    return f"{name}_{RECIPES[name].polars}.polars.csv"
-
-
-def _build(name: str, from_polars: bool, out: str | None) -> int:
-    check_name(name)
-    bundled = asset_path("airfoils")
-    folder = Path(out) if out else bundled
-    if not folder.is_dir():
-        raise ValueError(f"--out {out!r} is not a folder: create it first")
-    if from_polars:
-        polars = read_polars(bundled / _polar_file(name))
-    else:
-        print(f"{name}: running XFOIL, up to some minutes", flush=True)
-        polars = run_trip_polars(name, _progress)
-    deck = make_deck(name, polars)  # Everything is computed before anything is written.
-    if not from_polars and name == "sc1095":
-        write_polars(folder / "sc1095_ncrit9.polars.csv", run_thesis_polar(_progress))
-    write_polars(folder / _polar_file(name), polars)
-    (folder / f"{name}.c81").write_text(format_c81(deck), encoding="utf-8")
-    print(f"wrote {folder / f'{name}.c81'}")
-    return 0
-
-
-def _verify(name: str, from_polars: bool) -> int:
-    check_name(name)
-    shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
-    if from_polars:
-        polars = read_polars(asset_path(f"airfoils/{_polar_file(name)}"))
-    else:
-        print(f"{name}: running XFOIL, up to some minutes", flush=True)
-        polars = run_trip_polars(name, _progress)
-    found = compare_decks(make_deck(name, polars), shipped)
-    good = found.within(CL_TOLERANCE, CD_TOLERANCE)
-    print(f"{name}: largest difference in cl {found.cl:.4f} (at {found.cl_at}; allowed {CL_TOLERANCE:g})")
-    allowed = 100.0 * CD_TOLERANCE
-    print(f"{name}: largest difference in cd {100.0 * found.cd:.2f} % (at {found.cd_at}; allowed {allowed:g} %)")
-    print(f"{name}: {'agrees with' if good else 'DIFFERS from'} the bundled deck")
-    return 0 if good else 1
+    """0; ValueError on bad input."""
+    if args.action != "show":
+        raise ValueError(
+            f"airfoil {args.action} belongs to a checkout of the source: run `python -m tests.tools.sections "
+            f"{args.action} {args.name}` there"
+        )
+    if args.mach is not None or args.alpha is not None:
+        return _point(args.name, args.mach, args.alpha, args.json)
+    return _show(args.name, args.json)
 
 
 def _point(name: str, mach: float | None, alpha: float | None, as_json: bool) -> int:

@@ -2,13 +2,14 @@
 
 import argparse
 import csv
+import inspect
 import math
+import re
 import signal
 import sys
 import time
 from collections.abc import Callable, Generator, Iterable
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from types import FrameType
 from typing import Any, get_args
@@ -18,19 +19,16 @@ from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
 from rotor.actuator.verdict import change_limit
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.switches import SWITCHES, parse_switches
+from rotor.aero.switches import SWITCHES
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
-from rotor.design.retired import current_model
-from rotor.design.stand import LOAD_KEYS, Flapping
+from rotor.design.stand import Flapping
 from rotor.files.design_file import load_design
-from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
-from rotor.user_input import did_you_mean
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -38,151 +36,95 @@ def add_command(commands: Any, name: str, words: str, description: str = "") -> 
     return commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
 
 
-def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
-    """The flags that describe a design."""
-    twist = (
-        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | points:ANGLES@STATIONS | ideal | "
-        "builtin | uh60a | table:FILE (degrees, per radius)"
-    )
-    add_rotor_argument(parser)
-    parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
-    for flag, what in (("--twist-per-rev", "active twist, tip relative to root"), ("--pitch-per-rev", "root pitch")):
-        parser.add_argument(
-            flag, metavar="N:DEG:PHASE,…",
-            help=f"{what}: DEG cos(N ψ − PHASE) degrees at N/rev, e.g. 3:1:180; 2:0:0 takes away that of a design file",
-        )  # fmt: skip
-    parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
-    parser.add_argument(
-        "--inflow", metavar="NAME",
-        help=f"forward-flight inflow model: {' | '.join(INFLOW_MODELS)}; or that of hover: {' | '.join(HOVER_INFLOWS)}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--low-speed", choices=LOW_SPEEDS,
-        help="hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not",
-    )  # fmt: skip
-    parser.add_argument(
-        "--mass-kg", type=finite, metavar="KG", help="aircraft mass (default: the rotor's reference mass)"
-    )
-    parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
-    parser.add_argument(
-        "--climb-m-s", type=finite, metavar="V",
-        help=f"rate of climb, {-FASTEST_CLIMB:g}…{FASTEST_CLIMB:g} m/s, negative in descent (default 0); preset flight",
-    )  # fmt: skip
-    parser.add_argument(
-        "--airfoils", metavar="SPEC",
-        help=f"sections root to tip, e.g. sc1094r8,sc1095@0.5, of {', '.join(TABLE_NAMES)}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--off", metavar="NAMES",
-        help=f"switch off physical effects, separated by commas: {', '.join(one.flag for one in SWITCHES.values())}",
-    )  # fmt: skip
-    parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
+_LISTED: dict[str, Iterable[str]] = {
+    "rotor": (*SHIPPED_ROTORS, *MEASURED_ROTORS),
+    "inflow": (*INFLOW_MODELS, *HOVER_INFLOWS),
+    "airfoils": TABLE_NAMES,
+    "off": [one.flag for one in SWITCHES.values()],
+    "trim": TRIMS,
+}
+"""Names that the help of a flag lists."""
+_SPEED = ("mu", "speed_kt", "hover")
+_ARGUMENTS = {
+    name: one.annotation for name, one in inspect.signature(make_design).parameters.items() if name != "models"
+}
+"""Arguments of `make_design` that have a flag, with their types."""
+_STAND = {
+    "shaft_tilt_deg": "tilt of the shaft, positive forward (default 0; a free rotor finds its own)",
+    "ct_over_sigma": "blade loading",
+    "thrust_n": "thrust along the shaft",
+    "collective_deg": "pitch at 0.75 R",
+    "cyclic_1c_deg": "given cyclic, with free flapping",
+    "cyclic_1s_deg": "the same, sine part",
+    "hub_roll_nm": "given hub moment, towards the retreating side, with flapping hub-moments",
+    "hub_pitch_nm": "the same, nose up",
+    "tip_mach": "tip speed over the speed of sound",
+    "density_kg_m3": "air density",
+    "flapping": "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
+}
+"""Inputs of a test stand."""
+
+
+def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False) -> None:
+    """A flag for every argument of `make_design`; those of the speed on demand, and more than one twist."""
+    words = re.findall(r"^(\w+): (.+(?:\n    .+)*)", inspect.getdoc(make_design) or "", re.MULTILINE)
+    helps = {name: " ".join(text.split()).removesuffix(".") for name, text in words}
+    speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
-    stand.add_argument("--trim", metavar="NAME", help=f"{' | '.join(TRIMS)} (the last three: a rotor on a test stand)")
-    for flag, unit, words in _STAND_FLAGS:
-        stand.add_argument(flag, type=finite, metavar=unit, help=words)
-    stand.add_argument(
-        "--flapping", choices=get_args(Flapping),
-        help="trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
-    )  # fmt: skip
+    for name, hint in _ARGUMENTS.items():
+        if name == "stand" or (name in _SPEED and not speed):
+            continue
+        listed = f"; {', '.join(_LISTED[name])}" if name in _LISTED else ""
+        to = speeds if name in _SPEED else stand if name == "trim" else parser
+        how = _how(name, hint)
+        if name == "twist" and twists:
+            how["nargs"] = "+"
+        to.add_argument(f"--{name.replace('_', '-')}", help=f"{helps[name]}{listed}", **how)
+    for key, text in _STAND.items():
+        flag = f"--{key.removesuffix('_kg_m3').replace('_', '-')}"
+        if key == "flapping":
+            stand.add_argument(flag, choices=get_args(Flapping), help=text)
+        else:
+            stand.add_argument(flag, dest=key, type=finite, metavar=_unit(key), help=text)
 
 
-_STAND_FLAGS = (
-    ("--shaft-tilt-deg", "DEG", "tilt of the shaft, positive forward (default 0; a free rotor finds its own)"),
-    ("--ct-over-sigma", "C", "blade loading"),
-    ("--thrust-n", "N", "thrust along the shaft"),
-    ("--collective-deg", "DEG", "pitch at 0.75 R"),
-    ("--cyclic-1c-deg", "DEG", "given cyclic, with free flapping"),
-    ("--cyclic-1s-deg", "DEG", "the same, sine part"),
-    ("--hub-roll-nm", "NM", "given hub moment, towards the retreating side, with flapping hub-moments"),
-    ("--hub-pitch-nm", "NM", "the same, nose up"),
-    ("--tip-mach", "M", "tip speed over the speed of sound"),
-    ("--density", "RHO", "air density, kg/m³"),
-)
+def _how(name: str, hint: Any) -> dict[str, Any]:
+    """How argparse reads a flag of this type."""
+    if hint is bool:
+        return {"action": "store_true"}
+    if name == "low_speed":
+        return {"choices": LOW_SPEEDS}
+    if float in get_args(hint):
+        return {"type": finite, "metavar": _unit(name)}
+    return {"metavar": name.upper().replace("_", "-")}
 
 
-def _stand_from(args: argparse.Namespace, base: Design | None) -> tuple[str | None, dict[str, Any] | None]:
-    """Trim and test stand of the flags, on top of those of a design file."""
-    before = base.condition.stand if base and not args.rotor else None
-    trim: str | None = args.trim or (base.models.trim if base and before else None)
-    given = {flag[2:].replace("-", "_"): getattr(args, flag[2:].replace("-", "_")) for flag, _, _ in _STAND_FLAGS}
-    given = {
-        "density_kg_m3" if key == "density" else key: value for key, value in given.items() if value is not None
-    } | ({"flapping": args.flapping} if args.flapping else {})
-    if trim in ("propulsive", "thrust") or (trim is None and given and not _isolated(args, base)):
-        if given:
-            raise ValueError(
-                f"{next(iter(given))} belongs to a test stand: add --trim wind-tunnel, free-rotor or controls"
-            )
-        return trim, None
-    record = before.record() if before and args.trim in (None, base.models.trim if base else None) else {}
-    if any(key in given for key in LOAD_KEYS):
-        record = {key: value for key, value in record.items() if key not in LOAD_KEYS}
-    record |= given
-    return trim, record or None
-
-
-def _isolated(args: argparse.Namespace, base: Design | None) -> bool:
-    craft = find_aircraft(args.rotor) if args.rotor else base.aircraft if base else None
-    return craft is not None and craft.isolated
+def _unit(name: str) -> str:
+    """What stands for a number in the help: its unit where the name ends in one."""
+    unit = name.rpartition("_")[2]
+    return unit.upper() if unit in ("deg", "kg", "kt", "m", "n", "nm") else "X"
 
 
 def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
-    """`--rotor`."""
-    parser.add_argument(
-        "--rotor",
-        metavar="NAME|FILE",
-        help=f"{', '.join((*SHIPPED_ROTORS, *MEASURED_ROTORS))} or a rotor file (docs/rotor_file.md)",
+    """`--rotor` alone."""
+    parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(_LISTED['rotor'])} or a rotor file")
+
+
+def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
+    """The design that the flags describe; `twist` and `mu` in place of theirs. Raises ValueError with one sentence."""
+    given = {name: getattr(args, name, None) for name in _ARGUMENTS if name not in ("stand", *_SPEED)}
+    speed = {name: getattr(args, name, None) for name in _SPEED} if mu is None else {"mu": mu}
+    case = load_design(args.case) if args.case else None
+    rotor = find_aircraft(args.rotor) if args.rotor else None
+    stand = {key: value for key in _STAND if (value := getattr(args, key)) is not None}
+    known = case is not None and rotor is None and case.condition.stand is not None
+    isolated = (rotor or (case and case.aircraft) or find_aircraft(SHIPPED_ROTORS[0])).isolated
+    if stand and (args.trim in ("propulsive", "thrust") or not (args.trim or known or isolated)):
+        raise ValueError(f"{next(iter(stand))} belongs to a test stand: add --trim wind-tunnel, free-rotor or controls")
+    changed: dict[str, Any] = (
+        given | speed | {"case": case, "rotor": rotor, "stand": stand or None, "twist": twist or given["twist"]}
     )
-
-
-def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
-    """The design that the flags describe, on top of a design file where one is given."""
-    base = load_design(args.case) if args.case else None
-    blade = base if base and not (args.preset or args.rotor) else None  # Another rotor or preset has its own blade.
-    trim, stand = _stand_from(args, base)
-    design = make_design(
-        trim=trim,
-        stand=stand,
-        preset=args.preset or (base.preset if base else "flight"),
-        rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
-        twist=twist or (blade.twist if blade else None),
-        twist_per_rev=args.twist_per_rev or (),
-        pitch_per_rev=args.pitch_per_rev if args.pitch_per_rev is not None else (base.pitch_per_rev if base else ()),
-        mass_kg=args.mass_kg
-        if args.mass_kg is not None
-        else (base.condition.mass if base and not args.rotor else None),
-        altitude_m=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
-        climb_m_s=args.climb_m_s if args.climb_m_s is not None else (base.condition.climb_speed if base else 0.0),
-        models=base.models if base and not args.preset else None,
-    )
-    if advance_ratio is None:
-        advance_ratio = base.condition.advance_ratio if base else 0.2
-    if args.inflow:
-        design = with_inflow(design, args.inflow)
-    if args.low_speed:
-        design = replace(design, models=replace(design.models, low_speed=args.low_speed))
-    if args.off is not None:
-        off = parse_switches(args.off)
-        design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
-    if blade:
-        design = replace(design, rotor=blade.rotor)
-        if args.twist_per_rev is None:
-            design = replace(design, active_twist=blade.active_twist)
-    if args.airfoils:
-        design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
-    return design.at(mu=advance_ratio)
-
-
-def with_inflow(design: Design, name: str) -> Design:
-    """The design with an inflow model by name, of forward flight or of hover; ValueError for an unknown name."""
-    options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
-    for option, names in options.items():
-        if (current := current_model(option, name)) in names:
-            return replace(design, models=replace(design.models, **{option: current}))
-    known = [one for names in options.values() for one in names]
-    hint = did_you_mean(name, known) or ":"
-    raise ValueError(f"inflow model {name!r} is not known{hint} use one of {', '.join(known)}")
+    return make_design(**{name: value for name, value in changed.items() if value is not None})
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:

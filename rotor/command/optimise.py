@@ -31,7 +31,6 @@ from rotor.optimisation.objective import (
     read_mission,
 )
 from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
-from rotor.units import KNOT
 
 
 def add_parser(commands: Any) -> None:
@@ -39,18 +38,17 @@ def add_parser(commands: Any) -> None:
     parser = add_command(commands, "optimise", "twist of least power, width of the optimum, saving")
     parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
-    speed = parser.add_mutually_exclusive_group()
-    speed.add_argument(
-        "--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); the cruise condition of hover-cruise"
+    parser.add_argument(
+        "--objective",
+        default="total",
+        metavar="NAME",
+        help="total (default) | induced | hover-cruise: hover and the given speed",
     )
-    speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
-    speed.add_argument("--hover", action="store_true", help="hover")
-    parser.add_argument("--objective", default="total", metavar="NAME", help="total (default) | induced | hover-cruise")
     parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
     parser.add_argument(
         "--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}: minimise the mean power"
     )
-    add_design_arguments(parser, one_twist=True)
+    add_design_arguments(parser, speed=True)
     add_search_arguments(parser, STARTS)
     parser.add_argument(
         "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
@@ -61,9 +59,7 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best design so far printed."""
-    design = design_from(args, args.twist, 0.0 if args.hover or args.speed_kt is not None else args.mu)
-    if args.speed_kt is not None:
-        design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
+    design = design_from(args)
     concept = find_concept(args.concept, parse_division(args.division))
     if args.on_top:
         concept = on_top(concept, design.twist)

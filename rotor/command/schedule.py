@@ -41,10 +41,12 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--mu", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})")
+    where.add_argument(
+        "--mu", dest="range", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})"
+    )
     where.add_argument("--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}")
     parser.add_argument("--objective", default="total", choices=QUANTITIES, help="power to minimise (default total)")
-    add_design_arguments(parser, one_twist=True)
+    add_design_arguments(parser)
     add_search_arguments(parser, 4)
     parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
     parser.add_argument("--resume", metavar="FILE", help="store results in this file and resume from it")
@@ -86,13 +88,13 @@ def plan_from(args: argparse.Namespace) -> Plan:
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
     division = parse_division(args.division)
     concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
-    design = design_from(args, args.twist, None)
+    design = design_from(args)
     if args.on_top:
         concepts = tuple(on_top(concept, design.twist) for concept in concepts)
     if args.mission:
         conditions = read_mission(args.mission, design)
     else:
-        ratios = sorted(set(parse_range(args.mu or DEFAULT_MU)))
+        ratios = sorted(set(parse_range(args.range or DEFAULT_MU)))
         conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
     conditions = tuple(
         sorted(conditions, key=lambda condition: (condition.flight.advance_ratio, condition.flight.mass))

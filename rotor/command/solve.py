@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from rotor.analysis.series import between_drag_areas
-from rotor.command.common import add_command, add_design_arguments, design_from, finite
+from rotor.command.common import add_command, add_design_arguments, design_from
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
@@ -18,11 +18,7 @@ from rotor.units import KNOT
 def add_parser(commands: Any) -> None:
     """Register the command."""
     parser = add_command(commands, "solve", "trims one design: power, controls and caveats")
-    speed = parser.add_mutually_exclusive_group()
-    speed.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2)")
-    speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
-    speed.add_argument("--hover", action="store_true", help="hover")
-    add_design_arguments(parser, one_twist=True)
+    add_design_arguments(parser, speed=True)
     parser.add_argument(
         "--distribution",
         action="store_true",
@@ -35,11 +31,7 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged."""
-    advance_ratio = 0.0 if args.hover else args.mu
-    design = design_from(args, args.twist, advance_ratio if args.speed_kt is None else 0.0)
-    if args.speed_kt is not None:
-        design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
-    solution = solve(design)
+    solution = solve(design_from(args))
     found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
         also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}

@@ -15,7 +15,7 @@ from typing import Any
 from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
-from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
+from rotor.study.cluster import ClusterLost, connected, run_chunks
 from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
 from rotor.study.results import Results, Store, StoreError, read_results, sha256
 from rotor.study.study import check_uncertain
@@ -201,7 +201,6 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
-    need_packages(cluster=args.scheduler is not None)
     provenance = StudyProvenance(package_version(), commit(), sha256(file.text))
     store = Store(args.out or Path(file.path).stem, file, provenance)
     try:
@@ -222,14 +221,17 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
             evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
         with interruptible() as stop, _progress(study.count, study.count - left) as advance:
 
-            def take(done: FinishedChunk) -> None:
+            def keep(done: FinishedChunk) -> None:
                 store.keep(done.chunk, done.content)
                 effort.add(done)
                 advance(done.rows, done.failures)
 
             try:
                 with connected(args.scheduler, args.workers) as client:
-                    ended = run_chunks(client, study, missing, provenance, take, stop, _tell_lonely(args.scheduler))
+                    if not client.nthreads():
+                        words = f"no workers yet; start some with `dask worker {args.scheduler}`"
+                        print(f"rotor: {words}", file=sys.stderr)
+                    ended = run_chunks(client, study, missing, provenance, keep, stop)
                 stopped, lost = ended.stopped, ended.lost
             except (ClusterLost, StoreError) as error:
                 message = str(error)
@@ -284,7 +286,6 @@ def _show(args: argparse.Namespace) -> int:
     for flag in ("scheduler", "workers", "out", "dry_run"):
         if getattr(args, flag):
             raise ValueError(f"--{flag.replace('_', '-')} belongs to a run: omit it with `study show`")
-    need_packages()
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)
@@ -305,13 +306,6 @@ def _dry_run(file: StudyFile) -> int:
         f"{1e3 * each:.1f} ms a point on this core (mean of the first {few}), {_span(each * study.count)} on one core"
     )
     return 0
-
-
-def _tell_lonely(address: str | None) -> Callable[[], None]:
-    def tell() -> None:
-        print(f"rotor: no workers yet; start some with `dask worker {address}`", file=sys.stderr)
-
-    return tell
 
 
 @contextmanager

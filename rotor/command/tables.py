@@ -16,7 +16,7 @@ from rotor.analysis.ideal_bound import Bound, find_bound
 from rotor.analysis.series import COLUMNS as SWEEP_COLUMNS
 from rotor.analysis.series import PARTS, Waterfall, WaterfallStep, sweep, waterfall
 from rotor.assets import SHIPPED_ROTORS
-from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, finite, write_table
+from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, write_table
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
@@ -26,15 +26,17 @@ from rotor.user_input import check_writable, parse_range
 def add_sweep(commands: Any) -> None:
     """Register `sweep`."""
     parser = add_command(commands, "sweep", "power of one or more twists over advance ratio")
-    parser.add_argument("--mu", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover")
-    add_design_arguments(parser, one_twist=False)
+    parser.add_argument(
+        "--mu", dest="range", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover"
+    )
+    add_design_arguments(parser, twists=True)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.set_defaults(run=run_sweep)
 
 
 def run_sweep(args: argparse.Namespace) -> int:
     """0 when every point converged, else 1."""
-    advance_ratios = parse_range(args.mu)
+    advance_ratios = parse_range(args.range)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
     designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input is reported first.
     if args.csv:
@@ -66,15 +68,14 @@ def _text(name: str, cell: float | str | None) -> str:
 def add_waterfall(commands: Any) -> None:
     """Register `waterfall`."""
     parser = add_command(commands, "waterfall", "power of tip loss, flapping, reverse flow …, one after another")
-    parser.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); 0 is hover")
-    add_design_arguments(parser, one_twist=True)
+    add_design_arguments(parser, speed=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run_waterfall)
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
     """0 when every step converged, else 1."""
-    design = design_from(args, args.twist, args.mu)
+    design = design_from(args)
     found = waterfall(design)
     print(json.dumps(waterfall_record(found), indent=2, allow_nan=False) if args.json else waterfall_report(found))
     return 0 if found.converged else 1

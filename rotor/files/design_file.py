@@ -13,9 +13,9 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import FORMAT, LOW_SPEEDS, VERSION, Design
+from rotor.design.design import FORMAT, VERSION, Design
 from rotor.design.retired import Tell, current_model, warn
-from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
 
@@ -94,35 +94,31 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         preset=preset,
         rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
-        twist_per_rev=record.get("twist_per_rev", ()),
-        pitch_per_rev=record.get("pitch_per_rev", ()),
+        twist_per_rev=record.get("twist_per_rev"),
+        pitch_per_rev=record.get("pitch_per_rev"),
         mu=_number(record, "advance_ratio", 0.2),
         mass_kg=_number(record, "mass_kg", None),
         altitude_m=_number(record, "altitude_m", 0.0),
         climb_m_s=_number(record, "climb_m_s", 0.0),
+        low_speed=_text(record, "low_speed", "") or None,
+        airfoils=_text(record, "airfoils", "") or None,
         trim=_text(record, "trim", "") or None,
         stand=cast(dict[str, Any] | None, stand),
     )
     inflow = current_model("inflow", _text(record, "inflow", design.models.inflow), tell)
     inflow_model(inflow)
     hover_inflow = current_model("hover_inflow", _text(record, "hover_inflow", design.models.hover_inflow), tell)
-    low_speed = _text(record, "low_speed", design.models.low_speed)
-    if low_speed not in LOW_SPEEDS:
-        raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
     models = replace(
         design.models,
         inflow=inflow,
         hover_inflow=hover_inflow,
-        low_speed=low_speed,
         **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
     )
-    airfoils = _text(record, "airfoils", "")
-    rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor
     if "active_twist" in record:
         if design.active_twist is not None:
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
-    return replace(design, models=models, rotor=rotor)
+    return replace(design, models=models)
 
 
 def load_design(path: str | Path) -> Design:

@@ -6,14 +6,24 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from rotor.aero.inflow import inflow_model
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import parse_switches
+from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
 from rotor.design.blade import Rotor, parse_airfoils
-from rotor.design.design import TRIMS, Design, Models, check_preset, preset_models
+from rotor.design.design import (
+    HOVER_INFLOWS,
+    LOW_SPEEDS,
+    PRESETS,
+    TRIMS,
+    Design,
+    Models,
+    check_preset,
+    preset_models,
+)
 from rotor.design.retired import current_model
-from rotor.design.stand import STAND_TRIMS, Stand, read_stand
+from rotor.design.stand import LOAD_KEYS, STAND_TRIMS, Stand, read_stand
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
 from rotor.user_input import did_you_mean
@@ -41,88 +51,135 @@ def uh60a_twist() -> TwistLaw:
 
 def make_design(
     *,
-    rotor: Aircraft | str = SHIPPED_ROTORS[0],
+    case: Design | None = None,
+    rotor: Aircraft | str | None = None,
     twist: TwistLaw | str | None = None,
-    twist_per_rev: PerRev = (),
-    pitch_per_rev: PerRev = (),
+    twist_per_rev: PerRev | None = None,
+    pitch_per_rev: PerRev | None = None,
     mu: float | None = None,
     speed_kt: float | None = None,
     hover: bool = False,
     mass_kg: float | None = None,
-    altitude_m: float = 0.0,
-    climb_m_s: float = 0.0,
-    preset: str = "flight",
+    altitude_m: float | None = None,
+    climb_m_s: float | None = None,
+    preset: str | None = None,
     inflow: str | None = None,
+    low_speed: str | None = None,
+    airfoils: str | None = None,
+    off: str | None = None,
     models: Models | None = None,
     trim: str | None = None,
     stand: Stand | Mapping[str, Any] | None = None,
 ) -> Design:
     """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
-    rotor: `uh60a`, `r22`, `s61`, or what `load_rotor` returns.
-    twist: a law, or a SPEC as `parse_twist` reads it, for example `linear:-12` (degrees per radius); by default the
-        twist that the preset compares with.
-    twist_per_rev: active twist, linear from the root cut-out, `N:DEG:PHASE[,…]` or a list of (N, DEG, PHASE): DEG of
-        the tip relative to the root, as it would be on a blade at rest, most nose-up at ψ = PHASE/N.
-    pitch_per_rev: the same of the root pitch, 2 to 8/rev: DEG cos(N ψ − PHASE). Both rest in hover.
-    mu, speed_kt, hover: advance ratio V/(ΩR), airspeed in knots, or `hover=True`; one of them at most.
-    mass_kg: aircraft mass; by default the rotor's reference mass. altitude_m: pressure altitude.
-    climb_m_s: rate of climb, negative in descent; mu and speed_kt are of the horizontal speed.
-    preset: `flight`, the best models available, or `thesis`, those of the source document. On a rotor other than the
-        UH-60A `thesis` means the document's models with that rotor's own sections, planform, hinge and twist.
-    inflow: forward-flight inflow model by name, in place of the preset's. models: all model choices at once.
-    trim: `propulsive` or `thrust` in flight; `wind-tunnel`, `free-rotor` or `controls` on a test stand.
-    stand: the inputs of the test, a `Stand`, or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its
-        keys: `rotor.design.stand.STAND_KEYS`. A rotor without an airframe is in a wind tunnel at C_T/σ 0.07 by default.
+    The command line has a flag for each, with the words below as its help.
+
+    case: design, as `load_design` reads one from a file, that the other arguments change.
+    rotor: name of a rotor, or what `load_rotor` reads from a rotor file (docs/rotor_file.md).
+    twist: a law or its SPEC: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS |
+        points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE (degrees, per radius).
+    twist_per_rev: active twist, linear from the root cut-out, N:DEG:PHASE,…, e.g. 3:1:180: DEG cos(N ψ − PHASE) degrees
+        of the tip relative to the root, as on a blade at rest; 2:0:0 takes away that of a design file.
+    pitch_per_rev: the same of the root pitch, 2 to 8/rev; both rest in hover.
+    mu: advance ratio V/(ΩR) of the horizontal speed (default 0.2).
+    speed_kt: the same as airspeed in knots.
+    hover: hover, in place of a speed.
+    mass_kg: aircraft mass (default: the rotor's reference mass).
+    altitude_m: pressure altitude (default 0).
+    climb_m_s: rate of climb, negative in descent (default 0); preset flight.
+    preset: flight (default): best available; thesis: the models of the source document, on a rotor other than the
+        UH-60A with that rotor's own sections, planform, hinge and twist.
+    inflow: model of the inflow, of forward flight or of hover.
+    low_speed: hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not.
+    airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
+    off: physical effects switched off, separated by commas.
+    models: all model choices at once.
+    trim: in flight, or on a test stand (the last three).
+    stand: inputs of the test, a `Stand` or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its keys:
+        `rotor.design.stand.STAND_KEYS`. A rotor without an airframe is in a wind tunnel at C_T/σ 0.07 by default.
 
     Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
-    check_preset(preset)
-    if isinstance(rotor, str):
-        if rotor not in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
-            known = (*SHIPPED_ROTORS, *MEASURED_ROTORS)
-            hint = did_you_mean(rotor, known) or ":"
-            raise ValueError(
-                f'rotor {rotor!r} is not known{hint} use {", ".join(known)}, or rotor.load_rotor("mine.toml")'
-            )
-        rotor = shipped_aircraft(rotor)
-    elif not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or rotor.load_rotor("mine.toml")')
-    blades = rotor.rotor_for(preset)
+    name = preset or (case.preset if case else PRESETS[0])
+    check_preset(name)
+    aircraft = _aircraft(rotor, case)
+    blade = case if preset is None and rotor is None else None  # Another rotor or preset has its own blade.
     if models is None:
-        models = preset_models(preset)
-    if inflow is not None:
-        inflow = current_model("inflow", inflow)
-        inflow_model(inflow)
-        models = replace(models, inflow=inflow)
-    models, stand = _test(rotor, models, trim, stand)
+        models = case.models if case and preset is None else preset_models(name)
+    models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
+    blades, before = aircraft.rotor_for(name), case.condition if case else None
     speed = advance_ratio(blades.tip_speed, mu, speed_kt, hover)
+    mass = before.mass if before and rotor is None else aircraft.mass
     condition = FlightCondition(
-        ADVANCE_RATIO if speed is None else speed,
-        rotor.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
-        number("altitude_m", altitude_m, "1500"),
+        speed if speed is not None else before.advance_ratio if before else ADVANCE_RATIO,
+        mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
+        (before.altitude if before else 0.0) if altitude_m is None else number("altitude_m", altitude_m, "1500"),
         stand=stand,
-        climb_speed=number("climb_m_s", climb_m_s, "5"),
+        climb_speed=(before.climb_speed if before else 0.0)
+        if climb_m_s is None
+        else number("climb_m_s", climb_m_s, "5"),
     )
+    active = blade.active_twist if blade else None
+    if twist_per_rev is not None:
+        active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
+    pitch = case.pitch_per_rev if case else ()
     design = Design(
-        preset=preset,
-        aircraft=rotor,
+        preset=name,
+        aircraft=aircraft,
         rotor=blades,
-        twist=rotor.twist_for(preset),
+        twist=blade.twist if blade else aircraft.twist_for(name),
         condition=condition,
-        fuselage=rotor.fuselage,
-        tail_rotor=rotor.tail_rotor,
-        models=models,
-        active_twist=linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout),
-        pitch_per_rev=read_harmonics(pitch_per_rev, "pitch_per_rev"),
+        fuselage=aircraft.fuselage,
+        tail_rotor=aircraft.tail_rotor,
+        models=_changed(models, inflow, low_speed, off),
+        active_twist=active,
+        pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
-    return design if twist is None else design.with_twist(twist)
+    if twist is not None:
+        design = design.with_twist(twist)
+    if blade:
+        design = replace(design, rotor=blade.rotor)
+    return replace(design, rotor=change_airfoils(design.rotor, airfoils)) if airfoils else design
+
+
+def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
+    if rotor is None:
+        return case.aircraft if case else shipped_aircraft(SHIPPED_ROTORS[0])
+    if isinstance(rotor, str):
+        return shipped_aircraft(rotor)
+    if not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or rotor.load_rotor("mine.toml")')
+    return rotor
+
+
+def _changed(models: Models, inflow: str | None, low_speed: str | None, off: str | None) -> Models:
+    """The models with an inflow model by name, a way to low speed, and without some effects."""
+    if inflow is not None:
+        options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
+        current = {option: current_model(option, inflow) for option in options}
+        chosen = [option for option, names in options.items() if current[option] in names]
+        if not chosen:
+            known = [one for names in options.values() for one in names]
+            hint = did_you_mean(inflow, known) or ":"
+            raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
+        models = replace(models, **{chosen[0]: current[chosen[0]]})
+    if low_speed is not None:
+        if low_speed not in LOW_SPEEDS:
+            raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
+        models = replace(models, low_speed=low_speed)
+    return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 
 
 def _test(
-    aircraft: Aircraft, models: Models, trim: str | None, stand: Stand | Mapping[str, Any] | None
+    aircraft: Aircraft, models: Models, trim: str | None, stand: Stand | Mapping[str, Any] | None, case: Design | None
 ) -> tuple[Models, Stand | None]:
-    """The models with the trim asked for, and the test stand that goes with it."""
+    """The models with the trim asked for, and the test stand that goes with it, on top of that of a case."""
+    if case and case.condition.stand and trim in (None, case.models.trim) and not isinstance(stand, Stand):
+        trim, given = case.models.trim, stand or {}
+        loaded = any(key in given for key in LOAD_KEYS)
+        before = case.condition.stand.record().items()
+        stand = {key: value for key, value in before if not (loaded and key in LOAD_KEYS)} | dict(given)
     if trim is None:
         tested = stand is not None or aircraft.isolated
         trim = models.trim if models.trim in STAND_TRIMS or not tested else STAND_TRIMS[0]

@@ -5,10 +5,9 @@ import re
 from collections.abc import Mapping
 from itertools import pairwise
 
-from rotor.airfoil.build.compressibility import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits
-from rotor.airfoil.build.decks import assemble_deck
 from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
+from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, parse_polar_file
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.toml_table import TomlTable
@@ -103,7 +102,7 @@ def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float,
         remarks.append(
             f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL does not model shocks."
         )
-    deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness))
+    deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness).correct)
     return format_c81(deck)
 
 

@@ -11,10 +11,9 @@ evaluated, and corrected with the model at that evaluation.
 """
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, cast
+from typing import Any, cast
 
 import numpy as np
 from scipy import optimize
@@ -26,49 +25,6 @@ from rotor.optimisation.objective import Measured
 from rotor.optimisation.results import Band
 
 _minimize = cast(Callable[..., Any], optimize.minimize)
-
-
-@dataclass(frozen=True, eq=False)
-class Inequality:
-    """margins(y) ≥ 0."""
-
-    margins: Callable[[Array], Array]
-    slopes: Callable[[Array], Array]
-
-
-@dataclass(frozen=True, eq=False)
-class SlsqpEnd:
-    """Where SLSQP ended."""
-
-    x: Array
-    settled: bool
-    """Whether it converged, or found no descent along the search direction, as at the kink of a movable break."""
-
-
-def slsqp(
-    value: Callable[[Array], Any],
-    slope: Callable[[Array], Array] | Literal[True],
-    start: Array,
-    inequalities: Sequence[Inequality] = (),
-    *,
-    iterations: int,
-    tolerance: float,
-    bounds: Sequence[tuple[float, float]] | None = None,
-) -> SlsqpEnd:
-    """Minimise `value` from `start`; with slope True, `value` returns the value and its gradient together."""
-    constraints = [{"type": "ineq", "fun": one.margins, "jac": one.slopes} for one in inequalities]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
-        ended = _minimize(
-            value,
-            start,
-            jac=slope,
-            method="SLSQP",
-            bounds=bounds,
-            constraints=constraints,
-            options={"maxiter": iterations, "ftol": tolerance},
-        )
-    return SlsqpEnd(np.asarray(ended.x, dtype=np.float64), int(ended.status) in (0, 8))
 
 
 BAND = 1e-3
@@ -167,7 +123,12 @@ class Model:
 
     def watts(self, x: Array) -> float:
         """[W]"""
-        return self.power.at(self.evaluate.pitch(x))[0]
+        return self._power(x)[0]
+
+    def _power(self, x: Array) -> tuple[float, Array]:
+        """[W], and its slope by x."""
+        watts, slope = self.power.at(self.evaluate.pitch(x))
+        return watts, self.evaluate.pitch_slopes(x) @ slope
 
     def stretch(self, x: Array) -> Array:
         """Columns are steps of x that raise the power by BAND from a minimum, (parameters, parameters)."""
@@ -189,17 +150,13 @@ class Model:
 
     def least(self, x: Array, reach: float = 1.0) -> Array:
         """Where the model is least within the limits and `reach` of x, in parts of the ranges."""
-        stretch, unit = self.stretch(x), 2.0 * BAND * self.power.value
+        unit = 2.0 * BAND * self.power.value
 
         def value(x: Array) -> tuple[float, Array]:
-            power, slope = self.power.at(self.evaluate.pitch(x))
-            return power / unit, self.evaluate.pitch_slopes(x) @ slope / unit
+            watts, slope = self._power(x)
+            return watts / unit, slope / unit
 
-        newton = x - stretch @ (stretch.T @ value(x)[1])
-        free = self._free(newton) and bool((np.abs(newton - x) < reach).all())
-        if free and np.linalg.norm(stretch.T @ value(newton)[1]) < _MODEL_TOLERANCE:
-            return newton
-        return self._descend(x, reach, stretch, x, value, ())
+        return self._descend(x, reach, self.stretch(x), x, value, ())
 
     def farthest(self, x: Array, k: int, side: float, edge: float) -> Array:
         """Where parameter k is largest (side 1) or smallest (−1) with the power at most `edge`, begun beside x."""
@@ -209,26 +166,11 @@ class Model:
         direction = side * np.eye(len(x))[k] / size
 
         def room(x: Array) -> tuple[Array, Array]:
-            power, slope = self.power.at(self.evaluate.pitch(x))
-            return np.array([(edge - power) / scale]), -(self.evaluate.pitch_slopes(x) @ slope)[None] / scale
+            watts, slope = self._power(x)
+            return np.array([(edge - watts) / scale]), -slope[None] / scale
 
-        # Power is a sphere around −slope in these coordinates; x need not be its middle.
-        left, by = room(x)
-        slope = -0.5 * by[0] @ stretch
-        radius = math.sqrt(max(float(left[0] + slope @ slope), 0.0))
-        end = x + stretch @ (radius * along / size - slope)
-        if self._free(end):
-            left, by = room(end)
-            outward = -by[0] @ stretch
-            turned = float(np.linalg.norm(outward / np.linalg.norm(outward) - along / size))
-            if max(abs(float(left[0])), turned) < 1e-4:
-                return end
         start = np.clip(x + stretch @ along / size, 0.0, 1.0)
         return self._descend(x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,))
-
-    def _free(self, x: Array) -> bool:
-        """Whether nothing limits x but its bounds, and x lies within these."""
-        return not len(self.margins(x)[0]) and bool((x >= 0.0).all() and (x <= 1.0).all())
 
     def _descend(
         self, centre: Array, reach: float, stretch: Array, start: Array, value: _Measure, more: Sequence[_Measure]
@@ -236,31 +178,34 @@ class Model:
         """SLSQP in coordinates in which the power is round, within `reach` of a centre."""
         low, high = np.maximum(centre - reach, 0.0), np.minimum(centre + reach, 1.0)
         length = np.linalg.norm(stretch, axis=1)
-        rows = np.vstack([stretch, -stretch]) / np.concatenate([length, length])[:, None]
+        walls = np.vstack([np.diag(1.0 / length), np.diag(-1.0 / length)])
 
-        def box(y: Array) -> Array:
-            x = centre + stretch @ y
-            return np.concatenate([(x - low) / length, (high - x) / length])
+        def box(x: Array) -> tuple[Array, Array]:
+            return np.concatenate([(x - low) / length, (high - x) / length]), walls
 
-        def inequality(measure: _Measure) -> Inequality:
-            return Inequality(
-                lambda y: measure(centre + stretch @ y)[0], lambda y: measure(centre + stretch @ y)[1] @ stretch
-            )
+        def inequality(measure: _Measure) -> dict[str, Any]:
+            def margins(y: Array) -> Array:
+                return measure(centre + stretch @ y)[0]
+
+            def slopes(y: Array) -> Array:
+                return measure(centre + stretch @ y)[1] @ stretch
+
+            return {"type": "ineq", "fun": margins, "jac": slopes}
 
         def both(y: Array) -> tuple[float, Array]:
             found, slope = value(centre + stretch @ y)
             return found, slope @ stretch
 
         limits = [self.margins] if len(self.margins(centre)[0]) else []
-        end = slsqp(
+        end = _minimize(
             both,
-            True,
-            np.asarray(np.linalg.solve(stretch, np.clip(start, low, high) - centre), dtype=np.float64),
-            [Inequality(box, lambda _: rows), *(inequality(one) for one in (*limits, *more))],
-            iterations=_MODEL_ITERATIONS,
-            tolerance=_MODEL_TOLERANCE,
+            np.linalg.solve(stretch, np.clip(start, low, high) - centre),
+            jac=True,
+            method="SLSQP",
+            constraints=[inequality(one) for one in (box, *limits, *more)],
+            options={"maxiter": _MODEL_ITERATIONS, "ftol": _MODEL_TOLERANCE},
         )
-        return np.clip(centre + stretch @ end.x, low, high)
+        return np.asarray(np.clip(centre + stretch @ end.x, low, high), dtype=np.float64)
 
 
 TOLERANCE = 1e-7

@@ -1,12 +1,13 @@
 """Figures 2.3, 2.4, 3.1–3.6: pressure and forces around sections from XFOIL; polynomial fits of lift and drag."""
 
+import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
-from rotor.airfoil.build.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure
 from rotor.airfoil.polars import read_polars
 from rotor.airfoil.polynomial import (
     DRAG_ORDER,
@@ -17,12 +18,89 @@ from rotor.airfoil.polynomial import (
     fit_polynomials,
     thesis_polar,
 )
+from rotor.arrays import Array
 from rotor.assets import asset_path
 from rotor.reproduce.report import Agreement, PlotPanel, Report, ReportTable, curve, judged, table
 
 Coefficient = Literal["lift", "drag"]
 ARROW = 0.25
 """Chords per unit of Cp in the arrows."""
+PRESSURE_COLUMNS = "x,y,cp,cf"
+
+
+@dataclass(frozen=True)
+class PressureCase:
+    """One section in one flow."""
+
+    section: str
+    """A bundled outline, or `naca23015`, which XFOIL generates."""
+    alpha_deg: float
+    mach: float
+    reynolds: float
+    n_crit: float
+
+    @property
+    def file(self) -> str:
+        """Path of the shipped result below `assets`."""
+        return f"airfoils/{self.section}_alpha{self.alpha_deg:g}.pressure.csv"
+
+
+PRESSURE_CASES = tuple(PressureCase(name, 3.0, 0.3, 3.68e6, 9.0) for name in ("naca23015", "sc1095", "sc1094r8"))
+"""The document gives α 3° for the SC sections; Mach, Reynolds number and transition are our assumptions
+throughout."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pressure:
+    """Pressure and friction around a section; arrays are ordered as in `Contour`."""
+
+    case: PressureCase
+    cl: float
+    cd: float
+    cm: float
+    """XFOIL's own, cm about the quarter chord."""
+    x: Array
+    y: Array
+    """Surface points [chord], x aft along the chord line, y up."""
+    cp: Array
+    cf: Array
+    """Skin friction over free-stream dynamic pressure, positive in the direction of the flow."""
+
+    @property
+    def forces(self) -> Array:
+        """−Cp n dl of each panel [chord], (panels, 2): the arrows of figs. 2.3, 3.1 and 3.2 times their panel's length.
+
+        A closed outline run from the upper trailing edge forward has its outward normal at (−dy, dx)/dl turned by the
+        sense of travel: n dl = (dy, −dx).
+        """
+        cp = 0.5 * (self.cp + np.roll(self.cp, -1))
+        dx, dy = np.roll(self.x, -1) - self.x, np.roll(self.y, -1) - self.y
+        return np.stack((-cp * dy, cp * dx), axis=1)
+
+    def integrated_lift(self) -> float:
+        """cl of the pressure alone, normal to the free stream: the sum of `forces` turned by α."""
+        along, up = self.forces.sum(axis=0)
+        alpha = np.deg2rad(self.case.alpha_deg)
+        return float(up * np.cos(alpha) - along * np.sin(alpha))
+
+    def integrated_moment(self) -> float:
+        """cm about the quarter chord of the pressure alone, nose-up positive."""
+        force = self.forces
+        x = 0.5 * (self.x + np.roll(self.x, -1)) - 0.25
+        y = 0.5 * (self.y + np.roll(self.y, -1))
+        return float((force[:, 0] * y - force[:, 1] * x).sum())
+
+
+def read_pressure(case: PressureCase) -> Pressure:
+    """The shipped result. Raises ValueError when the file is damaged."""
+    text = asset_path(case.file).read_text(encoding="utf-8")
+    found = re.search(r"^# cl (\S+), cd (\S+), cm (\S+)$", text, re.MULTILINE)
+    body = [line for line in text.splitlines() if line and not line.startswith("#")]
+    if found is None or body[0] != PRESSURE_COLUMNS:
+        raise ValueError(f"{case.file} is not a pressure file: restore it, or rebuild it with XFOIL")
+    data = np.array([[float(word) for word in line.split(",")] for line in body[1:]])
+    cl, cd, cm = (float(word) for word in found.groups())
+    return Pressure(case, cl, cd, cm, data[:, 0], data[:, 1], data[:, 2], data[:, 3])
 
 
 FORCES = {

@@ -1,32 +1,23 @@
-"""Runs chunks in processes of this machine, one per core, or on a running Dask cluster by its address.
-
-Only a window of chunks is submitted at a time, so that a million points do not flood the scheduler. A chunk whose
-worker is lost is submitted again.
-"""
+"""Runs chunks on Dask: on processes of this machine, one per core, or on a running cluster by its address."""
 
 import importlib
 import logging
 import os
-import queue
+import signal
 import time
 from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
+from importlib.util import find_spec
 from typing import Any
 
 from rotor.study.chunks import FinishedChunk, StudyProvenance, VersionMismatch, evaluate_chunk
-from rotor.study.local_processes import LocalProcesses
 from rotor.study.study import Study
 
-INSTALL_HINT = "studies need pyarrow, on a cluster Dask too: pip install 'rotor-explorer[study]'"
-_AHEAD = 2
-"""Submitted chunks per thread of a worker: one running, one waiting."""
-_LOOK = 0.2
-"""[s] between checks for a request to stop."""
-_COUNT = 5.0
-"""[s] between counts of the workers, which may join and leave."""
-_RETRIES = 3
-"""Times that a chunk is submitted again after its workers were lost."""
+_LOOK = 0.1
+"""[s] between checks for finished chunks, and for a request to stop."""
 
 
 class ClusterLost(RuntimeError):
@@ -42,32 +33,22 @@ class ChunkRun:
     """Chunks that repeatedly stopped their workers."""
 
 
-def need_packages(cluster: bool = False) -> None:
-    """ValueError with the remedy where the packages of studies are missing; `cluster`: also those of Dask."""
-    try:
-        for name in ("pyarrow", *(("dask", "distributed") if cluster else ())):
-            importlib.import_module(name)
-    except ImportError:
-        raise ValueError(INSTALL_HINT) from None
-
-
 @contextmanager
 def connected(address: str | None, workers: int | None) -> Generator[Any]:
-    """A Dask client of the cluster at `address`, or processes of this machine. ValueError without a cluster there.
+    """A Dask client of the cluster at `address`, or of one on this machine. ValueError without a cluster there.
 
-    A cluster at a tls:// address is reached with the certificates of Dask's own configuration.
+    On this machine one worker is a thread of this process. More are processes that talk over 127.0.0.1, with TLS and
+    certificates of this run where the package `cryptography` is installed. A cluster at a tls:// address is reached
+    with the certificates of Dask's own configuration.
     """
-    if address is None:
-        processes = LocalProcesses(workers or os.cpu_count() or 1)
-        try:
-            yield processes
-        finally:
-            processes.close()
-        return
     distributed: Any = importlib.import_module("distributed")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
+    if address is None:
+        with _local_cluster(workers or os.cpu_count() or 1) as cluster, distributed.Client(cluster) as client:
+            yield client
+        return
     try:
-        client = distributed.Client(address, timeout="10s", set_as_default=False)
+        client = distributed.Client(address, timeout="10s")
     except (OSError, ValueError, TimeoutError) as error:
         raise ValueError(
             f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
@@ -79,83 +60,86 @@ def connected(address: str | None, workers: int | None) -> Generator[Any]:
         client.close(timeout=5)
 
 
+def _local_cluster(workers: int) -> Any:
+    """A Dask cluster of so many workers on this machine; nothing of it can be reached from others."""
+    distributed: Any = importlib.import_module("distributed")
+    config: Any = importlib.import_module("dask").config
+    several = workers > 1
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # The processes inherit it: Ctrl-C is left to this one.
+    try:
+        with config.set({"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}):
+            return distributed.LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                processes=several,
+                host="127.0.0.1" if several else None,
+                dashboard_address="127.0.0.1:0",
+                worker_dashboard_address="127.0.0.1:0",
+                memory_limit=0,  # A trim needs little; Dask would stop workers on a machine that is nearly full.
+                silence_logs=logging.CRITICAL,
+                protocol=None if several else "inproc://",
+                security=distributed.Security.temporary() if several and find_spec("cryptography") else None,
+            )
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def run_chunks(
     client: Any,
     study: Study,
     chunks: Sequence[int],
     provenance: StudyProvenance,
-    take: Callable[[FinishedChunk], None],
+    keep: Callable[[FinishedChunk], None],
     stop: Callable[[], bool],
-    wait_for_workers: Callable[[], None] = lambda: None,
 ) -> ChunkRun:
-    """Compute chunks in any order; `take` is called with each finished one.
+    """Compute chunks in any order; `keep` is called with each finished one.
 
-    `stop` is called several times a second; True ends the run. `wait_for_workers` is called without workers. Raises
-    ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version. `take` must not raise
-    OSError, which is read as a failure of the cluster.
+    Dask computes a chunk again whose worker was lost. `stop` is called several times a second; True ends the run.
+    Raises ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version. `keep` must not
+    raise OSError, which is read as a failure of the cluster.
     """
-    ended, news = ChunkRun(), queue.SimpleQueue[Any]()
-    waiting, under_way = iter(chunks), dict[Any, int]()
-    tries = dict.fromkeys(chunks, 0)
-    counted, threads, lonely = -_COUNT, 0, False
-
-    def submit(chunk: int) -> None:
-        tries[chunk] += 1
-        key = f"rotor-study-{study.fingerprint}-{os.getpid()}-{chunk}-{tries[chunk]}"
-        future = client.submit(evaluate_chunk, study, chunk, provenance, key=key, pure=False)
-        under_way[future] = chunk
-        future.add_done_callback(news.put)
-
+    distributed: Any = importlib.import_module("distributed")
+    ended = ChunkRun()
+    under_way: dict[Any, int] = {}
     try:
-        while True:
-            if time.monotonic() - counted > _COUNT:
-                counted, threads = time.monotonic(), sum(client.nthreads().values())
-                if threads == 0 and not lonely:
-                    wait_for_workers()
-                lonely = threads == 0
-            while len(under_way) < _AHEAD * max(threads, 1) and (chunk := next(waiting, None)) is not None:
-                submit(chunk)
-            if not under_way:
-                return ended
+        # A key of its own for each run: another run of the same study may be on this cluster.
+        keys = [f"rotor-study-{study.fingerprint}-{os.getpid()}-{time.time_ns()}-{chunk}" for chunk in chunks]
+        task = partial(evaluate_chunk, study, provenance=provenance)
+        under_way = dict(zip(client.map(task, chunks, key=keys, pure=False), chunks, strict=True))
+        finished = distributed.as_completed(under_way)
+        while under_way:
             if stop():
                 ended.stopped = True
-                return ended
-            try:
-                future = news.get(timeout=_LOOK)
-            except queue.Empty:
-                continue
-            chunk = under_way.pop(future)
-            if future.status == "finished":
-                take(future.result())
-            elif future.status == "error":
-                _judge(future.exception(), chunk)
-                if tries[chunk] <= _RETRIES:
-                    submit(chunk)
-                else:
+                break
+            batch = finished.next_batch(block=False)
+            if not batch:
+                time.sleep(_LOOK)
+            for future in batch:
+                chunk = under_way.pop(future)
+                if future.status != "error":
+                    keep(future.result())  # Computed again where its worker was lost meanwhile.
+                elif type(error := future.exception()).__name__ == "KilledWorker":
                     ended.lost.append(chunk)
-            else:
-                raise ClusterLost(_GONE)
-            future.release()
-    except OSError:  # Dask's own CommClosedError, and TimeoutError, are among these.
-        raise ClusterLost(_GONE) from None
+                else:
+                    raise _explained(error, chunk)
+                future.release()
+        return ended
+    except (OSError, CancelledError):  # Dask's own CommClosedError, and TimeoutError, are among these.
+        raise ClusterLost(
+            "the Dask scheduler is gone: finished chunks are kept; run the same command again to continue"
+        ) from None
     finally:
-        for future in under_way:
-            future.cancel()
+        client.cancel(list(under_way))
 
 
-_GONE = "the Dask scheduler is gone: finished chunks are kept; run the same command again to continue"
-
-
-def _judge(error: BaseException, chunk: int) -> None:
-    """Ignore the loss of workers, after which a chunk is retried; raise every other error."""
-    if type(error).__name__ in ("KilledWorker", "BrokenProcessPool"):
-        return
+def _explained(error: BaseException, chunk: int) -> ValueError:
+    """The failure of a whole chunk as one sentence."""
     if isinstance(error, VersionMismatch):
-        raise error
+        return error
     if isinstance(error, ImportError) or "deserialization" in str(error):
         cause = error.__cause__ or error  # Dask wraps the error of a worker without this package.
-        raise ValueError(
-            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer[study], "
+        return ValueError(
+            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer, "
             "the same version, on every worker"
-        ) from None
-    raise ValueError(f"chunk {chunk} failed on its worker ({type(error).__name__}: {error})") from None
+        )
+    return ValueError(f"chunk {chunk} failed on its worker ({type(error).__name__}: {error})")

@@ -26,7 +26,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design, check_preset, preset_models
 from rotor.design.retired import Tell, current_model, warn
 from rotor.design.stand import STAND_KEYS
-from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
@@ -142,8 +142,11 @@ def _weights(steps: Array) -> Array:
     return weights if float(np.abs(weights).sum()) < _FAR else np.eye(len(x))[0]
 
 
-_CRUISE = 0.2
-"""Default advance ratio."""
+_ARGUMENTS = (
+    "twist", "twist_per_rev", "pitch_per_rev", "mu", "speed_kt", "mass_kg", "altitude_m", "climb_m_s", "airfoils",
+    "trim",
+)  # fmt: skip
+"""Quantities that are arguments of `make_design`."""
 
 Row = dict[str, Any]
 Values = Mapping[str, Value]
@@ -166,27 +169,16 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = war
             changed[name] = int(cast(float, values[name]))
     stand = {key: values[f"stand_{key}"] for key in STAND_KEYS if f"stand_{key}" in values}
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
-    design = make_design(
+    if "mu" in values and "speed_kt" in values:
+        raise ValueError("mu and speed_kt are both given: omit one")
+    arguments: dict[str, Any] = {name: values[name] for name in _ARGUMENTS if name in values}
+    return make_design(
         preset=preset,
         rotor=aircraft.get(rotor, rotor),
-        twist=str(values["twist"]) if "twist" in values else None,
-        twist_per_rev=str(values.get("twist_per_rev", "")),
-        pitch_per_rev=str(values.get("pitch_per_rev", "")),
-        mu=float(values.get("mu", _CRUISE)),
-        mass_kg=float(values["mass_kg"]) if "mass_kg" in values else None,
-        altitude_m=float(values.get("altitude_m", 0.0)),
-        climb_m_s=float(values.get("climb_m_s", 0.0)),
+        **arguments,
         models=replace(models, **changed) if changed else models,
-        trim=str(values["trim"]) if "trim" in values else None,
         stand=stand or None,
     )
-    if "speed_kt" in values:
-        if "mu" in values:
-            raise ValueError("mu and speed_kt are both given: omit one")
-        design = design.at(speed_kt=float(values["speed_kt"]))
-    if "airfoils" in values:
-        design = replace(design, rotor=change_airfoils(design.rotor, str(values["airfoils"])))
-    return design
 
 
 def trim_of(values: Values, study: Study) -> Design:

@@ -232,7 +232,10 @@ WRONG = {
     ),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
-    "rotor.make_design(inflow='free')": (ValueError, "inflow model 'free' is not known: use one of uniform"),
+    "rotor.make_design(inflow='free')": (
+        ValueError,
+        "inflow model 'free' is not known; did you mean 'drees'? use one of uniform",
+    ),
     "design.at(mu='fast')": (TypeError, "mu is 'fast'"),
     "design.at(speed_kt=90, hover=True)": (ValueError, "speed_kt=90 and hover=True"),
     "design.with_twist(-12)": (TypeError, 'write "linear:-12"'),

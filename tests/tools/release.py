@@ -89,7 +89,7 @@ def install(wheel: Path, folder: Path, *, borrow: bool, interpreter: str = sys.e
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = (str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", "install")
     if not borrow:
-        _do(*pip, f"{wheel}[study]", cwd=folder)
+        _do(*pip, str(wheel), cwd=folder)
         return python
     _do(*pip, "--no-deps", "--no-index", str(wheel), cwd=folder)
     # A path file inside the borrowed folder is not read again, so an editable checkout stays out of sight.

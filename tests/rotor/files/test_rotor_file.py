@@ -10,8 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor import make_design
-from rotor.airfoil.build.decks import make_deck
-from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
+from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
 from rotor.airfoil.polars import Polar, parse_polar_file, read_polars
 from rotor.airfoil.sections import load_installed
 from rotor.airfoil.wrap import on_run_time_grid
@@ -196,7 +195,7 @@ def test_a_missing_outline_is_a_symmetric_section_with_a_remark():
 
 def test_other_decks_are_interpolated_to_the_run_time_grid():
     """A deck with odd angles and Machs that ends at stall: its own values inside, the closed form far out."""
-    ours = make_deck("naca0012", read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")))
+    ours = read_c81(asset_path("airfoils/naca0012.c81"))
     alpha, mach = np.array([-14.0, -9.3, -4.7, 0.0, 4.7, 9.3, 14.0]), np.array([0.3, 0.42, 0.61])
     lift = C81Block(mach, alpha, np.outer(alpha, [0.11, 0.115, 0.13]))
     drag = C81Block(mach, alpha, np.tile(0.008 + 1e-4 * alpha[:, None] ** 2, (1, 3)))

@@ -5,12 +5,10 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.build.pressure import PRESSURE_CASES, PressureCase, read_pressure, run_pressure
-from rotor.airfoil.build.xfoil import XfoilMissing, require_xfoil
 from rotor.reproduce import Agreement, Report
+from rotor.reproduce.sections import PRESSURE_CASES, read_pressure
 
 Make = Callable[[str], Report]
 
@@ -38,17 +36,6 @@ def test_pressure_files_are_closed_contours():
         area = 0.5 * float((pressure.x * np.roll(pressure.y, -1) - pressure.y * np.roll(pressure.x, -1)).sum())
         assert 0.04 < area < 0.12  # counter-clockwise, and as thick as a section of 9–15 %
         assert_allclose(pressure.integrated_moment(), pressure.cm, atol=5e-4)
-
-
-@pytest.mark.xfoil
-@pytest.mark.parametrize("case", PRESSURE_CASES, ids=lambda case: case.section)
-def test_xfoil_reproduces_the_pressure(case: PressureCase):
-    """Its convergence moves with version and machine: cl to 0.02."""
-    try:
-        require_xfoil()
-    except XfoilMissing as missing:
-        pytest.skip(str(missing))
-    assert_allclose(run_pressure(case).cl, read_pressure(case).cl, atol=0.02)
 
 
 def test_figure_2_6(report: Make):

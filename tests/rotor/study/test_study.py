@@ -19,7 +19,6 @@ from rotor.__main__ import main
 from rotor.assets import asset_path
 from rotor.command.common import interruptible
 from rotor.files.make_design import make_design
-from rotor.study import cluster
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.findings import best_row, effects, robust_best
 from rotor.study.point import WarmStarts
@@ -472,15 +471,6 @@ def test_error_for_a_file_without_results_or_too_large_is_one_sentence():
         patch.setattr("rotor.study.results._LARGEST", 8000)
         with pytest.raises(ValueError, match=r"'small.parquet' unpacks to 0 MB"):
             read_file(content, "small.parquet")
-
-
-def test_missing_packages_are_reported_with_the_install_command(monkeypatch: pytest.MonkeyPatch):
-    def missing(name: str) -> Any:
-        raise ImportError(name)
-
-    monkeypatch.setattr(cluster.importlib, "import_module", missing)
-    with pytest.raises(ValueError, match=r"pip install 'rotor-explorer\[study\]'"):
-        cluster.need_packages()
 
 
 def test_one_ctrl_c_received_twice_counts_once():

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +19,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor.study.chunks import evaluate_points
+from rotor.assets import package_version
+from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
+from rotor.study.cluster import connected, run_chunks
 from rotor.study.results import Results, read_results
 from rotor.study.study_file import read_study
 
 pytestmark = pytest.mark.slow
+linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
 ROOT = Path(__file__).parent.parent.parent.parent
 DASK = Path(sys.executable).with_name("dask")
@@ -221,6 +225,74 @@ def test_another_cluster_on_the_machine_does_not_interfere(tmp_path: Path):
             timeout=PATIENCE,
         )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def where(_: float) -> tuple[int, set[str]]:
+    """This process, and the local addresses of its TCP sockets that listen, as /proc writes them."""
+    sockets: set[str] = set()
+    for one in Path("/proc/self/fd").iterdir():
+        with suppress(OSError):
+            sockets.add(str(one.readlink()))
+    rows = [line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/net/{name}").read_text().splitlines()]
+    return os.getpid(), {row[1] for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in sockets}
+
+
+def die(_: float) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@linux
+@pytest.mark.parametrize("workers", [1, 2])
+def test_workers_of_this_machine_are_reached_from_this_machine_only(workers: int):
+    before = where(0.0)[1]  # Other tests of this process may have servers.
+    with connected(None, workers) as client:
+        process, ports = client.submit(where, 0.0).result()
+        assert (process == os.getpid()) == (workers == 1)
+        for port in (ports | where(0.0)[1]) - before:
+            assert port.startswith("0100007F:")  # 127.0.0.1
+        several = "tls" if find_spec("cryptography") else "tcp"
+        assert client.scheduler.address.startswith("inproc" if workers == 1 else several)
+
+
+def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
+    study = read_study(study_file(tmp_path)).study
+    provenance = StudyProvenance(package_version(), None, "")
+    done: list[FinishedChunk] = []
+    with connected(None, 2) as client:
+        assert client.submit(die, 0.0).exception() is not None
+        ended = run_chunks(client, study, [0, 1, 2], provenance, done.append, lambda: False)
+    assert not ended.lost
+    assert sorted(one.chunk for one in done) == [0, 1, 2]
+
+
+_PARENT = """
+import os, signal
+from rotor.study.cluster import connected
+if __name__ == "__main__":
+    with connected(None, 2) as client:
+        print(*client.run(os.getpid).values(), flush=True)
+        os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@linux
+def test_processes_end_with_a_parent_that_was_killed(tmp_path: Path):
+    (tmp_path / "parent.py").write_text(_PARENT, encoding="utf-8")
+    parent = subprocess.run(
+        [sys.executable, tmp_path / "parent.py"], env={**os.environ, "PYTHONPATH": str(ROOT)}, stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL, text=True,
+    )  # fmt: skip
+    assert parent.returncode == -signal.SIGKILL
+    processes = [int(word) for word in parent.stdout.split()]
+    assert len(processes) == 2
+    until(lambda: not any(_alive(process) for process in processes))
+
+
+def _alive(process: int) -> bool:
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
 
 
 def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path):

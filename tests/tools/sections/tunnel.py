@@ -16,10 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.build.compressibility import (
+from rotor.airfoil.decks import (
     BASE_MACH,
     FRICTION_REYNOLDS_POWER,
     NATIVE_CAP_SHARPNESS,
+    Columns,
     smooth_cap,
     with_lost_suction,
 )
@@ -89,6 +90,10 @@ class TunnelTraits:
     """C_d of attached flow over XFOIL's."""
     moment_shift: float = 0.0
     """C_m at no lift less XFOIL's."""
+
+    def correct(self, mach: float, alpha: Array, polar: Columns, polar_mach: float) -> Columns:
+        """As `SectionTraits.correct`."""
+        return tunnel_polar(mach, alpha, *polar, self, polar_mach)
 
 
 def tunnel_lift_slope(mach: float, reynolds: float) -> float:

@@ -1,19 +1,14 @@
-"""Studies on this machine open no port, survive a killed process, and read uploads within bounds."""
+"""Results that a visitor uploads are read within bounds of memory and time."""
 
 import importlib
 import io
 import multiprocessing
-import os
 import random
-import signal
-import subprocess
 import sys
 import threading
 import time
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from pathlib import Path
-from typing import Any
 
 import pyarrow as arrow
 import pyarrow.parquet as parquet
@@ -22,11 +17,9 @@ import pytest
 from rotor.assets import package_version
 from rotor.study.bounded_reading import limit_memory, read_bounded
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.cluster import connected, run_chunks
 from rotor.study.results import read_file
 from rotor.study.study_file import parse_study
 
-ROOT = Path(__file__).parent.parent.parent.parent
 STUDY = """
 title = "Small"
 chunk = 2
@@ -39,88 +32,6 @@ azimuths = 48
 """
 PROVENANCE = StudyProvenance(package_version(), None, "")
 linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-
-
-def listening() -> set[str]:
-    """Sockets of all programs that wait for TCP connections."""
-    rows = [line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/net/{name}").read_text().splitlines()]
-    return {f"socket:[{row[9]}]" for row in rows if row[3] == "0A"}
-
-
-def sockets_of(process: int) -> set[str]:
-    found: set[str] = set()
-    for one in Path(f"/proc/{process}/fd").iterdir():
-        try:
-            found.add(str(one.readlink()))
-        except FileNotFoundError:
-            continue
-    return found
-
-
-def nap_and_tell(seconds: float) -> int:
-    time.sleep(seconds)
-    return os.getpid()
-
-
-def die(_: float) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-@pytest.mark.slow
-@linux
-def test_a_study_on_this_machine_listens_on_no_port():
-    before = listening()  # Other tests of this process may have servers.
-    with connected(None, 1) as client:
-        process = client.submit(nap_and_tell, 0.0).result()
-        assert process != os.getpid()
-        ours = sockets_of(process) | sockets_of(os.getpid())
-        assert not {one for one in ours & listening() if one not in before}
-
-
-@pytest.mark.slow
-def test_chunks_come_back_and_a_killed_process_is_replaced():
-    study = parse_study(STUDY)
-    done: list[Any] = []
-    with connected(None, 1) as client:
-        broken = client.submit(die, 0.0)
-        while broken.status == "pending":
-            time.sleep(0.01)
-        assert broken.status == "error"
-        ended = run_chunks(client, study, [0, 1], PROVENANCE, done.append, lambda: False)
-    assert not ended.lost
-    assert sorted(one.chunk for one in done) == [0, 1]
-    assert sum(one.rows for one in done) == 3
-    here = evaluate_chunk(study, 0, PROVENANCE)
-    there = next(one for one in done if one.chunk == 0)
-    table, same = (parquet.read_table(io.BytesIO(one.content)).column("power_total_w") for one in (here, there))
-    assert table.to_pylist() == pytest.approx(same.to_pylist(), rel=1e-10)
-
-
-_PARENT = """
-import os, signal
-from rotor.study.local_processes import LocalProcesses
-print(LocalProcesses(1).submit(os.getpid).result(), flush=True)
-os.kill(os.getpid(), signal.SIGKILL)
-"""
-
-
-@linux
-def test_processes_end_with_a_parent_that_was_killed():
-    # Not a fork of this process: its threads may hold locks that nobody in the child would release.
-    parent = subprocess.run([sys.executable, "-c", _PARENT], cwd=ROOT, stdout=subprocess.PIPE, text=True)
-    assert parent.returncode == -signal.SIGKILL
-    process = int(parent.stdout)
-    deadline = time.monotonic() + 60.0
-    while _alive(process) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert not _alive(process)
-
-
-def _alive(process: int) -> bool:
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
 
 
 def result_file(rows: int) -> bytes:

@@ -1,0 +1,212 @@
+"""From the polars of a section to its C81 deck over ±180° and Mach 0 to 1.
+
+Gaps of a polar are closed; below the slowest polar the deck repeats it; between polars it is linear in Mach. Beyond the
+fastest, where XFOIL has no shocks, the Mach 0.3 polar is extended by textbook corrections: Prandtl-Glauert lift, a
+smooth cap on lift, drag of the lost leading-edge suction, Korn-Lock wave drag. Beyond stall follows the closed form of
+`wrap`. Mach 0.95 and 1.0 use the same formulas and are extrapolation.
+
+Three constants were read off public SC1095 tables (NASA CR-166309 deck, UMD RANS), so agreement of the
+result with those tables is calibration, not evidence: the cap, KORN_KAPPA, and LIFT_DIVERGENCE_MACH
+with LINEAR_RISE_FROM. The suction drag has no fitted constant.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
+from rotor.airfoil.polars import Polar
+from rotor.airfoil.wrap import BLEND_END_DEG, blend
+from rotor.arrays import Array
+
+Columns = tuple[Array, Array, Array]
+"""cl, cd, cm."""
+
+NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used directly: compared with RANS, its drag is the better one.
+INCOMPRESSIBLE_MACH = 0.05  # Up to here a polar's Mach number says nothing about its Reynolds number.
+BASE_MACH = 0.3  # The polar that is extended to higher Mach.
+LIFT_DIVERGENCE_MACH = 0.75  # The lift slope is constant above: Prandtl-Glauert would go to infinity.
+KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
+LINEAR_RISE_FROM = 0.2  # M - M_cr beyond which the wave drag rises linearly; the quartic is far too steep at M 0.9.
+FRICTION_REYNOLDS_POWER = -0.16  # Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
+CAP_SHARPNESS = 8.0  # Exponent of the smooth cap above Mach 0.4; takes 1 % off at 75 % of the cap.
+NATIVE_CAP_SHARPNESS = 16.0  # The same up to Mach 0.4, where lift well below the cap must not change.
+
+# Largest lift coefficient of SC1095 against Mach: own tripped XFOIL to 0.4, then as read off RANS and deck.
+_CAP_MACH = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
+_CAP_CL = (1.45, 1.45, 1.52, 1.50, 1.43, 1.10, 1.00, 0.93, 0.91, 0.91)
+
+
+@dataclass(frozen=True)
+class SectionTraits:
+    """Section parameters of the corrections.
+
+    `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `cap_native` says whether XFOIL's own
+    lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive;
+    `korn` is the technology factor of Korn's relation.
+    """
+
+    thickness: float
+    cap_ratio: float = 1.0
+    cap_native: bool = False
+    negative_ratio: float = 1.0
+    korn: float = KORN_KAPPA
+
+    def correct(self, mach: float, alpha: Array, polar: Columns, polar_mach: float) -> Columns:
+        """(cl, cd, cm) at `mach` from the polar at `polar_mach`: as it is where both are one, else extended."""
+        if polar_mach == mach:
+            return capped_polar(mach, alpha, *polar, self)
+        return corrected_polar(mach, alpha, *polar, self, polar_mach)
+
+
+def lift_cap(mach: float, traits: SectionTraits) -> float:
+    """Largest positive lift coefficient [-] at `mach`, monotone between the read-off values."""
+    return float(PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
+
+
+def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
+    """`cl` limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
+    cap = np.where(cl >= 0.0, upper, lower)
+    return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
+
+
+def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
+    """Growth of lift from `base` to `mach`: sqrt(1 - M0^2) / sqrt(1 - M^2), constant above lift divergence."""
+    held = min(mach, LIFT_DIVERGENCE_MACH)
+    return float(np.sqrt((1.0 - base**2) / (1.0 - held**2)))
+
+
+def wave_drag(mach: float, cl: Array, thickness: float, korn: float = KORN_KAPPA) -> Array:
+    """Wave drag coefficient [-] by Korn's relation and Lock's fourth-power law, for an unswept section.
+
+    M_dd = kappa - t/c - |cl|/10, M_cr = M_dd - (0.1/80)^(1/3), cd = 20 (M - M_cr)^4 (Mason 1990),
+    continued with its own slope beyond M - M_cr = LINEAR_RISE_FROM.
+    """
+    critical = korn - thickness - np.abs(cl) / 10.0 - (0.1 / 80.0) ** (1.0 / 3.0)
+    excess = np.maximum(mach - critical, 0.0)
+    quartic = np.minimum(excess, LINEAR_RISE_FROM)
+    return 20.0 * quartic**4 + 80.0 * LINEAR_RISE_FROM**3 * (excess - quartic)
+
+
+def with_lost_suction(alpha: Array, potential_cl: Array, cl: Array, cd: Array) -> Array:
+    """`cd` [-] plus the drag of the leading-edge suction that goes with the lost lift, (cl_potential - cl) tan(alpha).
+
+    `alpha` [rad], below 90 deg. Attached flow tilts the normal force forward by the suction; lost lift has
+    none. With no suction left the force is normal to the chord, so that pressure drag (all above the least
+    `cd`) can be no more than cl tan(alpha); where the polar itself has more, its value is kept.
+    """
+    lean = np.tan(np.abs(alpha))
+    pressure = cd - np.min(cd)
+    full = np.maximum(np.abs(cl) * lean, pressure)
+    return np.min(cd) + np.minimum(pressure + np.abs(potential_cl - cl) * lean, full)
+
+
+def corrected_polar(
+    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits,
+    base: float = BASE_MACH,
+) -> Columns:  # fmt: skip
+    """(cl, cd, cm) at a `mach` beyond the polars, from the polar at `base`; `alpha` [rad] within +-0.5."""
+    growth = prandtl_glauert(mach, base)
+    cap = lift_cap(mach, traits)
+    lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
+    # A polar at Mach 0 is incompressible, not of a rotor at rest: its Reynolds number is the one meant.
+    reynolds_ratio = mach / base if base > INCOMPRESSIBLE_MACH else 1.0
+    friction = float(np.min(cd)) * (1.0 - reynolds_ratio**FRICTION_REYNOLDS_POWER)
+    drag = (
+        with_lost_suction(alpha, cl * growth, lifted, cd)
+        - friction
+        + wave_drag(mach, lifted, traits.thickness, traits.korn)
+    )
+    return lifted, drag, cm * growth
+
+
+def capped_polar(mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits) -> Columns:
+    """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is too high."""
+    if not traits.cap_native:
+        return cl, cd, cm
+    held = np.where(cl > 0.0, smooth_cap(cl, lift_cap(mach, traits), 1.0, NATIVE_CAP_SHARPNESS), cl)
+    return held, with_lost_suction(alpha, cl, held, cd), cm
+
+
+USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are constant there and blended out.
+DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
+
+
+def deck_alpha_deg() -> Array:
+    """The deck's angles [deg], at most 99: dense where flow separates and where reverse flow peaks."""
+    reverse = [180.0, 177.5, 175.0, 172.5, 170.0, 167.5, 165.0, 160.0, 155.0, 150.0]
+    broadside = [140.0, 130.0, 120.0, 105.0, 90.0, 75.0, 60.0, 50.0, 40.0, 35.0, 30.0, 26.0, 24.0, 22.0, 20.0, 18.0]
+    far = np.array(reverse + broadside)
+    near = np.concatenate((np.arange(-16.0, 8.0), np.arange(8.0, 16.0, 0.5), [16.0, 17.0]))
+    return np.concatenate((-far, near, far[::-1]))
+
+
+Correction = Callable[[float, Array, Columns, float], Columns]
+"""(cl, cd, cm) at a Mach number from angles [rad], a polar there and the polar's own Mach number."""
+
+
+def assemble_deck(title: str, polars: Sequence[Polar], correct: Correction) -> C81Deck:
+    """The deck of one section from its polars, rounded as the C81 text rounds it.
+
+    Up to the fastest polar the polars stand as they are, linear in between in Mach; beyond it the one nearest to
+    Mach 0.3 is extended. `correct` does that, as `SectionTraits.correct`.
+    """
+    ordered = sorted(polars, key=lambda polar: polar.mach)
+    base = min(ordered, key=lambda polar: abs(polar.mach - BASE_MACH))
+    alpha_deg = deck_alpha_deg()
+    alpha = np.deg2rad(alpha_deg)
+    near = np.abs(alpha_deg) < BLEND_END_DEG
+    columns: list[Columns] = []
+    for mach in DECK_MACH:
+        native = mach <= ordered[-1].mach + 1e-9
+        here = _between(ordered, float(mach), alpha_deg[near]) if native else _at(base, alpha_deg[near])
+        inner = correct(float(mach), alpha[near], here, float(mach) if native else base.mach)
+        full = [np.ones_like(alpha) for _ in range(3)]
+        for whole, part in zip(full, inner, strict=True):
+            whole[near] = part
+        cl_here, cd_here, cm_here = blend(alpha, full[0], full[1], full[2])
+        columns.append((cl_here, _drag_grows_to_broadside(alpha_deg, cd_here), cm_here))
+    cl, cd, cm = (np.stack([column[k] for column in columns], axis=1) for k in range(3))
+    cl[[0, -1]] = cl[[0, -1]].mean(axis=0)  # The two ends are one angle.
+    cm[[0, -1]] = cm[[0, -1]].mean(axis=0)
+    deck = C81Deck(title, *(C81Block(DECK_MACH, alpha_deg, values) for values in (cl, cd, cm)))
+    return parse_c81(format_c81(deck), title)
+
+
+def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns:
+    """The polars at a Mach number: the polar of that Mach, or linear between its neighbours; constant outside."""
+    slower = max((p for p in ordered if p.mach <= mach + 1e-9), key=lambda p: p.mach, default=ordered[0])
+    faster = min((p for p in ordered if p.mach >= mach - 1e-9), key=lambda p: p.mach, default=ordered[-1])
+    if faster.mach - slower.mach < 1e-6:
+        return _at(slower, alpha_deg)
+    share = min(max((mach - slower.mach) / (faster.mach - slower.mach), 0.0), 1.0)
+    low, high = _at(slower, alpha_deg), _at(faster, alpha_deg)
+    cl, cd, cm = ((1.0 - share) * one + share * two for one, two in zip(low, high, strict=True))
+    return cl, cd, cm
+
+
+def _at(polar: Polar, alpha_deg: Array) -> Columns:
+    """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
+    where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
+    cl, log_cd, cm = (
+        np.asarray(PchipInterpolator(polar.alpha_deg, y)(where)) for y in (polar.cl, np.log(polar.cd), polar.cm)
+    )
+    # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
+    beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
+    return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm
+
+
+def _drag_grows_to_broadside(alpha_deg: Array, cd: Array) -> Array:
+    """`cd` of one Mach, made monotone from its least value outward to +-90 deg.
+
+    The closed form does not depend on Mach, so above Mach 0.8 the blend into it would lower the drag.
+    """
+    out = cd.copy()
+    best = int(np.argmin(np.where(np.abs(alpha_deg) < 16.0, cd, np.inf)))
+    up = slice(best, int(np.searchsorted(alpha_deg, 90.0)) + 1)
+    down = slice(best, int(np.searchsorted(alpha_deg, -90.0)) - 1, -1)
+    for side in (up, down):
+        out[side] = np.maximum.accumulate(cd[side])
+    return out

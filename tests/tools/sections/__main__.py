@@ -1,0 +1,93 @@
+"""`python -m tests.tools.sections`: rebuilds a bundled deck, or compares a rebuilt one with it.
+
+Exit codes: 0 done, 1 `verify` found a difference, 2 bad input.
+"""
+
+import argparse
+from pathlib import Path
+
+from rotor.airfoil.c81 import format_c81, read_c81
+from rotor.airfoil.polars import read_polars, write_polars
+from rotor.assets import asset_path
+from rotor.terminal import run_command
+from tests.tools.sections.recipes import (
+    RECIPES,
+    check_name,
+    compare_decks,
+    make_deck,
+    run_thesis_polar,
+    run_trip_polars,
+)
+from tests.tools.sections.xfoil import XfoilError
+
+CL_TOLERANCE = 0.01  # XFOIL's convergence depends on version and machine, so files cannot be compared byte by byte.
+CD_TOLERANCE = 0.03
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Build or verify one section."""
+    parser = argparse.ArgumentParser(prog="python -m tests.tools.sections", description="Bundled section data.")
+    parser.add_argument("action", choices=("build", "verify"))
+    parser.add_argument("name", metavar="NAME", help=", ".join(RECIPES))
+    parser.add_argument("--from-polars", action="store_true", help="start from the bundled raw polars, without XFOIL")
+    parser.add_argument("--out", metavar="DIR", help="build: where to write (default: the bundled data)")
+    args = parser.parse_args(argv)
+
+    def run() -> int:
+        try:
+            if args.action == "build":
+                return _build(args.name, args.from_polars, args.out)
+            return _verify(args.name, args.from_polars)
+        except XfoilError as error:
+            raise ValueError(str(error)) from None
+
+    return run_command("sections", run)
+
+
+def _progress(message: str) -> None:
+    print(f"  {message}", flush=True)
+
+
+def _polar_file(name: str) -> str:
+    return f"{name}_{RECIPES[name].polars}.polars.csv"
+
+
+def _build(name: str, from_polars: bool, out: str | None) -> int:
+    check_name(name)
+    bundled = asset_path("airfoils")
+    folder = Path(out) if out else bundled
+    if not folder.is_dir():
+        raise ValueError(f"--out {out!r} is not a folder: create it first")
+    if from_polars:
+        polars = read_polars(bundled / _polar_file(name))
+    else:
+        print(f"{name}: running XFOIL, up to some minutes", flush=True)
+        polars = run_trip_polars(name, _progress)
+    deck = make_deck(name, polars)  # Everything is computed before anything is written.
+    if not from_polars and name == "sc1095":
+        write_polars(folder / "sc1095_ncrit9.polars.csv", run_thesis_polar(_progress))
+    write_polars(folder / _polar_file(name), polars)
+    (folder / f"{name}.c81").write_text(format_c81(deck), encoding="utf-8")
+    print(f"wrote {folder / f'{name}.c81'}")
+    return 0
+
+
+def _verify(name: str, from_polars: bool) -> int:
+    check_name(name)
+    shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
+    if from_polars:
+        polars = read_polars(asset_path(f"airfoils/{_polar_file(name)}"))
+    else:
+        print(f"{name}: running XFOIL, up to some minutes", flush=True)
+        polars = run_trip_polars(name, _progress)
+    found = compare_decks(make_deck(name, polars), shipped)
+    good = found.within(CL_TOLERANCE, CD_TOLERANCE)
+    print(f"{name}: largest difference in cl {found.cl:.4f} (at {found.cl_at}; allowed {CL_TOLERANCE:g})")
+    allowed = 100.0 * CD_TOLERANCE
+    print(f"{name}: largest difference in cd {100.0 * found.cd:.2f} % (at {found.cd_at}; allowed {allowed:g} %)")
+    print(f"{name}: {'agrees with' if good else 'DIFFERS from'} the bundled deck")
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,189 @@
+"""The tool that makes the bundled section data: decks rebuilt from raw polars; runs of XFOIL, and its failures."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
+from rotor.airfoil.contour import load_contour
+from rotor.airfoil.polars import PolarSet, read_polars, write_polars
+from rotor.assets import asset_path
+from rotor.reproduce.sections import PRESSURE_CASES, PressureCase, read_pressure
+from tests.tools.sections import __main__ as command
+from tests.tools.sections import xfoil
+from tests.tools.sections.pressure import run_pressure
+from tests.tools.sections.recipes import (
+    NATIVE_MACHS,
+    RECIPES,
+    TRIP,
+    compare_decks,
+    make_deck,
+    run_trip_polars,
+)
+from tests.tools.sections.xfoil import XfoilCase, XfoilError, XfoilMissing, require_xfoil, run_polar
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_deck_rebuilt_from_the_raw_polars_is_the_shipped_deck(name: str) -> None:
+    """Its polars are at the Reynolds numbers of its rotor and cover the attached range."""
+    recipe = RECIPES[name]
+    polars = read_polars(asset_path(f"airfoils/{name}_{recipe.polars}.polars.csv"))
+    shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
+    rebuilt = make_deck(name, polars)
+    found = compare_decks(rebuilt, shipped)
+    assert found.within(1.1e-4, 0.003), found  # a unit in the last printed decimal, for other arithmetic
+    assert_allclose(rebuilt.cm.values, shipped.cm.values, rtol=0, atol=1.1e-4)
+    assert tuple(p.mach for p in polars.polars) == (NATIVE_MACHS if recipe.polars == "trip5" else recipe.machs)
+    for p in polars.polars:
+        assert_allclose(p.reynolds, recipe.reynolds_per_mach * p.mach, rtol=1e-3)
+        assert p.alpha_deg[0] <= max(-8.0, recipe.lowest_alpha_deg)
+        assert p.alpha_deg[-1] >= 10.0
+        if name in ("sc1095", "sc1094r8", "naca0012", "naca63a015"):
+            assert np.count_nonzero((p.alpha_deg >= -5.0) & (p.alpha_deg <= 15.0)) == 41, f"{name} Mach {p.mach}"
+
+
+def test_command_builds_and_verifies(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command.main(["build", "sc1095", "--from-polars", "--out", str(tmp_path)]) == 0
+    for file in ("sc1095.c81", "sc1095_trip5.polars.csv"):
+        assert (tmp_path / file).read_text() == asset_path(f"airfoils/{file}").read_text()
+    assert command.main(["verify", "sc1094r8", "--from-polars"]) == 0
+    assert "agrees with the bundled deck" in capsys.readouterr().out
+    monkeypatch.setattr(command, "CL_TOLERANCE", -1.0)
+    assert command.main(["verify", "sc1095", "--from-polars"]) == 1
+    assert "DIFFERS" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("build", "vr12"), "no section named 'vr12': choose one of sc1095"),
+        (("build", "sc1095", "--out", "/no/such/folder"), "'/no/such/folder' is not a folder: create it"),
+        (("build", "sc1095"), "install it (Debian: apt install xfoil xvfb)"),
+    ],
+)
+def test_bad_input_and_no_xfoil_give_one_sentence(
+    words: tuple[str, ...], message: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert command.main(list(words)) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+
+
+@pytest.mark.xfoil
+@pytest.mark.parametrize("case", PRESSURE_CASES, ids=lambda case: case.section)
+def test_xfoil_reproduces_the_pressure(case: PressureCase) -> None:
+    """Its convergence moves with version and machine: cl to 0.02."""
+    try:
+        require_xfoil()
+    except XfoilMissing as missing:
+        pytest.skip(str(missing))
+    assert_allclose(run_pressure(case).cl, read_pressure(case).cl, atol=0.02)
+
+
+# As XFOIL prints them: a NaN row, a cut row and a negative drag must not come through.
+POLAR_TEXT = """
+   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr  Top_Itr  Bot_Itr
+  ------ -------- --------- --------- -------- -------- -------- -------- --------
+   0.000   0.0888   0.00828   0.00032  -0.0144   0.0500   0.0500  82.7079 119.0281
+   0.500      NaN       NaN   0.00032  -0.0146   0.0500   0.0500  82.7079 119.0281
+   1.000   0.2115  -0.00835   0.00030  -0.0148   0.0500   0.0500  82.7079 119.0281
+   1.500   0.2727   0.00840   0.00026  -0.0150   0.0500   0.0500  82.7079 119.0281
+   2.000   0.33
+"""
+
+
+def test_damaged_rows_of_a_polar_file_are_dropped() -> None:
+    parse = xfoil._parse  # pyright: ignore[reportPrivateUsage]
+    assert parse(POLAR_TEXT) == {0.0: (0.0888, 0.00828, -0.0144), 1.5: (0.2727, 0.0084, -0.015)}
+    assert parse("nothing here") == {}
+
+
+def test_gaps_are_grouped_outward() -> None:
+    gaps = xfoil._gaps  # pyright: ignore[reportPrivateUsage]
+    assert gaps([-8.5, -8.0, 3.0, 9.0, 9.5, 10.0], 0.5) == [(-8.0, -8.5), (3.0, 3.0), (9.0, 10.0)]
+
+
+@pytest.mark.xfoil
+def test_one_real_polar_is_close_to_thin_airfoil_theory() -> None:
+    """cl slope of a thin section: 2 pi / beta, plus some 10 % for thickness, less the boundary layer."""
+    try:
+        xfoil.require_xfoil()
+    except xfoil.XfoilMissing as missing:
+        pytest.skip(str(missing))
+    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)
+    polar = xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
+    slope = np.polyfit(np.deg2rad(polar.alpha_deg), polar.cl, 1)[0]
+    assert_allclose(slope, 2.0 * np.pi / np.sqrt(1.0 - 0.3**2), rtol=0.1)
+    assert polar.alpha_deg.size >= 6
+
+
+def test_xfoil_that_crashes_is_an_error_not_a_polar(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Replaces XFOIL by a program that is killed by a signal, as Debian's does with its graphics off."""
+    for name, body in (("xfoil", "kill -FPE $$"), ("xvfb-run", "exit 136")):
+        (tmp_path / name).write_text(f"#!/bin/sh\n{body}\n", encoding="utf-8")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)
+    with pytest.raises(xfoil.XfoilError, match="converged at only 0 of 7"):
+        xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
+
+
+def test_xfoil_that_hangs_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("xfoil", "xvfb-run"):
+        (tmp_path / name).write_text("#!/bin/sh\nsleep 60 & wait\n", encoding="utf-8")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    monkeypatch.setattr(xfoil, "_TIME_LIMIT", 0.05)
+    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=None)
+    with pytest.raises(xfoil.XfoilError, match="from-polars"):
+        xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
+
+
+def test_polar_files_round_trip(tmp_path: Path) -> None:
+    path = asset_path("airfoils/sc1095_trip5.polars.csv")
+    write_polars(tmp_path / "copy.csv", read_polars(path))
+    assert (tmp_path / "copy.csv").read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
+    (tmp_path / "bad.csv").write_text("mach,reynolds,alpha_deg,cl,cd,cm\n0.3,1e6,0,0.1,-0.01,0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="line 2"):
+        read_polars(tmp_path / "bad.csv")
+
+
+def test_verify_detects_a_change() -> None:
+    shipped = read_c81(asset_path("airfoils/sc1095.c81"))
+    values = shipped.cl.values.copy()
+    values[shipped.cl.alpha_deg == 5.0, 4] += 0.02
+    changed = C81Deck(shipped.title, C81Block(shipped.cl.mach, shipped.cl.alpha_deg, values), shipped.cd, shipped.cm)
+    found = compare_decks(changed, shipped)
+    assert not found.within(0.01, 0.03)
+    assert found.cl_at == "5 deg, Mach 0.4"
+    with pytest.raises(ValueError, match=r"lack Mach 0\.1"):
+        make_deck("sc1095", PolarSet((), ()))
+
+
+def test_a_measured_polar_is_not_rebuilt_by_xfoil() -> None:
+    with pytest.raises(XfoilError, match="was measured"):
+        run_trip_polars("naca0015re242k", print)
+
+
+@pytest.mark.slow
+@pytest.mark.xfoil
+@pytest.mark.parametrize("name", [name for name, recipe in RECIPES.items() if recipe.polars == "trip5"])
+def test_xfoil_reproduces_the_polars(name: str) -> None:
+    """Attached flow only: near stall the angles that converge depend on the time a sweep is given."""
+    try:
+        require_xfoil()
+    except XfoilMissing as missing:
+        pytest.skip(str(missing))
+    for shipped in read_polars(asset_path(f"airfoils/{name}_trip5.polars.csv")).polars:
+        alpha = np.arange(-4.0, 8.25, 0.5)
+        found = run_polar(load_contour(name), XfoilCase(shipped.mach, shipped.reynolds, 9.0, TRIP), alpha)
+        both, mine, theirs = np.intersect1d(found.alpha_deg, shipped.alpha_deg, return_indices=True)
+        assert both.size >= alpha.size - 2
+        assert_allclose(found.cl[mine], shipped.cl[theirs], atol=0.01)
+        assert_allclose(found.cd[mine], shipped.cd[theirs], rtol=0.03)
+        assert_allclose(found.cm[mine], shipped.cm[theirs], atol=0.003)
