@@ -14,8 +14,7 @@ from typing import Any
 
 from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible
-from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
-from rotor.study.cluster import ClusterLost, connected, run_chunks
+from rotor.study.chunks import ClusterLost, FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
 from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
 from rotor.study.results import Results, Store, StoreError, read_results, sha256
 from rotor.study.study import check_uncertain

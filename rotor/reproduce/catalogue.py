@@ -10,9 +10,7 @@ from rotor.line_chart import LineChart, Mark, Series
 from rotor.reproduce import (
     actuation,
     aircraft,
-    comparison,
     disk_figures,
-    literature,
     optimum_twist,
     readings,
     sections,
@@ -73,7 +71,7 @@ _CONCEPT = "5 Concept"
 _TODAY = "What the thesis would have found"
 
 ENTRIES: tuple[CatalogueEntry, ...] = (
-    CatalogueEntry("literature", literature.literature, _INTRODUCTION),
+    CatalogueEntry("literature", today.literature, _INTRODUCTION),
     CatalogueEntry("2.3", partial(sections.force_figure, "2.3"), _SECTIONS),
     CatalogueEntry("2.4", sections.figure_2_4, _SECTIONS),
     CatalogueEntry("2.6", disk_figures.figure_2_6, _SECTIONS),
@@ -103,10 +101,12 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
         CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, _of(concept))
         for number, (concept, *_) in optimum_twist.FIGURES.items()
     ),
-    CatalogueEntry("4.11", comparison.figure_4_11, _OPTIMUM),
-    CatalogueEntry("4.12", comparison.figure_4_12, _OPTIMUM, _once(comparison.three_segment_rows, "flight", None)),
-    CatalogueEntry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
-    CatalogueEntry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
+    CatalogueEntry("4.11", optimum_twist.figure_4_11, _OPTIMUM),
+    CatalogueEntry(
+        "4.12", optimum_twist.figure_4_12, _OPTIMUM, _once(optimum_twist.three_segment_rows, "flight", None)
+    ),
+    CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
+    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, _all_and_fixed),
     CatalogueEntry("5.4", actuation.figure_5_4, _CONCEPT),
     CatalogueEntry("5.5", actuation.figure_5_5, _CONCEPT),
     CatalogueEntry("5.7", actuation.figure_5_7, _CONCEPT),

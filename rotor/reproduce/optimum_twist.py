@@ -1,10 +1,31 @@
-"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Our results only."""
+"""Chapter 4: the optimum of each concept over speed (figures 4.1–4.10), and all compared (4.11–4.13, Table 4.1)."""
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
-from rotor.reproduce.report import Curve, PlotPanel, Report, card, table, with_gap
-from rotor.reproduce.runs import CONCEPTS, FULL, VARIANT_TITLES, VARIANTS, ConceptOptimum, Scope, best
+import numpy as np
+
+from rotor.files.make_design import make_design, uh60a_twist
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.search import Search, run_search
+from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
+from rotor.reproduce.runs import (
+    CONCEPTS,
+    FULL,
+    VARIANT_TITLES,
+    VARIANTS,
+    CachedFunction,
+    ConceptOptimum,
+    Scope,
+    best,
+    best_fixed,
+    comparable_kw,
+    variant,
+)
+from rotor.trim.solve import solve
+from rotor.units import KNOT
+from rotor.validation.uh60a import HORSEPOWER_KW, SLOWEST, public_data
 
 SHORT = {
     "thesis": "thesis",
@@ -118,3 +139,162 @@ def _value(one: ConceptOptimum, key: str) -> float:
 
 def _band(one: ConceptOptimum, key: str) -> tuple[float, float]:
     return one.band[one.names.index(key)]
+
+
+def figure_4_11() -> Report:
+    """The flown twist and −16°."""
+    law = uh60a_twist()
+    r = np.linspace(0.2, 1.0, 321)
+    angle = np.degrees(law(r))
+    plain = float(np.polyfit(r, angle, 1)[0])
+    weighted = float(np.polyfit(r, angle, 1, w=r)[0])  # polyfit squares its weights: r² here.
+    return Report(
+        number="4.11",
+        caption="Built-in twist of the UH-60A and its linear approximation.",
+        statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
+        ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
+        "r².",
+        verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
+        because="−16° is its linear equivalent; the often quoted −18° is a nominal value.",
+        tables=(
+            table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, -16.0 * (r - 0.75), strict=True)),
+        ),
+        panels=(
+            PlotPanel(
+                "r/R", "twist, zero at 0.75 R [°]",
+                (curve("UH-60A", r, angle), curve("linear −16°", r, -16.0 * (r - 0.75), "dashed")),
+            ),
+        ),
+        numbers={"unweighted": plain, "weighted": weighted},
+    )  # fmt: skip
+
+
+SpeedRow = tuple[float, float, float, float, str]
+"""µ; main-rotor power of the public curve, of the built-in twist, of the best three segments [kW]; SPEC of these."""
+
+
+@CachedFunction
+def three_segment_rows(name: str, most: int | None = None) -> tuple[SpeedRow, ...]:
+    """The rows of a variant at mass and altitude of the public curve; at most so many, from hover on."""
+    forward = public_data()["forward"]
+    tip_speed = make_design().rotor.tip_speed
+    concept = find_concept("three-segment")
+    rows: list[SpeedRow] = []
+    guess: tuple[tuple[float, ...], ...] = ()
+    for knots, horsepower in zip(forward["speed_kt"], forward["main_rotor_hp"], strict=True):
+        mu = knots * KNOT / tip_speed
+        if 0.0 < mu < SLOWEST or len(rows) == most:
+            continue
+        design = variant(name, twist="uh60a", mu=mu, mass=forward["mass_kg"])
+        design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
+        found = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
+        assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
+        guess = (found.best.parameters,)
+        flown, moved = (solve(one).require().power.main_rotor / 1e3 for one in (design, found.design))
+        rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
+    return tuple(rows)
+
+
+def figure_4_12(most: int | None = None) -> Report:
+    """Three segments and public data."""
+    rows = three_segment_rows("flight", most)
+    savings = [1.0 - moved / flown for _, _, flown, moved, _ in rows]
+    mu, public, flown, moved, _ = zip(*rows, strict=True)
+    curves = (
+        *with_gap("built-in twist", mu, flown, colour=0),
+        *with_gap("three segments, variable", mu, moved, colour=1),
+        *with_gap("public model curve (indicative)", mu, public, "points", colour=7),
+    )
+    return card(
+        "4.12",
+        "Main-rotor power of the flown twist and of the best three-segment blade at each speed (flight preset), beside "
+        "a public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
+        f"Relative to the built-in twist the best three segments save {100 * min(savings):.1f} to "
+        f"{100 * max(savings):.1f} % of main-rotor power.",
+        "The saving is smaller than the difference between model and data, so only differences between our own curves "
+        "are meaningful.",
+        table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
+        (PlotPanel("advance ratio µ", "main-rotor power [kW]", curves),),
+        {"least_saving": min(savings), "largest_saving": max(savings)},
+    )
+
+
+_SAME_BASELINE = (
+    " Two airfoils in the thesis preset: the gain of the second airfoil, found with decks, on top of the two segments "
+    "with polynomials; so every concept has the same baseline."
+)
+
+
+def figure_4_13(scope: Scope = FULL) -> Report:
+    """All concepts side by side."""
+    savings = {
+        (name, concept): [_percent(name, concept, mu, scope) for mu in scope.speeds]
+        for name in VARIANTS
+        for concept in CONCEPTS
+    }
+    panels: list[PlotPanel] = []
+    for name in VARIANTS:
+        curves: list[Curve] = []
+        for k, concept in enumerate(CONCEPTS):
+            curves += with_gap(concept, scope.speeds, savings[name, concept], colour=k)
+        panels.append(
+            PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
+        )
+    gain = {
+        name: max(float(x) for x in np.subtract(savings[name, "three"], savings[name, "linear"])) for name in VARIANTS
+    }
+    return card(
+        "4.13",
+        "Saving of total power by each concept at its optimum for each speed, relative to a fixed linear "
+        f"−16°.{_SAME_BASELINE}",
+        "Three segments save more than one linear twist by at most "
+        + by_name({SHORT[name]: value / 100.0 for name, value in gain.items()}, "{:.2f} %")
+        + ".",
+        "One variable linear twist gives most of the saving of steady twist.",
+        table(
+            "saving_percent",
+            ("variant", "concept", *(f"mu_{mu:g}" for mu in scope.speeds)),
+            [(*key, *row) for key, row in savings.items()],
+        ),
+        tuple(panels),
+        {
+            **{f"{name}_{concept}_largest": max(row) / 100.0 for (name, concept), row in savings.items()},
+            **{f"{name}_three_over_linear": value / 100.0 for name, value in gain.items()},
+        },
+    )
+
+
+def table_4_1(scope: Scope = FULL) -> Report:
+    """Reduction of power, and how much of it a better fixed blade would have had too."""
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    words: list[str] = []
+    for name in VARIANTS:
+        one = best_fixed(name, scope)
+        mean = {
+            concept: sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / len(scope.speeds)
+            for concept in CONCEPTS
+        }
+        saving = {concept: 1.0 - power / one.baseline_kw for concept, power in mean.items()}
+        fixed, moving = 1.0 - one.power_kw / one.baseline_kw, 1.0 - mean["linear"] / one.power_kw
+        rows.append((name, *(100.0 * part for part in saving.values()), one.rate_deg, 100.0 * fixed))
+        numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
+        words.append(
+            f"{SHORT[name]}: variable linear twist saves {100 * saving['linear']:.1f} % of mean power relative to "
+            f"−16°, a fixed {one.rate_deg:.1f}° saves {100 * fixed:.1f} %; the additional saving from variable twist "
+            f"is {100 * moving:.1f} %"
+        )
+    return card(
+        "4.1",
+        "Reduction of total power between a fixed linear −16° and each concept, mean over the speeds; and the part "
+        f"of it that the best fixed linear blade would give (equal time at every speed) [%].{_SAME_BASELINE}",
+        "; ".join(words) + ".",
+        "Part of every saving relative to −16° arises because −16° is not the best fixed blade for these speeds.",
+        table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed [°/R]", "fixed"), rows),
+        numbers=numbers,
+    )
+
+
+def _percent(name: str, concept: str, mu: float, scope: Scope) -> float:
+    baseline = best(name, "linear", mu, scope).baseline_kw
+    return 100.0 * (1.0 - comparable_kw(name, concept, mu, scope) / baseline)

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.reproduce import Agreement, Report
-from rotor.reproduce import comparison as side_by_side
+from rotor.reproduce import optimum_twist as side_by_side
 from rotor.reproduce.optimum_twist import FIGURES, optimum_figure
 from rotor.reproduce.runs import CONCEPTS, QUICK, SC1095_DECKS, VARIANTS, best, comparable_kw, preset_of, variant
 from rotor.trim.solve import solve

@@ -9,10 +9,10 @@ from numpy.testing import assert_allclose
 from rotor.files.make_design import make_design
 from rotor.reproduce import find_entry
 from rotor.reproduce import today as then_and_now
-from rotor.reproduce.literature import gain_of_2_per_rev, mass_for_equal_power
 from rotor.reproduce.page import TALK, write_talk
 from rotor.reproduce.report import PlotPanel
 from rotor.reproduce.runs import QUICK, best
+from rotor.reproduce.today import gain_of_2_per_rev, mass_for_equal_power
 from rotor.reproduce.twist_effect import STRONG, WEAK
 from rotor.trim.solve import solve
 

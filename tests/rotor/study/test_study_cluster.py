@@ -20,8 +20,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor.assets import package_version
-from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
-from rotor.study.cluster import connected, run_chunks
+from rotor.study.chunks import FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
 from rotor.study.results import Results, read_results
 from rotor.study.study_file import read_study
 
@@ -267,7 +266,7 @@ def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
 
 _PARENT = """
 import os, signal
-from rotor.study.cluster import connected
+from rotor.study.chunks import connected
 if __name__ == "__main__":
     with connected(None, 2) as client:
         print(*client.run(os.getpid).values(), flush=True)
