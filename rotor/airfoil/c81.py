@@ -48,7 +48,7 @@ class _Cards:
         self.lines = [line.rstrip() for line in text.splitlines()]
         self.at = 0
 
-    def take(self) -> str:
+    def next_card(self) -> str:
         if self.at >= len(self.lines):
             raise ValueError(f"{self.name} ends after line {self.at}: a card is missing, compare the counts in line 1")
         self.at += 1
@@ -72,7 +72,7 @@ class _Cards:
         angle = 0.0
         first = True
         while len(values) < count:
-            card = self.take()
+            card = self.next_card()
             head, body = card[:_FIELD], card[_FIELD:]
             if first and with_angle:
                 angle = self.number(head)
@@ -106,7 +106,7 @@ def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
 def parse_c81(text: str, name: str = "deck") -> C81Deck:
     """The deck in `text`. Raises ValueError with one sentence that gives the line of `name` and the remedy."""
     cards = _Cards(name, text)
-    head = cards.take().ljust(42)
+    head = cards.next_card().ljust(42)
     counts: list[int] = []
     for k in range(6):
         field = head[30 + 2 * k : 32 + 2 * k]

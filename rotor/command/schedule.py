@@ -68,12 +68,12 @@ def run(args: argparse.Namespace) -> int:
     total = len(plan.concepts) * (len(plan.conditions) + 1)
     with interruptible() as stop, bar(total - len(found), " optima") as advance:
 
-        def take(cell: Cell) -> None:
+        def add(cell: Cell) -> None:
             if keep is not None:
                 keep(cell)
             advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
 
-        schedule = run_plan(plan, found, take, stop, processes if total - len(found) > 2 else 1)
+        schedule = run_plan(plan, found, add, stop, processes if total - len(found) > 2 else 1)
         stopped = stop()
     if args.csv:
         _write(args.csv, schedule)
@@ -119,7 +119,7 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 def record(schedule: Schedule) -> dict[str, Any]:
     """The JSON of `schedule --json`; values not found are null."""
     plan = schedule.plan
-    worth = {concept.name: schedule.worth(concept.name) for concept in plan.concepts}
+    gains = {concept.name: schedule.in_flight_gain(concept.name) for concept in plan.concepts}
     return {
         "status": "converged" if schedule.converged else "not-converged" if schedule.complete else "stopped",
         "concepts": [concept.name for concept in plan.concepts],
@@ -147,7 +147,7 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 "gain_w": one.gain,
                 "gain_percent": 100.0 * one.share,
             }
-            for name, one in worth.items()
+            for name, one in gains.items()
         },
     }
 
@@ -177,7 +177,7 @@ def report(schedule: Schedule) -> str:
     lines += ["".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.append("")
     for concept in schedule.plan.concepts:
-        one = schedule.worth(concept.name)
+        one = schedule.in_flight_gain(concept.name)
         if one is not None:
             lines.append(
                 f"{concept.title}: current design {one.baseline / 1e3:.2f} kW, best fixed {one.fixed / 1e3:.2f} kW, "

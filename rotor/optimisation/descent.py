@@ -223,7 +223,7 @@ class Descent:
 
     end: Evaluation | None
     """The best feasible point evaluated; None when there was none, or when the descent leads to a minimum known."""
-    settled: bool
+    converged: bool
     """Whether it converged."""
 
 
@@ -235,9 +235,9 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
         x = model.least(centre.x, reach)
         foreseen = centre.watts - model.watts(x)
         if centre.feasible and foreseen <= TOLERANCE * centre.watts:
-            return Descent(centre, settled=True)
+            return Descent(centre, converged=True)
         if known(x):
-            return Descent(None, settled=True)
+            return Descent(None, converged=True)
         length = float(np.abs(x - centre.x).max())
         if length < _LEAST_REACH:
             break
@@ -248,7 +248,7 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
         elif share > 0.5:
             reach = max(reach, 2.0 * length)
         centre = min(centre, trial, key=lambda one: one.rank)
-    return Descent(centre if centre.feasible else None, settled=centre.feasible and reach < _LEAST_REACH)
+    return Descent(centre if centre.feasible else None, converged=centre.feasible and reach < _LEAST_REACH)
 
 
 _BAND_TOLERANCE = 0.02

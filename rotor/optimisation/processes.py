@@ -27,8 +27,8 @@ class WorkerLost(RuntimeError):
 class Workers:
     """Runs tasks here, or in processes that are started once. A context manager."""
 
-    def __init__(self, processes: int, take: Callable[[Any], None], stop: Stop | None) -> None:
-        self._take, self._stop = take, stop
+    def __init__(self, processes: int, deliver: Callable[[Any], None], stop: Stop | None) -> None:
+        self._deliver, self._stop = deliver, stop
         context = get_context("spawn")
         self._stop_event, self._items = context.Event(), context.Queue()
         self._pool = (
@@ -50,14 +50,14 @@ class Workers:
         if self._pool is None:
             for work, arguments in tasks:
                 for item in work(*arguments, self._stop):
-                    self._take(item)
+                    self._deliver(item)
                 if self._asked():
                     return True
             return False
         try:
             return self._wait({self._pool.submit(_all, work, arguments) for work, arguments in tasks})
         except BrokenProcessPool:
-            self._deliver()
+            self._empty_queue()
             raise WorkerLost(
                 "A worker process was lost, perhaps for lack of memory; results so far are kept: use fewer processes."
             ) from None
@@ -66,20 +66,20 @@ class Workers:
         stopped = False
         while waiting:
             done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-            self._deliver()
+            self._empty_queue()
             for future in done:  # Items still in the queue are part of the result as well.
                 for item in future.result():
-                    self._take(item)
+                    self._deliver(item)
             if not stopped and self._asked():
                 stopped = True
                 self._stop_event.set()
                 waiting = {future for future in waiting if not future.cancel()}
         return stopped
 
-    def _deliver(self) -> None:
+    def _empty_queue(self) -> None:
         with suppress(Empty):
             while True:
-                self._take(self._items.get_nowait())
+                self._deliver(self._items.get_nowait())
 
     def _asked(self) -> bool:
         return self._stop is not None and self._stop()

@@ -107,7 +107,7 @@ class Schedule:
         """Whether every cell is there and was found."""
         return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
 
-    def worth(self, concept: str) -> InFlightGain | None:
+    def in_flight_gain(self, concept: str) -> InFlightGain | None:
         """Gain of in-flight twist; None while an optimum of the concept is missing."""
         fixed = self.at(None, concept)
         if fixed is None or fixed.best is None or fixed.baseline_power is None:
@@ -134,7 +134,7 @@ def run_plan(
     """
     cells = {(cell.condition, cell.concept): cell for cell in found}
 
-    def take(cell: Cell) -> None:
+    def add(cell: Cell) -> None:
         if (cell.condition, cell.concept) not in cells:
             cells[cell.condition, cell.concept] = cell
             if keep is not None:
@@ -143,7 +143,7 @@ def run_plan(
     conditions = range(len(plan.conditions))
     chunks = [tuple(conditions[k : k + CHUNK]) for k in range(0, len(plan.conditions), CHUNK)]
     message = ""
-    with Workers(processes, take, stop) as workers:
+    with Workers(processes, add, stop) as workers:
         try:
             stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
             if not stopped:

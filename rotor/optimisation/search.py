@@ -151,7 +151,7 @@ class _Run:
         descent = descend(self.evaluate, first, known)
         if arrived:
             self.groups[arrived[0]][1].append(start)
-        elif descent.end is not None and descent.settled:
+        elif descent.end is not None and descent.converged:
             self._gather(start, descent.end)
 
     def look_elsewhere(self) -> None:

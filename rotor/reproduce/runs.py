@@ -63,14 +63,14 @@ def compute_ahead(
     waiting = [tuple(call for call in group if call[1] not in call[0].known) for group in groups]
     seen: set[tuple[str, tuple[Any, ...]]] = set()
 
-    def take(answered: tuple[Call, Any]) -> None:
+    def keep(answered: tuple[Call, Any]) -> None:
         (function, args), answer = answered
         function.known[args] = answer
         if advance is not None and (function.name, args) not in seen:
             seen.add((function.name, args))
             advance(str(args[0]))
 
-    with Workers(processes, take, stop) as workers:
+    with Workers(processes, keep, stop) as workers:
         return workers.run([(_work, (group,)) for group in waiting if group])
 
 

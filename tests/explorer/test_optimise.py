@@ -341,7 +341,7 @@ class TestSchedule:
             assert best.best is not None
             assert fixed is not None
             assert best.best.power <= fixed * (1.0 + 1e-6)
-        worth = progress.schedule.worth("linear")
+        worth = progress.schedule.in_flight_gain("linear")
         assert worth is not None
         assert worth.gain >= 0.0
         assert progress.part_done == 1.0

@@ -104,7 +104,7 @@ def table(progress: PlanProgress, units: Units = SI) -> str:
 
 def verdict(progress: PlanProgress, units: Units = SI) -> str:
     """What the best fixed blade saves, and the gain of moving beyond it."""
-    gain = progress.schedule.worth(progress.plan.concepts[0].name)
+    gain = progress.schedule.in_flight_gain(progress.plan.concepts[0].name)
     if gain is None:
         return ""
     saved = gain.baseline - gain.fixed

@@ -57,7 +57,7 @@ def test_a_schedule_is_complete(made: Schedule):
 
 def test_variable_twist_is_never_worse_than_the_best_fixed_blade(made: Schedule):
     for name in NAMES:
-        worth = made.worth(name)
+        worth = made.in_flight_gain(name)
         assert worth is not None
         assert worth.moving <= worth.fixed * (1 + 1e-7) <= worth.baseline * (1 + 1e-7)
         assert_allclose(worth.gain, worth.fixed - worth.moving)
@@ -82,7 +82,7 @@ def test_concepts_with_more_parameters_are_never_worse(made: Schedule):
 
 def test_saving_is_the_mean_by_hours(made: Schedule):
     """Hand calculation with the hours 1, 2, 1."""
-    worth = made.worth("linear")
+    worth = made.in_flight_gain("linear")
     assert worth is not None
     powers = [power(made, condition, "linear") for condition in range(3)]
     assert_allclose(worth.moving, (powers[0] + 2 * powers[1] + powers[2]) / 4, rtol=1e-12)
@@ -90,7 +90,7 @@ def test_saving_is_the_mean_by_hours(made: Schedule):
 
 def test_variable_twist_saves_nothing_with_one_condition():
     alone = run_plan(plan("linear", ratios=(0.2,), hours=(1.0,)))
-    worth = alone.worth("linear")
+    worth = alone.in_flight_gain("linear")
     assert worth is not None
     assert_allclose(worth.gain / worth.fixed, 0.0, atol=2e-6)
 
@@ -129,7 +129,7 @@ def test_results_are_kept_after_a_stop_and_not_computed_again(tmp_path: Path):
     part = run_plan(whole, keep=take, stop=lambda: len(heard) >= 3)
     assert not part.complete
     assert len(part.cells) == len(heard) >= 3
-    assert part.worth("linear") is None
+    assert part.in_flight_gain("linear") is None
     with path.open("a") as file:
         file.write('{"condition": 2, "conc')  # Cut short by a crash.
     found = read_cells(path, whole)
@@ -184,7 +184,7 @@ def test_a_condition_that_cannot_trim_is_reported():
     schedule = run_plan(Plan(design, (CONCEPTS["linear"],), conditions, starts=1))
     assert schedule.complete
     assert not schedule.converged
-    assert schedule.worth("linear") is None
+    assert schedule.in_flight_gain("linear") is None
     bad = schedule.at(1, "linear")
     assert bad is not None
     assert bad.status is SearchStatus.NOT_CONVERGED
@@ -199,7 +199,7 @@ def test_fifteen_conditions_all_concepts_two_processes():
     schedule = run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=2)
     assert schedule.converged
     for name in CONCEPTS:
-        worth = schedule.worth(name)
+        worth = schedule.in_flight_gain(name)
         assert worth is not None
         assert 0.0 <= worth.gain < 0.01 * worth.fixed
         assert math.isfinite(worth.share)
