@@ -91,6 +91,11 @@ class BladeElements:
     cd_mach: Array
     torsion: TwistState | None = None
     """None for a rigid blade."""
+    offset: Array | None = None
+    """Of a blade that bends: how far it lies forward of the shaft, y0 + v. Velocities and forces are then in axes that
+    turn with the hub, not with the slopes of the blade. None for a blade that does not."""
+    bent: Array | None = None
+    """Its slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
 
 
 @dataclass(frozen=True)
@@ -100,20 +105,24 @@ class DiskSums:
     thrust: float
     """C_T along the shaft, eq. (3.12)."""
     drag: float
-    """C_H, aft in the hub plane: Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ)."""
+    """C_H, aft in the hub plane: Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ); F_r of a blade that bends holds its lean."""
     torque: float
-    """C_Q: Σ r F_x."""
+    """C_Q: Σ r F_x, of a blade that bends Σ r F_x + (y0 + v) F_r."""
 
 
 def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     """Thrust, H-force and torque."""
     width = disk.dr / len(disk.psi)
     lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
-    along = along - elements.beta * lift
+    torque = float(disk.r * width @ elements.fx.sum(axis=1))
+    if elements.offset is None:
+        along = along - elements.beta * lift
+    else:
+        torque += float((width @ (elements.offset * elements.fr)).sum())
     return DiskSums(
         thrust=float(lift.sum()),
         drag=float(across @ disk.sin + along @ disk.cos),
-        torque=float(disk.r * width @ elements.fx.sum(axis=1)),
+        torque=torque,
     )
 
 

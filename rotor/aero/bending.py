@@ -1,0 +1,143 @@
+"""The bending of the rotating blade in the trim: coupled flap-lag modes along the blade, harmonics around the disk.
+
+    w = Σ_k W_k(r) q_k(ψ) + precone,    v = Σ_k V_k(r) q_k(ψ)
+
+with modes at a pitch of reference (the built-in twist and a mean collective: what the pitch changes is computed at every
+point, see `rotor.aero.bent_section`). One flap mode takes the place of rigid flapping: its harmonics 0 and 1 are coning
+and first-harmonic flapping. Lengths are over R, forces in units of F = ρπR²(ΩR)²/N_b, one blade's share of C_T.
+
+From L = ½ ∫ m (ẇ² + v̇² + (y0 + v)²) dr − ½ qᵀ K q − ∫ (w'² + v'²) ∫_r^R m v̇ dρ dr, in harmonics, with the air's loads,
+the weight, a damper at the lag hinge and the mass of the swept tip,
+
+    m_k (q_k'' + ν_k² q_k) + Σ_l d_kl q_l' − (∫ E A_k dr)' + ∫ (G_w W_k' + G_v V_k' + M_w W_k'' + M_v V_k'') dr
+        = ∫ (W_k F_z − V_k F_x) dr − g ∫ m W_k dr + y0 ∫ m V_k dr + Σ_j ∫ (w/r)(r W_k' + W_k d²/dψ²) Φ_j dr φ_j
+
+with A_k = ∫_r^R m V_k dρ and y0 = e sin ζ, the distance of the steadily lagged blade's axis from the shaft. The third
+term of L holds the Coriolis forces. ζ is an estimate: what it leaves is in the steady part of the lag mode.
+
+Left out: terms of third order in deflections, chordwise offsets of mass and tension, the drive train, and what the tip's
+mass does to bending through pitch of the root.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from rotor.aero.disk import Disk, element_edges
+from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.dynamics.bending import BendingModes, blade_bending_modes
+from rotor.units import GRAVITY
+
+MODES = 5
+HARMONICS = 8
+"""Highest harmonic of bending, and of the elastic twist with it."""
+REFERENCE_COLLECTIVE = math.radians(8.0)
+"""Pitch at 0.75 R of the modes. Our choice: loads do not depend on it but for the truncation (tested)."""
+_STATIONS = 2001
+
+
+@dataclass(frozen=True, eq=False)
+class BladeBending:
+    """Bending of one blade on its elements; inertia in units of F and R, angles in radians."""
+
+    modes: BendingModes
+    first: int
+    """The mode in the place of rigid flapping."""
+    frequency: Array
+    """ν_k [per rev], (modes,)."""
+    mass: Array
+    """m_k, (modes,)."""
+    shapes: Array
+    """W_k, W_k', W_k'', V_k, V_k', V_k'', (6, modes, elements)."""
+    outboard: Array
+    """A_k, (modes, elements)."""
+    damping: Array
+    """d_kl, (modes, modes)."""
+    load: Array
+    """Of weight and, on a precone, of tension, (modes,)."""
+    in_plane: Array
+    """∫ m V_k dr, (modes,)."""
+    lag_moment: float
+    """∫ m (r − e) dr"""
+    precone: float
+    """[rad]"""
+    share: Array
+    """See `BentData`, as the next two."""
+    coupling: Array
+    reference: Array
+    r: Array
+    """Stations of the integrals below, over R, (stations,)."""
+    strips: Array
+    """m dr there."""
+    along: Array
+    """Shapes there, (6, modes, stations)."""
+    force: float
+    """F [N]"""
+
+
+@lru_cache(maxsize=32)
+def build_bending(rotor: Rotor, disk: Disk, density: float, modes: int = MODES) -> BladeBending:
+    """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
+    blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
+    assert structure is not None
+    hingeless = blade.flap_spring > 0.0
+    root = structure.clamp if hingeless else blade.flap_hinge * radius
+    stations = np.linspace(root, radius, 33)
+    pitch = REFERENCE_COLLECTIVE + rotor.builtin_twist(stations / radius)
+    found = blade_bending_modes(
+        structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, hingeless
+    )
+    force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
+    r = np.linspace(root, radius, _STATIONS)
+    scale, first = _scale(found, radius)
+    lengths = np.array([1.0 / radius, 1.0, radius] * 2)[:, None, None] * scale[:, None]
+    along, shapes = found.at(r) * lengths, found.at(disk.r * radius) * lengths
+    trapezium = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
+    trapezium[[0, -1]] *= 0.5
+    strips = structure.at(r, structure.mass_per_length) * trapezium * (radius * speed**2 / force)
+    flow = np.cumsum((strips * along[3])[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips * along[3]
+    outboard = np.stack([np.interp(disk.r * radius, r, own) for own in flow])
+    frequency, precone = found.frequency / speed, blade.flap_rest if hingeless else 0.0
+    mass = scale**2 * (speed**2 / force / radius)
+    load = -GRAVITY / (radius * speed**2) * (along[0] @ strips)
+    tension = np.interp(r, found.beam.r, found.beam.tension) * trapezium / (force * radius)
+    load -= precone * (along[1] @ tension)
+    load[first] += precone * mass[first] * frequency[first] ** 2
+    damper = structure.lag_damper * found.nodal[:, 0, 3] * scale * (0.0 if hingeless else 1.0)
+    stiffness = 0.5 * (structure.at(disk.r * radius, structure.lag_stiffness) - structure.at(
+        disk.r * radius, structure.flap_stiffness)) / (force * radius**2)  # fmt: skip
+    edge = float(element_edges(disk.dr)[0]) * radius
+    inboard = r < edge
+    turned = 2.0 * (REFERENCE_COLLECTIVE + rotor.builtin_twist(disk.r))
+    return BladeBending(
+        modes=found, first=first, frequency=frequency, mass=mass, shapes=shapes, outboard=outboard,
+        damping=np.outer(damper, damper) / max(structure.lag_damper, 1e-30) * speed / (force * radius), load=load,
+        in_plane=along[3] @ strips, lag_moment=float(strips @ (r - root)) / radius, precone=precone,
+        share=_with_root(along[1, [first]], shapes[1, [first]], inboard, trapezium, disk, radius),
+        coupling=stiffness * _with_root(along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r)),
+                                        inboard, trapezium, disk, radius),
+        reference=np.stack([np.cos(turned), np.sin(turned)]), r=r / radius, strips=strips, along=along, force=force,
+    )  # fmt: skip
+
+
+def _scale(modes: BendingModes, radius: float) -> tuple[Array, int]:
+    """By which modes of one unit of modal mass are multiplied so that they move the tip by R, and the one in the place
+    of rigid flapping, which moves it by R less the hinge."""
+    tip = modes.at([radius])[:, :, 0]
+    flap = modes.flap_share > 0.5
+    first = int(np.flatnonzero(flap)[0])
+    larger = np.where(np.abs(tip[0]) > np.abs(tip[3]), tip[0], tip[3])
+    scale = radius / larger
+    scale[first] = (radius - modes.beam.nodes[0]) / tip[0, first]
+    return scale, first
+
+
+def _with_root(along: Array, shapes: Array, inboard: Array, widths: Array, disk: Disk, radius: float) -> Array:
+    """1, and at the first element by how much more it weighs as it stands for the blade inboard of it, in squares."""
+    out = np.ones(len(disk.r))
+    added = (along[:, inboard] ** 2).sum(axis=0) @ widths[inboard]
+    out[0] += float(added / ((shapes[:, 0] ** 2).sum() * disk.dr[0] * radius))
+    return out
