@@ -13,7 +13,8 @@ the weight, a damper at the lag hinge and the mass of the swept tip,
         = ∫ (W_k F_z − V_k F_x) dr − g ∫ m W_k dr + y0 ∫ m V_k dr + Σ_j ∫ (w/r)(r W_k' + W_k d²/dψ²) Φ_j dr φ_j
 
 with A_k = ∫_r^R m V_k dρ and y0 = e sin ζ, the distance of the steadily lagged blade's axis from the shaft. The third
-term of L holds the Coriolis forces. ζ is an estimate: what it leaves is in the steady part of the lag mode.
+term of L holds the Coriolis forces. y0 is solved for in the place of the lag mode's steady part: so all deflections are
+those from the lagged blade, and small.
 
 Left out: terms of third order in deflections, chordwise offsets of mass and tension, the drive train, and what the tip's
 mass does to bending through pitch of the root.
@@ -46,6 +47,8 @@ class BladeBending:
     modes: BendingModes
     first: int
     """The mode in the place of rigid flapping."""
+    lag: int
+    """The lag mode of an articulated blade, which in its steady part is turned as a whole; −1 of a hingeless one."""
     frequency: Array
     """ν_k [per rev], (modes,)."""
     mass: Array
@@ -53,15 +56,15 @@ class BladeBending:
     shapes: Array
     """W_k, W_k', W_k'', V_k, V_k', V_k'', (6, modes, elements)."""
     outboard: Array
-    """A_k, (modes, elements)."""
+    """A_k, mean over each element, over all of the root in the first, (modes, elements)."""
+    mass_outboard: Array
+    """∫_r^R m dr in the same way, (elements,)."""
     damping: Array
     """d_kl, (modes, modes)."""
     load: Array
     """Of weight and, on a precone, of tension, (modes,)."""
     in_plane: Array
     """∫ m V_k dr, (modes,)."""
-    lag_moment: float
-    """∫ m (r − e) dr"""
     precone: float
     """[rad]"""
     share: Array
@@ -98,8 +101,6 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: int = MODES) 
     trapezium = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
     trapezium[[0, -1]] *= 0.5
     strips = structure.at(r, structure.mass_per_length) * trapezium * (radius * speed**2 / force)
-    flow = np.cumsum((strips * along[3])[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips * along[3]
-    outboard = np.stack([np.interp(disk.r * radius, r, own) for own in flow])
     frequency, precone = found.frequency / speed, blade.flap_rest if hingeless else 0.0
     mass = scale**2 * (speed**2 / force / radius)
     load = -GRAVITY / (radius * speed**2) * (along[0] @ strips)
@@ -109,13 +110,19 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: int = MODES) 
     damper = structure.lag_damper * found.nodal[:, 0, 3] * scale * (0.0 if hingeless else 1.0)
     stiffness = 0.5 * (structure.at(disk.r * radius, structure.lag_stiffness) - structure.at(
         disk.r * radius, structure.flap_stiffness)) / (force * radius**2)  # fmt: skip
-    edge = float(element_edges(disk.dr)[0]) * radius
-    inboard = r < edge
+    edges = element_edges(disk.dr) * radius
+    inboard = r < edges[0]
+    moved = np.concatenate([strips * along[3], strips[None]])
+    beyond = np.cumsum(moved[:, ::-1], axis=1)[:, ::-1] - 0.5 * moved
+    cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, len(disk.r) - 1)
+    square = along[1, first] ** 2 * trapezium
+    means = np.stack([np.bincount(cell, own * square) for own in beyond]) / np.bincount(cell, square)
     turned = 2.0 * (REFERENCE_COLLECTIVE + rotor.builtin_twist(disk.r))
     return BladeBending(
-        modes=found, first=first, frequency=frequency, mass=mass, shapes=shapes, outboard=outboard,
+        modes=found, first=first, lag=-1 if hingeless else int(np.argmin(found.flap_share[:2])), frequency=frequency, mass=mass, shapes=shapes, outboard=means[:-1],
+        mass_outboard=means[-1],
         damping=np.outer(damper, damper) / max(structure.lag_damper, 1e-30) * speed / (force * radius), load=load,
-        in_plane=along[3] @ strips, lag_moment=float(strips @ (r - root)) / radius, precone=precone,
+        in_plane=along[3] @ strips, precone=precone,
         share=_with_root(along[1, [first]], shapes[1, [first]], inboard, trapezium, disk, radius),
         coupling=stiffness * _with_root(along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r)),
                                         inboard, trapezium, disk, radius),

@@ -60,6 +60,18 @@ class TwistState:
 
 
 @dataclass(frozen=True, eq=False)
+class BentState:
+    """A blade that bends."""
+
+    channels: Array
+    """Slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
+    offset: Array
+    """How far it lies forward of the shaft, y0 + v, (elements, azimuths)."""
+    lift: Array
+    """d²w/dψ², (elements, azimuths)."""
+
+
+@dataclass(frozen=True, eq=False)
 class BladeElements:
     """The blade elements at a trim state. Fields are (elements, azimuths), names as in `rotor.aero.section`."""
 
@@ -91,11 +103,8 @@ class BladeElements:
     cd_mach: Array
     torsion: TwistState | None = None
     """None for a rigid blade."""
-    offset: Array | None = None
-    """Of a blade that bends: how far it lies forward of the shaft, y0 + v. Velocities and forces are then in axes that
-    turn with the hub, not with the slopes of the blade. None for a blade that does not."""
-    bent: Array | None = None
-    """Its slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
+    bent: BentState | None = None
+    """Of a blade that bends. Velocities and forces are then in axes that turn with the hub, not with its slopes."""
 
 
 @dataclass(frozen=True)
@@ -115,10 +124,10 @@ def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     width = disk.dr / len(disk.psi)
     lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
     torque = float(disk.r * width @ elements.fx.sum(axis=1))
-    if elements.offset is None:
+    if elements.bent is None:
         along = along - elements.beta * lift
     else:
-        torque += float((width @ (elements.offset * elements.fr)).sum())
+        torque += float((width @ (elements.bent.offset * elements.fr)).sum())
     return DiskSums(
         thrust=float(lift.sum()),
         drag=float(across @ disk.sin + along @ disk.cos),

@@ -135,7 +135,8 @@ def build_problem(design: Design) -> Problem:
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
     structure = rotor.blade.structure
-    if models.bending and models.flapping and not design.hovering and structure is not None and structure.bends:
+    held = structure is not None and structure.bends and (rotor.blade.flap_spring > 0.0 or rotor.blade.flap_hinge > 0.0)
+    if models.bending and models.flapping and not design.hovering and held:
         bending = build_bending(rotor, disk, condition.density, models.bending)
     highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:

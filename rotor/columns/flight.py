@@ -17,7 +17,7 @@ import numpy as np
 
 from rotor.aero.bent_section import SLOPES
 from rotor.aero.disk import Disk
-from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState, TwistState
+from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, TrimState, TwistState
 from rotor.aero.inflow.interface import InflowTerms, SectionInterface, Wake
 from rotor.aero.problem import Problem, in_disk_axes, swirl_of
 from rotor.aero.section import (
@@ -38,8 +38,9 @@ from rotor.aero.section import (
     M,
 )  # fmt: skip
 from rotor.arrays import Array
-from rotor.columns.bending import bends, freedoms_of
+from rotor.columns.bending import freedoms_of
 from rotor.columns.blade import Freedom, add_rigid_blade
+from rotor.columns.coordinates import bends, coordinates_of
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
@@ -304,13 +305,16 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)
         around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
-    offset = bent = None
-    if bends(structure):
-        bent = c[SLOPES[0] :]
+    bent = None
+    if problem.bending is not None:
         offset = c[UR] - flow.flow(x).mu_x * problem.disk.cos
+        q, _ = coordinates_of(problem.bending, structure, point.z)
+        harmonic = (np.arange(q.shape[1]) + 1) // 2
+        lift = problem.bending.shapes[0].T @ (-(harmonic**2) * q) @ wave_grid(q.shape[1], c.shape[2]).at
+        bent = BentState(c[SLOPES[0] :], offset, lift)
     return BladeElements(
         state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
         loss=c[LOSS], rate=c[RATE], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl, fz=f[FZ],
         fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
-        offset=offset, bent=bent,
+        bent=bent,
     )  # fmt: skip

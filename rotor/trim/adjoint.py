@@ -20,11 +20,11 @@ from rotor.aero.problem import Problem
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.columns.bending import bending_work, bends, torque_terms
+from rotor.columns.coordinates import bending_work, bends, torque_terms
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms
-from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
+from rotor.engine.linearise import Measure, Point, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
@@ -122,6 +122,11 @@ class Adjoint:
         )  # fmt: skip
         own = _difference_adjoint(difference)
         return own.by_pitch(own.hover_measure(hovering))[0]
+
+    @property
+    def point(self) -> Point:
+        """The trim's equations there."""
+        return self._own.point
 
     @property
     def power_terms(self) -> Terms:

@@ -135,6 +135,36 @@ class ElasticTwist:
         }
 
 
+@dataclass(frozen=True, eq=False)
+class HubLoads:
+    """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
+
+    per_rev: int
+    """N_b: the lowest harmonic that reaches the hub."""
+    amplitudes: dict[str, float]
+    """At N_b/rev of fx, fy, fz [N] and of the moments mx (advancing side up) and my (nose up) about the hub [N m]."""
+    phases: dict[str, float]
+    """ψ N_b at the largest value [rad], by the same names."""
+    index: float
+    """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
+    band: tuple[float, float] | None
+    """Least and largest index over several models of the wake [%]."""
+    root_force: Array
+    """Of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
+    root_moment: Array
+    """There in flap, positive up, and in lag, positive forward [N m], (2, azimuths)."""
+
+    def record(self) -> dict[str, Any]:
+        """For `solve --json`."""
+        unit = {"f": "n", "m": "nm"}
+        return {
+            "per_rev": self.per_rev,
+            **{f"{name}_{unit[name[0]]}": value for name, value in self.amplitudes.items()},
+            "index_percent": self.index,
+            "band_percent": None if self.band is None else list(self.band),
+        }
+
+
 _RIGID: dict[str, Any] = {
     "elastic_twist_deg": None,
     "torsion_frequencies_per_rev": None,

@@ -1,0 +1,178 @@
+"""Vibratory loads on the hub, what they are summed up to, and their gradient by the pitch along the blade.
+
+The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do (0.5, 0.67 and 1 for aft, side
+and vertical force; moments over the radius), after the intrusion index of S. Crews, Rotorcraft Vibration Criteria, a New
+Perspective (AHS Forum 43, 1987). Both sources are recalled, not looked up.
+
+Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
+frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotor.aero.problem import Problem
+from rotor.aero.section import FR, FX, FZ
+from rotor.arrays import Array
+from rotor.columns.coordinates import coordinates_of
+from rotor.columns.hub_loads import LOADS, has_hub_loads, hub_load_terms
+from rotor.design.design import Design
+from rotor.engine.linearise import Point
+from rotor.engine.terms import Terms
+from rotor.engine.waves import wave_grid
+from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
+from rotor.trim.solution import Caveat, HubLoads, Solution
+from rotor.trim.solve import solve
+from rotor.units import GRAVITY
+
+SLOWEST = 0.2
+"""Advance ratio below which the wake model decides the loads."""
+BAND = ("uniform", "drees", "pitt-peters", "lifting-line")
+"""Inflow models over which the index is stated."""
+_AFT, _SIDE = 0.5, 0.67
+"""Weights of the in-plane forces in the index."""
+
+
+def why_no_hub_loads(design: Design) -> Caveat | None:
+    """Why a design has none, None where it has them."""
+    structure, rotor = design.rotor.blade.structure, design.rotor
+    if structure is None or not structure.bends:
+        sentence = (
+            f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it flaps "
+            "as a rigid blade."
+        )
+    elif not design.models.bending or not design.models.flapping:
+        sentence = "No hub loads: the blade flaps as a rigid blade here; solve with bending."
+    elif not has_hub_loads(rotor.blades):
+        sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
+    elif design.hovering or design.condition.advance_ratio < SLOWEST:
+        sentence = f"No hub loads below µ {SLOWEST:g}: there they are those of the wake model, not of the rotor."
+    else:
+        return None
+    return Caveat("no-hub-loads", sentence)
+
+
+def hub_loads(solution: Solution, *, band: bool = True) -> HubLoads | None:
+    """Of a converged solution; None where `why_no_hub_loads` says why. band: whether to solve with other wakes as well.
+
+    Raises RuntimeError with the solution's sentence when it is not converged.
+    """
+    design = solution.require().design
+    if why_no_hub_loads(design) is not None:
+        return None
+    adjoint = Adjoint(solution)
+    problem, point = adjoint.problem, adjoint.point
+    values = _scaled(problem, _terms(problem, point).value(point.z, point.q))
+    index = 100.0 * _index(design, values)[0]
+    others = _indices(design) if band else []
+    amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
+    force, moment = root_loads(problem, point)
+    return HubLoads(
+        per_rev=design.rotor.blades,
+        amplitudes=dict(zip(LOADS, amplitudes, strict=True)),
+        phases=dict(zip(LOADS, phases, strict=True)),
+        index=index,
+        band=(min([index, *others]), max([index, *others])) if band else None,
+        root_force=force,
+        root_moment=moment,
+    )
+
+
+def _indices(design: Design) -> list[float]:
+    """The index with each wake with which the design trims [%]."""
+    found = list[float]()
+    for name in BAND:
+        if name != design.models.inflow:
+            other = solve(replace(design, models=replace(design.models, inflow=name)))
+            loads = hub_loads(other, band=False) if other.converged else None
+            found += [] if loads is None else [loads.index]
+    return found
+
+
+def _terms(problem: Problem, point: Point) -> Terms:
+    assert problem.bending is not None
+    return hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+
+
+def _scaled(problem: Problem, values: Array) -> Array:
+    """N and N m, cosine and sine of each load, (loads, 2)."""
+    design = problem.design
+    lengths = np.array([1.0] * 3 + [design.rotor.radius] * 2)
+    return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
+
+
+def _index(design: Design, values: Array) -> tuple[float, Array]:
+    """The index, a fraction, and its slopes by the loads, (loads, 2)."""
+    condition, radius = design.condition, design.rotor.radius
+    weight = condition.weight
+    gains = np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius])[:, None] / weight
+    weighted = gains * values
+    force, moment = math.sqrt(float((weighted[:3] ** 2).sum())), math.sqrt(float((weighted[3:] ** 2).sum()))
+    slopes = gains * weighted
+    slopes[:3] /= max(force, 1e-30)
+    slopes[3:] /= max(moment, 1e-30)
+    return force + moment, slopes
+
+
+def hub_load_gradient(solution: Solution) -> PitchGradient:
+    """∂(index)/∂θ(r) [%/rad] of a converged solution with hub loads; trim, bending and inflow follow.
+
+    Raises RuntimeError where there are none, with the reason.
+    """
+    reason = why_no_hub_loads(solution.require().design)
+    if reason is not None:
+        raise RuntimeError(reason.sentence)
+    adjoint = Adjoint(solution)
+    problem, point, design = adjoint.problem, adjoint.point, solution.design
+    terms = _terms(problem, point)
+    slopes = _index(design, _scaled(problem, terms.value(point.z, point.q)))[1]
+    weights = 100.0 * _scaled(problem, np.ones(2 * len(LOADS))) * slopes
+    summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
+    return PitchGradient(problem.disk.r, problem.disk.dr, adjoint.by_pitch(Weights(terms=summed)))
+
+
+def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
+    """Of one blade on its hinge, or where it is held: force outward, forward and up [N], and moment up in flap and forward
+    in lag [N m]; (3, azimuths) and (2, azimuths).
+
+    Air loads less mass times acceleration, the weight of the blade with them. At a hinge the moments vanish but for that
+    of the damper, up to what the modes leave.
+    """
+    b, disk, forces = problem.bending, problem.disk, point.forces
+    assert b is not None
+    design = problem.design
+    q, offset = coordinates_of(b, point.system.structure, point.z)
+    at = wave_grid(q.shape[1], forces.shape[2]).at
+    q0 = q.copy()
+    q0[b.first, 0] -= b.precone
+    rigid = b.precone * (b.r - b.r[0])
+    w, v = rigid[:, None] + b.along[0].T @ (q0 @ at), offset + b.along[3].T @ (q @ at)
+    slopes = (b.precone + b.along[1].T @ (q0 @ at)) ** 2 + (b.along[4].T @ (q @ at)) ** 2
+    step = b.r[1] - b.r[0]
+    u = -0.5 * step * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
+    up, forward, outward = _rates(w)[1], _rates(v), _rates(u)
+    acceleration = np.stack([
+        outward[1] - (b.r[:, None] + u) - 2.0 * forward[0], forward[1] - v + 2.0 * outward[0], up
+    ])  # fmt: skip
+    weight = design.rotor.radius * design.rotor.angular_speed**2
+    acceleration[2] += GRAVITY / weight
+    air = np.stack([forces[FR], -forces[FX], forces[FZ]])
+    force = np.einsum("i,kij->kj", disk.dr, air)
+    force -= np.einsum("i,kij->kj", b.strips, acceleration)
+    arm, reach = (disk.r - b.r[0]) * disk.dr, (b.r - b.r[0]) * b.strips
+    at_elements = [np.stack([np.interp(disk.r, b.r, column) for column in own.T], axis=1) for own in (w, v - offset)]
+    flap = arm @ air[2] - reach @ acceleration[2] - disk.dr @ (at_elements[0] * air[0]) + b.strips @ (w * acceleration[0])
+    lag = arm @ air[1] - reach @ acceleration[1] - disk.dr @ (at_elements[1] * air[0])
+    lag += b.strips @ ((v - offset) * acceleration[0])
+    return force * b.force, np.stack([flap, lag]) * (b.force * design.rotor.radius)
+
+
+def _rates(field: Array) -> tuple[Array, Array]:
+    """First and second derivative by ψ of a periodic field, (…, azimuths)."""
+    count = field.shape[-1]
+    harmonic = np.fft.rfftfreq(count, 1.0 / count)
+    found = np.fft.rfft(field)
+    first = np.where(2 * harmonic == count, 0.0, 1j * harmonic)
+    return np.fft.irfft(first * found, count), np.fft.irfft(-(harmonic**2) * found, count)
