@@ -105,7 +105,7 @@ class Models:
     """Whether drag is multiplied by the rotor file's factor for the surface of its blades. Off: section data alone."""
     elastic_twist: bool = True
     """Whether the blade twists under its loads. Off: rigid in torsion."""
-    bending: int = 0
+    bending: bool | tuple[int, int] = False
     """Modes in flap and lag of a blade whose stiffness is known; 0: it flaps as a rigid blade."""
     low_speed: LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed

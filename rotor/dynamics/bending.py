@@ -172,16 +172,28 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=32)
 def blade_bending_modes(
-    structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...], count: int,
+    structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...],
+    count: tuple[int, int],
     hingeless: bool,
 ) -> BendingModes:  # fmt: skip
-    """The modes of a blade whose pitch [rad] is linear between stations [m]: (stations, angles)."""
+    """The modes of a blade whose pitch [rad] is linear between stations [m], (stations, angles).
+
+    count: how many of those that move more in flap, and in lag.
+    """
     stations, angles = (np.array(own) for own in pitch)
 
     def at(r: Array) -> Array:
         return np.interp(r, stations, angles)
 
-    return bending_modes(bending_beam(structure, angular_speed, root, at, hingeless=hingeless), count)
+    beam = bending_beam(structure, angular_speed, root, at, hingeless=hingeless)
+    return lowest_by_kind(bending_modes(beam, 4 * max(count)), *count)
+
+
+def lowest_by_kind(modes: BendingModes, flap: int, lag: int) -> BendingModes:
+    """So many of those that move more in flap, and of those that move more in lag."""
+    flaps = modes.flap_share > 0.5
+    chosen = np.sort(np.concatenate([np.flatnonzero(flaps)[:flap], np.flatnonzero(~flaps)[:lag]]))
+    return BendingModes(modes.beam, modes.frequency[chosen], modes.nodal[chosen])
 
 
 def frequencies_by_kind(modes: BendingModes) -> tuple[list[float], list[float]]:
