@@ -40,7 +40,7 @@ from rotor.aero.section import (
 from rotor.arrays import Array
 from rotor.columns.bending import freedoms_of
 from rotor.columns.blade import Freedom, add_rigid_blade
-from rotor.columns.coordinates import bends, coordinates_of
+from rotor.columns.coordinates import bends, coordinates_of, torque_terms
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
@@ -110,7 +110,7 @@ def _structure(key: _StructureKey) -> Structure:
         s.column(channel, name, STEADY, 1.0, ONE)
     for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
         s.measure(FZ, shape, wave)
-    s.measure(FX, "r", STEADY)
+    torque_terms(s)
     return s.finish(free)
 
 
