@@ -188,5 +188,3 @@ def bent(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
     made = _BentSection(inner)
     return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced)
-
-

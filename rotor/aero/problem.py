@@ -136,9 +136,8 @@ def build_problem(design: Design) -> Problem:
     torsion = bending = None
     structure = rotor.blade.structure
     held = structure is not None and structure.bends and (rotor.blade.flap_spring > 0.0 or rotor.blade.flap_hinge > 0.0)
-    modes = MODES if models.bending is True else models.bending
-    if modes and models.flapping and not design.hovering and held:
-        bending = build_bending(rotor, disk, condition.density, modes)
+    if models.bending and models.flapping and not design.hovering and held:
+        bending = build_bending(rotor, disk, condition.density, MODES)
     highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(

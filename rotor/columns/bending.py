@@ -23,6 +23,7 @@ from rotor.engine.waves import STEADY, harmonic_of, rate_of
 FUNCTIONS = 1 + 2 * HARMONICS
 """Waves of bending."""
 
+
 class Bending:
     """The modal coordinates in flap and lag."""
 
@@ -34,7 +35,7 @@ class Bending:
         self.modes, self.first, self.lag = len(b.mass), b.first, b.lag
         self.twists = 0 if torsion is None else len(torsion.gain)
         self._hub = problem.design.rotor.blades, b.modes.beam.hingeless
-        self.key: Hashable = "bending", self.modes, self.first, self.lag, self.twists, self._hub
+        self.key: Hashable = "bending", self.modes, self.first, self.lag, self.twists, self.functions, self._hub
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
         """Of the equations in the head of this file."""

@@ -50,11 +50,15 @@ class HubLoadTerms:
                 about, beside, sign = (SIN, COS, 1.0) if load == "mx" else (COS, SIN, -1.0)
                 self._moment(row, wave, about, beside, sign)
 
-    def _measured(self, row: int, waves: tuple[int, int], force: int, shape: str, factor: float, atom: int = ONE) -> None:
+    def _measured(
+        self, row: int, waves: tuple[int, int], force: int, shape: str, factor: float, atom: int = ONE
+    ) -> None:
         for product, share in times_wave(*waves):
             self.rows.append((row, self._s.measure(force, shape, product), atom, ONE, 2.0 * factor * share))
 
-    def _moving(self, row: int, waves: tuple[int, int], shapes: Array, lever: str, factor: float, atom: int = ONE) -> None:
+    def _moving(
+        self, row: int, waves: tuple[int, int], shapes: Array, lever: str, factor: float, atom: int = ONE
+    ) -> None:
         """factor · atom · Σ_k shapes_k q_k, or minus its second derivative, or minus what both add up to."""
         bending = self._bending
         if bending is None:

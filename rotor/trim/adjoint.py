@@ -246,9 +246,7 @@ def _power_terms(s: Structure) -> Terms:
             (0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0),
         ]
         if bends(s):
-            return Terms.of(
-                rows + [(0, measure, i, j, -share) for share, i, j, measure in bending_work(s)], 1
-            )
+            return Terms.of(rows + [(0, measure, i, j, -share) for share, i, j, measure in bending_work(s)], 1)
         rows += [
             (0, s.measure(FZ, "arm", SIN), s.states["flap_1c"], ONE, 1.0),
             (0, s.measure(FZ, "arm", COS), s.states["flap_1s"], ONE, -1.0),

@@ -13,17 +13,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotor.aero.bending import MODES
+from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
 from rotor.arrays import Array
 from rotor.columns.coordinates import coordinates_of
 from rotor.columns.hub_loads import LOADS, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
+from rotor.dynamics.bending import bending_beam, bending_modes, frequencies_by_kind
+from rotor.dynamics.torsion import blade_modes
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
 from rotor.engine.waves import wave_grid
 from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
-from rotor.trim.solution import Caveat, HubLoads, Solution
+from rotor.trim.solution import BladeFrequencies, Caveat, HubLoads, Solution
 from rotor.trim.solve import solve
 from rotor.units import GRAVITY
 
@@ -43,8 +47,8 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
             f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it flaps "
             "as a rigid blade."
         )
-    elif not design.models.bending or not design.models.flapping:
-        sentence = "No hub loads: the blade flaps as a rigid blade here; solve with bending."
+    elif not design.models.flapping:
+        sentence = "No hub loads: flapping is switched off."
     elif not has_hub_loads(rotor.blades):
         sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
     elif design.hovering or design.condition.advance_ratio < SLOWEST:
@@ -57,11 +61,17 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
 def hub_loads(solution: Solution, *, band: bool = True) -> HubLoads | None:
     """Of a converged solution; None where `why_no_hub_loads` says why. band: whether to solve with other wakes as well.
 
+    A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
     design = solution.require().design
     if why_no_hub_loads(design) is not None:
         return None
+    if not design.models.bending:
+        design = replace(design, models=replace(design.models, bending=True))
+        solution = solve(design, replace(solution.start, factors=None))
+        if not solution.converged:
+            return None
     adjoint = Adjoint(solution)
     problem, point = adjoint.problem, adjoint.point
     values = _scaled(problem, _terms(problem, point).value(point.z, point.q))
@@ -116,6 +126,24 @@ def _index(design: Design, values: Array) -> tuple[float, Array]:
     return force + moment, slopes
 
 
+def blade_frequencies(solution: Solution) -> BladeFrequencies | None:
+    """Of the blade at its mean pitch in the trim; None where its stiffness in bending is not known."""
+    design = solution.design
+    rotor, structure = design.rotor, design.rotor.blade.structure
+    if structure is None or not structure.bends:
+        return None
+    hingeless = rotor.blade.flap_spring > 0.0
+    root = structure.clamp if hingeless else rotor.blade.flap_hinge * rotor.radius
+
+    def pitch(r: Array) -> Array:
+        return solution.controls.collective + design.twist(r / rotor.radius)
+
+    beam = bending_beam(structure, rotor.angular_speed, root, pitch, hingeless=hingeless)
+    flap, lag = frequencies_by_kind(bending_modes(beam, sum(MODES)))
+    torsion = blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
+    return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
+
+
 def hub_load_gradient(solution: Solution) -> PitchGradient:
     """∂(index)/∂θ(r) [%/rad] of a converged solution with hub loads; trim, bending and inflow follow.
 
@@ -124,6 +152,8 @@ def hub_load_gradient(solution: Solution) -> PitchGradient:
     reason = why_no_hub_loads(solution.require().design)
     if reason is not None:
         raise RuntimeError(reason.sentence)
+    if not solution.design.models.bending:
+        raise RuntimeError("The blades do not bend in this solution: solve the design with bending first.")
     adjoint = Adjoint(solution)
     problem, point, design = adjoint.problem, adjoint.point, solution.design
     terms = _terms(problem, point)
@@ -163,7 +193,9 @@ def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
     force -= np.einsum("i,kij->kj", b.strips, acceleration)
     arm, reach = (disk.r - b.r[0]) * disk.dr, (b.r - b.r[0]) * b.strips
     at_elements = [np.stack([np.interp(disk.r, b.r, column) for column in own.T], axis=1) for own in (w, v - offset)]
-    flap = arm @ air[2] - reach @ acceleration[2] - disk.dr @ (at_elements[0] * air[0]) + b.strips @ (w * acceleration[0])
+    flap = (
+        arm @ air[2] - reach @ acceleration[2] - disk.dr @ (at_elements[0] * air[0]) + b.strips @ (w * acceleration[0])
+    )
     lag = arm @ air[1] - reach @ acceleration[1] - disk.dr @ (at_elements[1] * air[0])
     lag += b.strips @ ((v - offset) * acceleration[0])
     return force * b.force, np.stack([flap, lag]) * (b.force * design.rotor.radius)

@@ -8,6 +8,7 @@ import json
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
@@ -133,6 +134,15 @@ class ElasticTwist:
             "pitch_link_load_n": {"mean": float(load.mean()), "amplitude": 0.5 * float(np.ptp(load))},
             "control_power_w": self.control_power,
         }
+
+
+@dataclass(frozen=True)
+class BladeFrequencies:
+    """Natural frequencies of the rotating blade [per rev], by what moves most."""
+
+    flap: tuple[float, ...]
+    lag: tuple[float, ...]
+    torsion: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,6 +294,23 @@ class Solution:
                 "The power of the last iterate is in last_power."
             )
         return self.last_power
+
+    @cached_property
+    def hub_loads(self) -> HubLoads | None:
+        """Vibratory loads on the hub, of blades that bend, with their band over wakes; None where there are none.
+
+        Computed when asked for, in some tenths of a second. RuntimeError when the solution did not converge.
+        """
+        from rotor.trim.hub_loads import hub_loads  # It solves with other wakes, which gives solutions.
+
+        return hub_loads(self)
+
+    @cached_property
+    def blade_frequencies(self) -> BladeFrequencies | None:
+        """Of the blade at its pitch in the trim; None where its stiffness in bending is not known."""
+        from rotor.trim.hub_loads import blade_frequencies
+
+        return blade_frequencies(self)
 
     @property
     def ct_over_sigma(self) -> float:

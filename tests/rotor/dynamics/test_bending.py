@@ -43,7 +43,7 @@ def test_uniform_rotating_cantilever(speed: float) -> None:
 def test_lag_follows_from_flap_by_southwell() -> None:
     """In lag the same beam has ω² less by Ω², exactly: the centrifugal force turns with the blade."""
     beam = bending_beam(_uniform(1.0, 1.0), 6.0, 0.0, _flat, hingeless=True)
-    found = np.sort(bending_modes(beam, 4).frequency**2)
+    found = np.sort(bending_modes(beam, 4).frequency ** 2)
     flap = np.array(WRIGHT[6.0][:2]) ** 2
     assert_allclose(found, np.sort([*flap, *(flap - 36.0)]), rtol=3e-4)
 
@@ -82,9 +82,7 @@ def test_uh60a_frequencies() -> None:
     def pitch(r: Array) -> Array:
         return math.radians(10.0) + design.twist(r / radius)
 
-    beam = bending_beam(
-        blade.structure, design.rotor.angular_speed, blade.flap_hinge * radius, pitch, hingeless=False
-    )
+    beam = bending_beam(blade.structure, design.rotor.angular_speed, blade.flap_hinge * radius, pitch, hingeless=False)
     flap, lag = frequencies_by_kind(bending_modes(beam, 5))
     assert_allclose(flap[:2], [1.035, 2.81], rtol=0.02)
     assert_allclose(lag[0], 0.27, atol=0.005)
