@@ -2,9 +2,9 @@
 
     w = Σ_k W_k(r) q_k(ψ) + precone,    v = Σ_k V_k(r) q_k(ψ)
 
-with modes at a pitch of reference (the built-in twist and a mean collective: what the pitch changes is computed at every
-point, see `rotor.aero.bent_section`). One flap mode takes the place of rigid flapping: its harmonics 0 and 1 are coning
-and first-harmonic flapping. Lengths are over R, forces in units of F = ρπR²(ΩR)²/N_b, one blade's share of C_T.
+with modes at a pitch of reference (the built-in twist and a mean collective: what the pitch changes is computed at
+every point, see `rotor.aero.bent_section`). One flap mode takes the place of rigid flapping: its harmonics 0 and 1 are
+coning and first-harmonic flapping. Lengths are over R, forces in units of F = ρπR²(ΩR)²/N_b, one blade's share of C_T.
 
 From L = ½ ∫ m (ẇ² + v̇² + (y0 + v)²) dr − ½ qᵀ K q − ∫ (w'² + v'²) ∫_r^R m v̇ dρ dr, in harmonics, with the air's loads,
 the weight, a damper at the lag hinge and the mass of the swept tip,
@@ -13,11 +13,11 @@ the weight, a damper at the lag hinge and the mass of the swept tip,
         = ∫ (W_k F_z − V_k F_x) dr − g ∫ m W_k dr + y0 ∫ m V_k dr + Σ_j ∫ (w/r)(r W_k' + W_k d²/dψ²) Φ_j dr φ_j
 
 with A_k = ∫_r^R m V_k dρ and y0 = e sin ζ, the distance of the steadily lagged blade's axis from the shaft. The third
-term of L holds the Coriolis forces. y0 is solved for in the place of the lag mode's steady part: so all deflections are
-those from the lagged blade, and small.
+term of L holds the Coriolis forces. y0 is solved for in the place of the lag mode's steady part: so all deflections
+are those from the lagged blade, and small.
 
-Left out: terms of third order in deflections, chordwise offsets of mass and tension, the drive train, and what the tip's
-mass does to bending through pitch of the root.
+Left out: terms of third order in deflections, chordwise offsets of mass and tension, the drive train, and what the
+tip's mass does to bending through pitch of the root.
 """
 
 import math
@@ -96,57 +96,75 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
         structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, hingeless
     )
     force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
-    r = np.linspace(root, radius, _STATIONS)
     scale, first = _scale(found, radius)
     lengths = np.array([1.0 / radius, 1.0, radius] * 2)[:, None, None] * scale[:, None]
+    r = np.linspace(root, radius, _STATIONS)
     along, shapes = found.at(r) * lengths, found.at(disk.r * radius) * lengths
-    trapezium = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
-    trapezium[[0, -1]] *= 0.5
-    strips = structure.at(r, structure.mass_per_length) * trapezium * (radius * speed**2 / force)
+    widths = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
+    widths[[0, -1]] *= 0.5
+    strips = structure.at(r, structure.mass_per_length) * widths * (radius * speed**2 / force)
     frequency, precone = found.frequency / speed, blade.flap_rest if hingeless else 0.0
     mass = scale**2 * (speed**2 / force / radius)
-    load = -GRAVITY / (radius * speed**2) * (along[0] @ strips)
-    tension = np.interp(r, found.beam.r, found.beam.tension) * trapezium / (force * radius)
-    load -= precone * (along[1] @ tension)
+    tension = np.interp(r, found.beam.r, found.beam.tension) * widths / (force * radius)
+    load = -GRAVITY / (radius * speed**2) * (along[0] @ strips) - precone * (along[1] @ tension)
     load[first] += precone * mass[first] * frequency[first] ** 2
-    damper = structure.lag_damper * found.nodal[:, 0, 3] * scale * (0.0 if hingeless else 1.0)
-    stiffness = 0.5 * (structure.at(disk.r * radius, structure.lag_stiffness) - structure.at(
-        disk.r * radius, structure.flap_stiffness)) / (force * radius**2)  # fmt: skip
+    slope = found.nodal[:, 0, 3] * scale * (0.0 if hingeless else 1.0)
+    lag, flap = (structure.at(disk.r * radius, own) for own in (structure.lag_stiffness, structure.flap_stiffness))
     edges = element_edges(disk.dr) * radius
-    inboard = r < edges[0]
-    moved = np.concatenate([strips * along[3], strips[None]])
-    beyond = np.cumsum(moved[:, ::-1], axis=1)[:, ::-1] - 0.5 * moved
-    cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, len(disk.r) - 1)
-    square = along[1, first] ** 2 * trapezium
-    means = np.stack([np.bincount(cell, own * square) for own in beyond]) / np.bincount(cell, square)
+    outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
+    bent = along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r))
     turned = 2.0 * (REFERENCE_COLLECTIVE + rotor.builtin_twist(disk.r))
     return BladeBending(
-        modes=found, first=first, lag=-1 if hingeless else int(np.argmin(found.flap_share[:2])), frequency=frequency, mass=mass, shapes=shapes, outboard=means[:-1],
-        mass_outboard=means[-1],
-        damping=np.outer(damper, damper) / max(structure.lag_damper, 1e-30) * speed / (force * radius), load=load,
-        in_plane=along[3] @ strips, precone=precone,
-        share=_with_root(along[1, [first]], shapes[1, [first]], inboard, trapezium, disk, radius),
-        coupling=stiffness * _with_root(along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r)),
-                                        inboard, trapezium, disk, radius),
-        reference=np.stack([np.cos(turned), np.sin(turned)]), r=r / radius, strips=strips, along=along, force=force,
-    )  # fmt: skip
+        modes=found,
+        first=first,
+        lag=-1 if hingeless else int(np.argmin(found.flap_share[:2])),
+        frequency=frequency,
+        mass=mass,
+        shapes=shapes,
+        outboard=outboard[:-1],
+        mass_outboard=outboard[-1],
+        damping=np.outer(slope, slope) * (structure.lag_damper * speed / (force * radius)),
+        load=load,
+        in_plane=along[3] @ strips,
+        precone=precone,
+        share=_with_root(along[1, [first]], shapes[1, [first]], widths * (r < edges[0]), edges[1] - edges[0]),
+        coupling=0.5
+        * (lag - flap)
+        / (force * radius**2)
+        * _with_root(*bent, widths * (r < edges[0]), edges[1] - edges[0]),
+        reference=np.stack([np.cos(turned), np.sin(turned)]),
+        r=r / radius,
+        strips=strips,
+        along=along,
+        force=force,
+    )
 
 
 def _scale(modes: BendingModes, radius: float) -> tuple[Array, int]:
-    """By which modes of one unit of modal mass are multiplied so that they move the tip by R, and the one in the place
-    of rigid flapping, which moves it by R less the hinge."""
+    """By which modes of one unit of modal mass are multiplied, so that they move the tip by R, and the flap mode in the
+    place of rigid flapping, which moves it by R less the hinge; and its number."""
     tip = modes.at([radius])[:, :, 0]
-    flap = modes.flap_share > 0.5
-    first = int(np.flatnonzero(flap)[0])
-    larger = np.where(np.abs(tip[0]) > np.abs(tip[3]), tip[0], tip[3])
-    scale = radius / larger
+    first = int(np.flatnonzero(modes.flap_share > 0.5)[0])
+    scale = radius / np.take_along_axis(tip[[0, 3]], np.argmax(np.abs(tip[[0, 3]]), axis=0)[None], axis=0)[0]
     scale[first] = (radius - modes.beam.nodes[0]) / tip[0, first]
     return scale, first
 
 
-def _with_root(along: Array, shapes: Array, inboard: Array, widths: Array, disk: Disk, radius: float) -> Array:
-    """1, and at the first element by how much more it weighs as it stands for the blade inboard of it, in squares."""
-    out = np.ones(len(disk.r))
-    added = (along[:, inboard] ** 2).sum(axis=0) @ widths[inboard]
-    out[0] += float(added / ((shapes[:, 0] ** 2).sum() * disk.dr[0] * radius))
+def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
+    """Sums of strips outboard, mean over each element by weights, over all of the root too in the first.
+
+    strips: (rows, stations), weights: (stations,) → (rows, elements).
+    """
+    sums = np.cumsum(strips[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips
+    cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, len(edges) - 2)
+    return np.stack([np.bincount(cell, own * weights) for own in sums]) / np.bincount(cell, weights)
+
+
+def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Array:
+    """1, and at the first element by how much more it weighs as it stands for the blade inboard of it, in squares.
+
+    along: (shapes, stations), shapes: (shapes, elements); inboard: widths of the stations there, 0 elsewhere.
+    """
+    out = np.ones(shapes.shape[1])
+    out[0] += float((along**2).sum(axis=0) @ inboard) / (float((shapes[:, 0] ** 2).sum()) * width)
     return out

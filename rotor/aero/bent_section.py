@@ -1,15 +1,15 @@
 """The section of a blade that bends: velocities turned into its axes, forces turned back, and the coupling of bending
 with pitch; with partial derivatives.
 
-Channels are then relative to axes that turn with the hub, along the undeformed blade. At slopes w' (up) and v' (forward)
+Channels are then relative to axes that turn with the hub, along the undeformed blade. At slopes w' up and v' forward
 
     U_T' = U_T + v' U_R,    U_P' = U_P + w' U_R − w' v' U_T,    U_R' = U_R − v' U_T − w' U_P
 
-and forces go back by the transposed matrix, F_x U_T − F_z U_P + F_r U_R being the same in both: so the lift of a blade
-that slopes up leans inboard, F_r = … − w' F_z, and no energy is lost.
+and forces go back by the transposed matrix, F_x U_T − F_z U_P + F_r U_R being the same in both: so the lift of a
+blade that slopes up leans inboard, F_r = … − w' F_z, and no energy is lost.
 
-Bending has its stiffness at a pitch of reference θ0 in the equations' own numbers; what the pitch θ changes is here. With
-the curvatures κ and b = ½ (EI_l − EI_f), from the energy ½ (EI_f κ_flap² + EI_l κ_lag²) along turned axes,
+Bending has its stiffness at a pitch of reference θ0 in the equations' own numbers; what the pitch θ changes is here.
+With the curvatures κ and b = ½ (EI_l − EI_f), from the energy ½ (EI_f κ_flap² + EI_l κ_lag²) along turned axes,
 
     M_w = b (κ_v Δsin 2θ − κ_w Δcos 2θ),    M_v = b (κ_w Δsin 2θ + κ_v Δcos 2θ),    Δ: at θ less at θ0
     M   = … − b [(κ_w² − κ_v²) sin 2θ + 2 κ_w κ_v cos 2θ]

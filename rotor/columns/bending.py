@@ -1,8 +1,10 @@
-"""Bending of the blade as columns and equations; symbols, and what the section makes of them, as in `rotor.aero.bending`
-and `rotor.aero.bent_section`. For every mode k and wave h, with f = 1 (h = 0) or 2 and g_k an inverse stiffness,
+"""Bending of the blade as columns and equations; symbols as in `rotor.aero.bending` and `rotor.aero.bent_section`.
 
-    g_k [m_k (ν_k² − h²) q_kh + Σ_l d_kl (q_l')_h + f (mean of w_h' E A_k + w_h (G_w W_k' + G_v V_k' + M_w W_k'' + M_v V_k''))]
-        = g_k [f · mean of w_h (W_k F_z − V_k F_x) + load_k (h = 0) + Σ_j c_jk φ_jh]
+For every mode k and wave h, with f = 1 (h = 0) or 2 and g_k an inverse stiffness,
+
+    g_k [m_k (ν_k² − h²) q_kh + Σ_l d_kl (q_l')_h
+         + f · mean of w_h' E A_k + w_h (G_w W_k' + G_v V_k' + M_w W_k'' + M_v V_k'')]
+      = g_k [f · mean of w_h (W_k F_z − V_k F_x) + load_k (h = 0) + Σ_j c_jk φ_jh]
 """
 
 from collections.abc import Hashable
@@ -70,7 +72,7 @@ class Bending:
         return out
 
     def declare(self, s: Structure) -> None:
-        """The coordinates but for coning and first-harmonic flapping, which are the trim's; y0 for that of steady lag."""
+        """The coordinates but for coning and first-harmonic flapping, which are the trim's; y0 for steady lag."""
         for k in range(self.modes):
             for h in range(self.functions):
                 if k == self.lag and h == STEADY:
@@ -81,8 +83,9 @@ class Bending:
     def build(self, s: Structure) -> list[int]:
         """Columns of slopes, curvatures and velocities; equations of bending, and what they add to those of torsion."""
         n, slot = s.numbers, {channel: s.channels + channel for channel in SLOPES}
-        for channel, name in ((SW, "precone slope"), (KW, "precone curvature"), (KV, "precone lag curvature")):
-            s.column(slot[channel], name, STEADY, 1.0, n["precone"])
+        for channel, name in ((SW, "W'"), (SV, "V'"), (KW, "W''"), (KV, "V''")):
+            s.column(slot[channel], ("precone", name), STEADY, 1.0, n["precone"])
+        s.column(UR, ("precone", "V"), STEADY, 1.0, n["precone"])
         free = list[int]()
         for k in range(self.modes):
             for h in range(self.functions):
@@ -144,15 +147,13 @@ class Bending:
         """Of modes and precone."""
         b = problem.bending
         assert b is not None
-        out: dict[Shape, Array] = {
-            "precone slope": 1.0 - b.shapes[1, b.first],
-            "precone curvature": -b.shapes[2, b.first],
-            "precone lag curvature": -b.shapes[5, b.first],
-            OUTBOARD: b.mass_outboard,
-        }
+        out: dict[Shape, Array] = {OUTBOARD: b.mass_outboard}
+        names = ("W", "W'", "W''", "V", "V'", "V''")
+        for name, own in zip(names, b.shapes[:, b.first], strict=True):  # The rigid cone, in place of that of the mode.
+            out["precone", name] = (1.0 if name == "W'" else 0.0) - own
         for k in range(self.modes):
             out["outboard", k] = b.outboard[k]
-            for name, own in zip(("W", "W'", "W''", "V", "V'", "V''"), b.shapes[:, k], strict=True):
+            for name, own in zip(names, b.shapes[:, k], strict=True):
                 out[name, k] = own
         return out
 

@@ -1,6 +1,7 @@
 """Coordinates of bending among the states of a structure, and sums of them with measures."""
 
 from collections.abc import Hashable
+from typing import cast
 
 import numpy as np
 
@@ -19,7 +20,7 @@ coordinate of the lag mode of an articulated blade."""
 
 def bends(s: Structure) -> bool:
     """Whether a structure has bending."""
-    return any(isinstance(name, tuple) and name[0] == "bend" for name in s.states)
+    return ("bend", 0, 1) in s.states or ("bend", 1, 1) in s.states
 
 
 def coordinate(s: Structure, first: int, k: int, h: int) -> int:
@@ -40,6 +41,7 @@ def torque_terms(s: Structure) -> list[tuple[float, int, int, int]]:
     """C_Q = Σ r F_x + (y0 + v) F_r, as factor · z_i z_j Q: (factor, z_i, z_j, measure)."""
     terms = [(1.0, ONE, ONE, s.measure(FX, "r", STEADY))]
     if bends(s):
+        terms.append((1.0, s.numbers["precone"], ONE, s.measure(FR, ("precone", "V"), STEADY)))
         if OFFSET in s.states:
             terms.append((1.0, s.states[OFFSET], ONE, s.measure(FR, "one", STEADY)))
         terms += [(1.0, atom, ONE, s.measure(FR, ("V", k), h)) for k, h, atom in _all(s)]
@@ -61,8 +63,10 @@ def _all(s: Structure) -> list[tuple[int, int, int]]:
     """Mode, wave and atom of all coordinates."""
     own = list[tuple[int, int, int]]()
     for name, atom in s.states.items():
-        if isinstance(name, tuple) and name[0] == "bend" and name != OFFSET:
-            own.append((name[1], name[2], atom))
+        if isinstance(name, tuple) and name != OFFSET:
+            kind, k, h = cast(tuple[str, int, int], name)
+            if kind == "bend":
+                own.append((k, h, atom))
     present = {(k, h) for k, h, _ in own}
     first = next(k for k, _, _ in own if (k, 1) not in present)
     return [(first, h, s.states[name]) for h, name in enumerate(FLAPPING_STATES)] + own

@@ -44,7 +44,7 @@ from rotor.columns.coordinates import bends, coordinates_of, torque_terms
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
-from rotor.engine.waves import COS, SIN, STEADY, wave_grid
+from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, wave_grid
 
 LEAST_AZIMUTHS = 40
 """Azimuths on which derivatives are evaluated, and first steps made: the power of a trim on 40 agrees with that on 120
@@ -309,8 +309,8 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     if problem.bending is not None:
         offset = c[UR] - flow.flow(x).mu_x * problem.disk.cos
         q, _ = coordinates_of(problem.bending, structure, point.z)
-        harmonic = (np.arange(q.shape[1]) + 1) // 2
-        lift = problem.bending.shapes[0].T @ (-(harmonic**2) * q) @ wave_grid(q.shape[1], c.shape[2]).at
+        modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
+        lift = modes @ wave_grid(q.shape[1], c.shape[2]).at
         bent = BentState(c[SLOPES[0] :], offset, lift)
     return BladeElements(
         state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],

@@ -34,7 +34,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--bending",
         action="store_true",
-        help="blades bend in flap and lag where the rotor file has their stiffness; the report then has the loads on the hub",
+        help="blades bend in flap and lag where the rotor file has their stiffness; the report then has hub loads",
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
@@ -145,7 +145,9 @@ def report(solution: Solution) -> str:
             f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
             f"stalled {100 * solution.stalled_area:.1f} %"
         ]
-    if design.models.bending and solution.converged and (loads := solution.hub_loads) is not None:
+    if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
+        lines.append(f"caveat: {reason.sentence}")
+    elif design.models.bending and solution.converged and (loads := solution.hub_loads) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [
             f"hub loads at {loads.per_rev}/rev: "

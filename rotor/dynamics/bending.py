@@ -10,7 +10,7 @@ Source: Houbolt & Brooks, NACA TR 1346 (1958), without torsion, chordwise offset
 root w = v = 0 and the slopes are free; at a hingeless one they vanish too. The axis is that of the steadily lagged
 blade: a hinge at e holds it at a distance y0 = e sin ζ from the shaft, which shortens the arm r by e (1 − cos ζ) only.
 
-Finite elements with cubic (Hermite) polynomials; integrals by Gauss' rule, exact where stiffness and pitch are constant.
+Finite elements with cubic (Hermite) polynomials; integrals by Gauss' rule.
 """
 
 from collections.abc import Callable
@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 from rotor.design.structure import BladeStructure
 
 ELEMENTS = 40
@@ -84,9 +84,9 @@ def bending_beam(
     )
 
 
-def _polynomials(nodes: Array, r: Array) -> tuple[Array, Array]:
+def _polynomials(nodes: Array, r: Array) -> tuple[Integers, Array]:
     """Number of the element of each station, and its four polynomials with two derivatives, (stations, 3, 4)."""
-    element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2)
+    element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
     length = np.diff(nodes)[element]
     s = (r - nodes[element]) / length
     one, o = np.ones_like(s), length
@@ -110,8 +110,8 @@ class BendingModes:
         """w, w', w'', v, v', v'' at r [m], (6, modes, stations); zero inboard of the root."""
         radii = np.asarray(r, dtype=float)
         element, basis = _polynomials(self.beam.nodes, radii)
-        ends = np.concatenate([self.nodal[:, element], self.nodal[:, element + 1]], axis=2)  # (modes, stations, 8)
-        flap, lag = ends[:, :, [0, 1, 4, 5]], ends[:, :, [2, 3, 6, 7]]
+        ends = np.concatenate([np.take(self.nodal, element + k, axis=1) for k in range(2)], axis=2)
+        flap, lag = ends[:, :, [0, 1, 4, 5]], ends[:, :, [2, 3, 6, 7]]  # Of both ends, (modes, stations, 4) each.
         out = np.stack([np.einsum("kn,mkn->mk", basis[:, d], own) for own in (flap, lag) for d in range(3)])
         return out * (radii >= self.beam.nodes[0])
 

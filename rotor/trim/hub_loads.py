@@ -1,19 +1,19 @@
 """Vibratory loads on the hub, what they are summed up to, and their gradient by the pitch along the blade.
 
-The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do (0.5, 0.67 and 1 for aft, side
-and vertical force; moments over the radius), after the intrusion index of S. Crews, Rotorcraft Vibration Criteria, a New
-Perspective (AHS Forum 43, 1987). Both sources are recalled, not looked up.
+The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do: 0.5, 0.67 and 1 for aft, side
+and vertical force, moments over the radius. The weights of the forces are those of the intrusion index (S. Crews,
+Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987). Both are recalled, not looked up.
 
 Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
 frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from rotor.aero.bending import MODES
+from rotor.aero.bending import MODES, BladeBending
 from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
@@ -44,8 +44,8 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
     structure, rotor = design.rotor.blade.structure, design.rotor
     if structure is None or not structure.bends:
         sentence = (
-            f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it flaps "
-            "as a rigid blade."
+            f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it "
+            "flaps as a rigid blade."
         )
     elif not design.models.flapping:
         sentence = "No hub loads: flapping is switched off."
@@ -116,7 +116,7 @@ def _scaled(problem: Problem, values: Array) -> Array:
 def _index(design: Design, values: Array) -> tuple[float, Array]:
     """The index, a fraction, and its slopes by the loads, (loads, 2)."""
     condition, radius = design.condition, design.rotor.radius
-    weight = condition.weight
+    weight = condition.weight if condition.stand is None else design.weight_coefficient * design.thrust_unit
     gains = np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius])[:, None] / weight
     weighted = gains * values
     force, moment = math.sqrt(float((weighted[:3] ** 2).sum())), math.sqrt(float((weighted[3:] ** 2).sum()))
@@ -164,47 +164,47 @@ def hub_load_gradient(solution: Solution) -> PitchGradient:
 
 
 def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
-    """Of one blade on its hinge, or where it is held: force outward, forward and up [N], and moment up in flap and forward
-    in lag [N m]; (3, azimuths) and (2, azimuths).
+    """Of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
 
-    Air loads less mass times acceleration, the weight of the blade with them. At a hinge the moments vanish but for that
-    of the damper, up to what the modes leave.
+    (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and forward; at a hinge they vanish but
+    for that of the damper, up to what the modes leave and small angles neglect.
     """
     b, disk, forces = problem.bending, problem.disk, point.forces
     assert b is not None
-    design = problem.design
-    q, offset = coordinates_of(b, point.system.structure, point.z)
-    at = wave_grid(q.shape[1], forces.shape[2]).at
-    q0 = q.copy()
-    q0[b.first, 0] -= b.precone
-    rigid = b.precone * (b.r - b.r[0])
-    w, v = rigid[:, None] + b.along[0].T @ (q0 @ at), offset + b.along[3].T @ (q @ at)
-    slopes = (b.precone + b.along[1].T @ (q0 @ at)) ** 2 + (b.along[4].T @ (q @ at)) ** 2
-    step = b.r[1] - b.r[0]
-    u = -0.5 * step * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
-    up, forward, outward = _rates(w)[1], _rates(v), _rates(u)
-    acceleration = np.stack([
-        outward[1] - (b.r[:, None] + u) - 2.0 * forward[0], forward[1] - v + 2.0 * outward[0], up
-    ])  # fmt: skip
-    weight = design.rotor.radius * design.rotor.angular_speed**2
-    acceleration[2] += GRAVITY / weight
+    rotor = problem.design.rotor
+    u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
+    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(own) for own in (u, v, w))
+    acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
+    acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
     air = np.stack([forces[FR], -forces[FX], forces[FZ]])
-    force = np.einsum("i,kij->kj", disk.dr, air)
-    force -= np.einsum("i,kij->kj", b.strips, acceleration)
-    arm, reach = (disk.r - b.r[0]) * disk.dr, (b.r - b.r[0]) * b.strips
-    at_elements = [np.stack([np.interp(disk.r, b.r, column) for column in own.T], axis=1) for own in (w, v - offset)]
-    flap = (
-        arm @ air[2] - reach @ acceleration[2] - disk.dr @ (at_elements[0] * air[0]) + b.strips @ (w * acceleration[0])
-    )
-    lag = arm @ air[1] - reach @ acceleration[1] - disk.dr @ (at_elements[1] * air[0])
-    lag += b.strips @ ((v - offset) * acceleration[0])
-    return force * b.force, np.stack([flap, lag]) * (b.force * design.rotor.radius)
+    force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
+
+    def moment(along: int, moved: Array) -> Array:
+        """Of the forces along one axis times their distance from the root, less those outward times theirs."""
+        moved = moved - moved[0]
+        columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
+        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
+        return of_air - (b.r - b.r[0]) * b.strips @ acceleration[along] + b.strips @ (moved * acceleration[0])
+
+    return force * b.force, np.stack([moment(2, w), moment(1, v)]) * (b.force * rotor.radius)
+
+
+def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tuple[Array, Array, Array]:
+    """u outward, v forward with the offset y0, and w up over R at the stations of a blade: (stations, azimuths)."""
+    q = q.copy()
+    q[b.first, 0] -= b.precone
+    around = q @ wave_grid(q.shape[1], azimuths).at
+    w = b.precone * (b.r - b.r[0])[:, None] + b.along[0].T @ around
+    v = offset + b.along[3].T @ around
+    slopes = (b.precone + b.along[1].T @ around) ** 2 + (b.along[4].T @ around) ** 2
+    u = -0.5 * (b.r[1] - b.r[0]) * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
+    return u, v, w
 
 
 def _rates(field: Array) -> tuple[Array, Array]:
     """First and second derivative by ψ of a periodic field, (…, azimuths)."""
     count = field.shape[-1]
-    harmonic = np.fft.rfftfreq(count, 1.0 / count)
+    harmonic: Array = np.arange(count // 2 + 1, dtype=float)
     found = np.fft.rfft(field)
-    first = np.where(2 * harmonic == count, 0.0, 1j * harmonic)
+    first = np.where(2.0 * harmonic == count, 0.0, 1j * harmonic)
     return np.fft.irfft(first * found, count), np.fft.irfft(-(harmonic**2) * found, count)

@@ -194,7 +194,7 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
 
 
 def _errors(point: Point, options: SolverOptions) -> tuple[float, float, float]:
-    """Largest residual of the trim equations, of those of torsion and bending, and of the inflow, as `SolverOptions` measures."""
+    """Largest residual of the trim, of torsion and bending, and of the inflow, as `SolverOptions` measures."""
     system, structure = point.system, point.system.structure
     ratio = np.abs(point.residual) / system.tolerance
     elastic = np.concatenate([structure.equations_of(kind) for kind in ("twist", "bend")])
