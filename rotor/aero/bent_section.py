@@ -91,47 +91,48 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data:
     """Partial derivatives of all forces by all channels; rows: those of the section, made: those here, by pair."""
     coupling, reference, share = data
     forces, channels = rows.shape
-    full = np.zeros((forces, channels + 2))
+    full = np.zeros((forces, channels + 2, c.shape[2]))
     for i in range(c.shape[1]):
-        for j in range(c.shape[2]):
-            t, p, r, w, v = c[UT, i, j], c[UP, i, j], c[UR, i, j], c[first, i, j], c[first + 1, i, j]
-            for o in range(forces):
-                for k in range(channels):
-                    full[o, k] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
-                by_t, by_p, by_r = full[o, UT], full[o, UP], full[o, UR]
-                full[o, UT] = by_t - w * v * by_p - v * by_r
-                full[o, UP] = by_p - w * by_r
-                full[o, UR] = v * by_t + w * by_p + by_r
-                full[o, channels] = by_p * (r - v * t) - by_r * p
-                full[o, channels + 1] = by_t * r - by_p * w * t - by_r * t
-            for k in range(channels + 2):
-                z, x, along = full[FZ, k], full[FX, k], full[FR, k]
-                full[FX, k] = x + w * v * z - v * along
-                full[FZ, k] = z + w * along
-                full[FR, k] = along + v * x - w * z
-            z, x, along = f[FZ, i, j], f[FX, i, j], f[FR, i, j]
-            full[FX, channels] += v * z
-            full[FX, channels + 1] += w * z - along
-            full[FZ, channels] += along
-            full[FR, channels] -= z
-            full[FR, channels + 1] += x
-            kw, kv, b, stiff = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j], coupling[i]
+        t, p, r, w, v = c[UT, i], c[UP, i], c[UR, i], c[first, i], c[first + 1, i]
+        stiff, row = coupling[i], made[M, channels + 1] + 1
+        for o in range(forces):
+            for k in range(channels):
+                if rows[o, k] >= 0:
+                    full[o, k] = d[rows[o, k], i]
+                else:
+                    full[o, k] = 0.0
+            for j in range(len(t)):
+                by_t, by_p, by_r = full[o, UT, j], full[o, UP, j], full[o, UR, j]
+                full[o, UT, j] = by_t - w[j] * v[j] * by_p - v[j] * by_r
+                full[o, UP, j] = by_p - w[j] * by_r
+                full[o, UR, j] = v[j] * by_t + w[j] * by_p + by_r
+                full[o, channels, j] = by_p * (r[j] - v[j] * t[j]) - by_r * p[j]
+                full[o, channels + 1, j] = by_t * r[j] - by_p * w[j] * t[j] - by_r * t[j]
+        for k in range(channels + 2):
+            for j in range(len(t)):
+                z, x, along = full[FZ, k, j], full[FX, k, j], full[FR, k, j]
+                full[FX, k, j] = x + w[j] * v[j] * z - v[j] * along
+                full[FZ, k, j] = z + w[j] * along
+                full[FR, k, j] = along + v[j] * x - w[j] * z
+        for j in range(len(t)):
+            full[FX, channels, j] += v[j] * f[FZ, i, j]
+            full[FX, channels + 1, j] += w[j] * f[FZ, i, j] - f[FR, i, j]
+            full[FZ, channels, j] += f[FR, i, j]
+            full[FR, channels, j] -= f[FZ, i, j]
+            full[FR, channels + 1, j] += f[FX, i, j]
+        for j in range(len(t)):
+            kw, kv, b = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
             sine, cosine = of_double_angle(c[TH, i, j])
-            full[M, TH] -= 2.0 * stiff * ((kw * kw - kv * kv) * cosine - 2.0 * kw * kv * sine)
-            for o in range(forces):
-                for k in range(channels + 2):
-                    if made[o, k] >= 0:
-                        out[made[o, k], i, j] = full[o, k]
-            row = made[M, channels + 1] + 1
+            full[M, TH, j] -= 2.0 * stiff * ((kw * kw - kv * kv) * cosine - 2.0 * kw * kv * sine)
             by_w, by_v = 2.0 * stiff * (kw * sine + kv * cosine), 2.0 * stiff * (kw * cosine - kv * sine)
             out[row, i, j] = -by_w  # M by κ_w and κ_v.
             out[row + 1, i, j] = -by_v
-            out[row + 2, i, j] = 2.0 * share[i] * w  # E by w' and v'.
-            out[row + 3, i, j] = 2.0 * share[i] * v
+            out[row + 2, i, j] = 2.0 * share[i] * w[j]  # E by w' and v'.
+            out[row + 3, i, j] = 2.0 * share[i] * v[j]
             out[row + 4, i, j] = 2.0 * share[i] * b  # G_w by w' and B.
-            out[row + 5, i, j] = 2.0 * share[i] * w
+            out[row + 5, i, j] = 2.0 * share[i] * w[j]
             out[row + 6, i, j] = 2.0 * share[i] * b  # G_v by v' and B.
-            out[row + 7, i, j] = 2.0 * share[i] * v
+            out[row + 7, i, j] = 2.0 * share[i] * v[j]
             cosine -= reference[0, i]
             sine -= reference[1, i]
             out[row + 8, i, j] = by_w  # M_w by θ, κ_w and κ_v.
@@ -140,6 +141,10 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data:
             out[row + 11, i, j] = by_v  # M_v by θ, κ_w and κ_v.
             out[row + 12, i, j] = stiff * sine
             out[row + 13, i, j] = stiff * cosine
+        for o in range(forces):
+            for k in range(channels + 2):
+                if made[o, k] >= 0:
+                    out[made[o, k], i] = full[o, k]
 
 
 class _BentSection:

@@ -179,17 +179,19 @@ def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResul
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:
     """(1, numbers, states) of a guess."""
-    state, shape, terms = with_given_values(problem, start.state), problem.given_torsion.shape, problem.inflow_terms
-    elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
+    state, terms = with_given_values(problem, start.state), problem.inflow_terms
+    elastic: Array = np.zeros_like(problem.given_torsion)
+    if start.elastic is not None and len(start.elastic) == len(elastic):  # It may have more waves, or fewer.
+        both = min(elastic.shape[1], start.elastic.shape[1])
+        elastic[:, :both] = start.elastic[:, :both]
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
         inflow = terms.start()
     given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
-    if start.bending is not None and start.bending.size and problem.bending is not None:
-        bends = len(system.structure.states_of("bend"))
-        if len(start.bending) == bends:
-            others[:bends] = start.bending
+    bends = len(system.structure.states_of("bend"))
+    if start.bending is not None and len(start.bending) == bends:
+        others[:bends] = start.bending
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
 
 

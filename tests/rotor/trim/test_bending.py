@@ -70,7 +70,7 @@ def test_jacobian(inflow: str) -> None:
 
 @pytest.mark.parametrize("inflow", [LINEAR, LINE])
 def test_energy(inflow: str) -> None:
-    """Shaft power less its parts is the work of the air on bending, exactly; nearly all of it ends in the lag damper."""
+    """Shaft power less its parts is exactly the work of the air on bending; nearly all of it ends in the lag damper."""
     solution = _solved(0.3, inflow)
     _, point, b = _at(solution)
     watts = solution.design.power_unit
@@ -111,7 +111,11 @@ def test_inertia_is_the_second_derivative_of_the_centre_of_mass() -> None:
     air = np.einsum("i,kij->kj", problem.disk.dr, np.stack([point.forces[FR], -point.forces[FX], point.forces[FZ]]))
     u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), len(psi))
     x, y = b.r[:, None] + u, v
-    centre = b.strips @ (x * np.cos(psi) - y * np.sin(psi)), b.strips @ (x * np.sin(psi) + y * np.cos(psi)), b.strips @ w
+    centre = (
+        b.strips @ (x * np.cos(psi) - y * np.sin(psi)),
+        b.strips @ (x * np.sin(psi) + y * np.cos(psi)),
+        b.strips @ w,
+    )
     gravity = GRAVITY / (problem.design.rotor.radius * problem.design.rotor.angular_speed**2) * b.strips.sum()
     left = air - force
     fixed = (
@@ -188,7 +192,9 @@ def test_solution_has_hub_loads_with_their_band() -> None:
     assert loads.band[0] < 0.6 * loads.index <= loads.index == loads.band[1]
     assert_allclose(frequencies.flap[:2], [1.035, 2.81], rtol=0.02)
     assert_allclose(frequencies.lag[0], 0.27, atol=0.005)
-    assert_allclose(frequencies.torsion[0], 4.97, atol=0.01)  # Fan plots have 4.3 to 4.6: the control stiffness is assumed.
+    assert_allclose(
+        frequencies.torsion[0], 4.97, atol=0.01
+    )  # Fan plots have 4.3 to 4.6: the control stiffness is assumed.
 
 
 class _March:
@@ -205,7 +211,8 @@ class _March:
         around = wave_grid(structure.waves, self.steps)
         rest = self.point.x.copy()
         for name, atom in structure.states.items():
-            if isinstance(name, tuple) and name != ("bend", "offset") or name in ("coning", "flap_1c", "flap_1s"):
+            moves = isinstance(name, tuple) and name != ("bend", "offset")
+            if moves or name in ("coning", "flap_1c", "flap_1s"):
                 rest[atom] = 0.0
         grid = replace(self.point.grid, waves=around, data=p.grid_data(len(p.disk.psi)))
         self.data, self.given = grid.data, evaluate(self.point.system, grid, rest).channels
@@ -228,7 +235,7 @@ class _March:
         x, dx = np.split(state, 2)
         q, phi, dq, dphi = x[:n], x[n:], dx[:n], dx[n:]
         c = self.given[:, :, [k]].copy()
-        w, dw, ddw, v, dv, ddv = (own.T @ q for own in b.shapes)
+        _, dw, ddw, v, dv, ddv = (own.T @ q for own in b.shapes)
         for channel, added in (
             (TH, torsion.radial.T @ phi), (RATE, torsion.radial.T @ dphi), (UP, b.shapes[0].T @ dq),
             (UT, b.shapes[3].T @ dq), (UR, v), (-5, dw), (-4, dv), (-3, ddw), (-2, ddv), (-1, b.outboard.T @ dq),
@@ -325,7 +332,7 @@ def test_more_azimuths() -> None:
 
 @pytest.mark.slow
 def test_trends() -> None:
-    """With a lifting line, as an independent prototype with other wakes has them; linear inflow does not show the last."""
+    """With a lifting line, as an independent prototype with other wakes has them; linear inflow misses the last."""
     flat, much = (_loads(rotor.solve(_design(0.35, LINE, twist=f"linear:{own}"))).index for own in (0, -20))
     assert much > 3.0 * flat
     base = _loads(_solved(0.3, LINE)).index
