@@ -27,9 +27,18 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk, element_edges
+from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.dynamics.bending import BendingModes, blade_bending_modes
+from rotor.design.twist import TwistLaw
+from rotor.dynamics.bending import (
+    BendingModes,
+    bending_beam,
+    bending_modes,
+    blade_bending_modes,
+    frequencies_by_kind,
+)
+from rotor.dynamics.torsion import blade_modes
 from rotor.units import GRAVITY
 
 MODES = 4, 3
@@ -88,8 +97,7 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
     """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
     blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
     assert structure is not None
-    hingeless = blade.flap_spring > 0.0
-    root = structure.clamp if hingeless else blade.flap_hinge * radius
+    hingeless, root = _hingeless(rotor), _root(rotor)
     stations = np.linspace(root, radius, 33)
     pitch = REFERENCE_COLLECTIVE + rotor.builtin_twist(stations / radius)
     found = blade_bending_modes(
@@ -168,3 +176,39 @@ def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Arr
     out = np.ones(shapes.shape[1])
     out[0] += float((along**2).sum(axis=0) @ inboard) / (float((shapes[:, 0] ** 2).sum()) * width)
     return out
+
+
+@dataclass(frozen=True)
+class BladeFrequencies:
+    """Natural frequencies of the rotating blade [per rev], by what moves most."""
+
+    flap: tuple[float, ...]
+    lag: tuple[float, ...]
+    torsion: tuple[float, ...]
+
+
+def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> BladeFrequencies | None:
+    """Of the blade at a twist and a collective [rad]; None where its stiffness in bending is not known."""
+    structure = rotor.blade.structure
+    if structure is None or not structure.bends:
+        return None
+
+    def pitch(r: Array) -> Array:
+        return collective + twist(r / rotor.radius)
+
+    beam = bending_beam(structure, rotor.angular_speed, _root(rotor), pitch, hingeless=_hingeless(rotor))
+    flap, lag = frequencies_by_kind(bending_modes(beam, sum(MODES)))
+    torsion = blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
+    return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
+
+
+def _hingeless(rotor: Rotor) -> bool:
+    """Whether the blade is held at the root; else it has hinges for flap and lag."""
+    return rotor.blade.flap_spring > 0.0
+
+
+def _root(rotor: Rotor) -> float:
+    """Where the bending blade begins [m]."""
+    structure = rotor.blade.structure
+    assert structure is not None
+    return structure.clamp if _hingeless(rotor) else rotor.blade.flap_hinge * rotor.radius

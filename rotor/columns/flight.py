@@ -38,9 +38,8 @@ from rotor.aero.section import (
     M,
 )  # fmt: skip
 from rotor.arrays import Array
-from rotor.columns.bending import freedoms_of
+from rotor.columns.bending import bends, coordinates_of, freedoms_of, torque_terms
 from rotor.columns.blade import Freedom, add_rigid_blade
-from rotor.columns.coordinates import bends, coordinates_of, torque_terms
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure

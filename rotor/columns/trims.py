@@ -28,8 +28,8 @@ from functools import cache
 from rotor.aero.elements import TrimState, Unknown
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
+from rotor.columns.bending import FLAPPING_STATES, bends, torque_terms
 from rotor.columns.blade import FLAPPING
-from rotor.columns.coordinates import FLAPPING_STATES, bends, torque_terms
 from rotor.design.design import Design
 from rotor.engine.terms import ONE, Structure
 from rotor.engine.waves import COS, SIN, STEADY, times_wave

@@ -20,7 +20,7 @@ from rotor.aero.problem import Problem
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.columns.coordinates import bending_work, bends, torque_terms
+from rotor.columns.bending import bending_work, bends, torque_terms
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms

@@ -9,26 +9,23 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from rotor.aero.bending import MODES, BladeBending
-from rotor.aero.elastic import MODES as TORSION_MODES
+from rotor.aero.bending import BladeBending
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
 from rotor.arrays import Array
-from rotor.columns.coordinates import coordinates_of
-from rotor.columns.hub_loads import LOADS, has_hub_loads, hub_load_terms
+from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
-from rotor.dynamics.bending import bending_beam, bending_modes, frequencies_by_kind
-from rotor.dynamics.torsion import blade_modes
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
 from rotor.engine.waves import wave_grid
 from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
-from rotor.trim.solution import BladeFrequencies, Caveat, HubLoads, Solution
-from rotor.trim.solve import solve
+from rotor.trim.newton import Guess
+from rotor.trim.solution import Caveat, HubLoads, Solution
 from rotor.units import GRAVITY
 
 SLOWEST = 0.2
@@ -58,7 +55,11 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
     return Caveat("no-hub-loads", sentence)
 
 
-def hub_loads(solution: Solution, *, band: bool = True) -> HubLoads | None:
+Solve = Callable[[Design, Solution | Guess | None], Solution]
+"""As `rotor.trim.solve.solve`."""
+
+
+def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoads | None:
     """Of a converged solution; None where `why_no_hub_loads` says why. band: whether to solve with other wakes as well.
 
     A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
@@ -76,7 +77,7 @@ def hub_loads(solution: Solution, *, band: bool = True) -> HubLoads | None:
     problem, point = adjoint.problem, adjoint.point
     values = _scaled(problem, _terms(problem, point).value(point.z, point.q))
     index = 100.0 * _index(design, values)[0]
-    others = _indices(design) if band else []
+    others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
     force, moment = root_loads(problem, point)
     return HubLoads(
@@ -90,13 +91,13 @@ def hub_loads(solution: Solution, *, band: bool = True) -> HubLoads | None:
     )
 
 
-def _indices(design: Design) -> list[float]:
+def _indices(design: Design, solve: Solve) -> list[float]:
     """The index with each wake with which the design trims [%]."""
     found = list[float]()
     for name in BAND:
         if name != design.models.inflow:
-            other = solve(replace(design, models=replace(design.models, inflow=name)))
-            loads = hub_loads(other, band=False) if other.converged else None
+            other = solve(replace(design, models=replace(design.models, inflow=name)), None)
+            loads = hub_loads(other, solve, band=False) if other.converged else None
             found += [] if loads is None else [loads.index]
     return found
 
@@ -124,24 +125,6 @@ def _index(design: Design, values: Array) -> tuple[float, Array]:
     slopes[:3] /= max(force, 1e-30)
     slopes[3:] /= max(moment, 1e-30)
     return force + moment, slopes
-
-
-def blade_frequencies(solution: Solution) -> BladeFrequencies | None:
-    """Of the blade at its mean pitch in the trim; None where its stiffness in bending is not known."""
-    design = solution.design
-    rotor, structure = design.rotor, design.rotor.blade.structure
-    if structure is None or not structure.bends:
-        return None
-    hingeless = rotor.blade.flap_spring > 0.0
-    root = structure.clamp if hingeless else rotor.blade.flap_hinge * rotor.radius
-
-    def pitch(r: Array) -> Array:
-        return solution.controls.collective + design.twist(r / rotor.radius)
-
-    beam = bending_beam(structure, rotor.angular_speed, root, pitch, hingeless=hingeless)
-    flap, lag = frequencies_by_kind(bending_modes(beam, sum(MODES)))
-    torsion = blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
-    return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
 
 
 def hub_load_gradient(solution: Solution) -> PitchGradient:

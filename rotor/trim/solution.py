@@ -6,6 +6,7 @@ reads a result finds here what each number means.
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
@@ -14,6 +15,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line.geometry import WakeCourse
@@ -136,15 +138,6 @@ class ElasticTwist:
         }
 
 
-@dataclass(frozen=True)
-class BladeFrequencies:
-    """Natural frequencies of the rotating blade [per rev], by what moves most."""
-
-    flap: tuple[float, ...]
-    lag: tuple[float, ...]
-    torsion: tuple[float, ...]
-
-
 @dataclass(frozen=True, eq=False)
 class HubLoads:
     """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
@@ -258,6 +251,8 @@ class Solution:
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
+    find_hub_loads: "Callable[[Solution], HubLoads | None] | None" = None
+    """What `hub_loads` is computed by: it solves with other wakes."""
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None)}
@@ -301,16 +296,13 @@ class Solution:
 
         Computed when asked for, in some tenths of a second. RuntimeError when the solution did not converge.
         """
-        from rotor.trim.hub_loads import hub_loads  # It solves with other wakes, which gives solutions.
-
-        return hub_loads(self)
+        self.require()
+        return None if self.find_hub_loads is None else self.find_hub_loads(self)
 
     @cached_property
     def blade_frequencies(self) -> BladeFrequencies | None:
         """Of the blade at its pitch in the trim; None where its stiffness in bending is not known."""
-        from rotor.trim.hub_loads import blade_frequencies
-
-        return blade_frequencies(self)
+        return blade_frequencies(self.design.rotor, self.design.twist, self.controls.collective)
 
     @property
     def ct_over_sigma(self) -> float:

@@ -51,7 +51,7 @@ def test_lag_follows_from_flap_by_southwell() -> None:
 def test_hinged_blade_flaps_once_per_revolution() -> None:
     """Rigid modes of a blade hinged at the shaft: flap 1/rev, lag 0, exactly; at e, ν² = 1 + 3e/2(1 − e) and less 1."""
     beam = bending_beam(_uniform(1.0, 900.0), 12.0, 0.0, _flat, hingeless=False)
-    assert_allclose(bending_modes(beam, 2).frequency / 12.0, [0.0, 1.0], atol=1e-5)
+    assert_allclose((bending_modes(beam, 2).frequency / 12.0) ** 2, [0.0, 1.0], atol=1e-4)
     offset = 0.05
     stiff = bending_beam(_uniform(1e3, 1e3), 12.0, offset, _flat, hingeless=False)
     square = 1.5 * offset / (1.0 - offset)

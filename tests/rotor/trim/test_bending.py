@@ -13,7 +13,7 @@ from rotor.aero.bending import BladeBending
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.columns.coordinates import bending_work, coordinates_of
+from rotor.columns.bending import bending_work, coordinates_of
 from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate, jacobian, transposed
 from rotor.engine.waves import wave_grid, waves_at
@@ -43,7 +43,7 @@ def _at(solution: Solution) -> tuple[Problem, Point, BladeBending]:
 
 
 def _loads(solution: Solution) -> HubLoads:
-    found = hub_loads(solution, band=False)
+    found = hub_loads(solution, rotor.solve, band=False)
     assert found is not None
     return found
 
@@ -176,7 +176,7 @@ def test_where_there_are_no_hub_loads() -> None:
         reason = why_no_hub_loads(design)
         assert reason is not None
         assert words in reason.sentence
-        assert hub_loads(rotor.solve(design)) is None
+        assert rotor.solve(design).hub_loads is None
     with pytest.raises(RuntimeError, match="do not bend"):
         hub_load_gradient(rotor.solve(rotor.make_design(mu=0.3)))
 
