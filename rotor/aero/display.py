@@ -10,8 +10,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from rotor.aero.bent_section import bent
 from rotor.aero.disk import Disk
-from rotor.aero.elements import BladeElements, TwistState, over_azimuths
+from rotor.aero.elements import BentState, BladeElements, TwistState, over_azimuths
+from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, section, stall_angles
 from rotor.arrays import Array
@@ -70,7 +72,7 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
     matrix = resampling(len(e.beta), azimuths)
     fields = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate, e.induced)) @ matrix
-    f, _, s = section(fields[:6], problem.section_data(), False, True)
+    f, s, bends = _sections(problem, e, fields[:6], matrix)
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
@@ -79,8 +81,18 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     return replace(
         e, theta=theta, u_t=u_t, u_p=u_p, u_r=u_r, loss=loss, rate=rate, beta=e.beta @ matrix, induced=induced,
         fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
-        torsion=twist,
+        torsion=twist, bent=bends,
     )  # fmt: skip
+
+
+def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
+    """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
+    if e.bent is None:
+        f, _, s = section(flow, problem.section_data(), False, True)
+        return f, s, None
+    bends = BentState(e.bent.channels @ matrix, e.bent.offset @ matrix, e.bent.lift @ matrix)
+    f, _, s = bent(PLAIN).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
+    return f, s, bends
 
 
 def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float]:

@@ -60,6 +60,18 @@ class TwistState:
 
 
 @dataclass(frozen=True, eq=False)
+class BentState:
+    """A blade that bends."""
+
+    channels: Array
+    """Slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
+    offset: Array
+    """How far it lies forward of the shaft, y0 + v, (elements, azimuths)."""
+    lift: Array
+    """d²w/dψ², (elements, azimuths)."""
+
+
+@dataclass(frozen=True, eq=False)
 class BladeElements:
     """The blade elements at a trim state. Fields are (elements, azimuths), names as in `rotor.aero.section`."""
 
@@ -91,6 +103,8 @@ class BladeElements:
     cd_mach: Array
     torsion: TwistState | None = None
     """None for a rigid blade."""
+    bent: BentState | None = None
+    """Of a blade that bends. Velocities and forces are then in axes that turn with the hub, not with its slopes."""
 
 
 @dataclass(frozen=True)
@@ -100,20 +114,24 @@ class DiskSums:
     thrust: float
     """C_T along the shaft, eq. (3.12)."""
     drag: float
-    """C_H, aft in the hub plane: Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ)."""
+    """C_H, aft in the hub plane: Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ); F_r of a blade that bends holds its lean."""
     torque: float
-    """C_Q: Σ r F_x."""
+    """C_Q: Σ r F_x, of a blade that bends Σ r F_x + (y0 + v) F_r."""
 
 
 def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     """Thrust, H-force and torque."""
     width = disk.dr / len(disk.psi)
     lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
-    along = along - elements.beta * lift
+    torque = float(disk.r * width @ elements.fx.sum(axis=1))
+    if elements.bent is None:
+        along = along - elements.beta * lift
+    else:
+        torque += float((width @ (elements.bent.offset * elements.fr)).sum())
     return DiskSums(
         thrust=float(lift.sum()),
         drag=float(across @ disk.sin + along @ disk.cos),
-        torque=float(disk.r * width @ elements.fx.sum(axis=1)),
+        torque=torque,
     )
 
 

@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
+from rotor.aero.bending import MODES, BladeBending, build_bending
+from rotor.aero.bent_section import BentData, bent
 from rotor.aero.disk import Disk, azimuths_of, build_disk
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowTerms
+from rotor.aero.inflow.interface import InflowTerms, SectionInterface
 from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.section import NO_MOMENT, SectionData
@@ -58,6 +61,8 @@ class Problem:
     off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
     torsion: BladeTorsion | None
     """The blade in torsion; None for a rigid blade."""
+    bending: BladeBending | None
+    """The blade in flap and lag; None for one that flaps as a rigid blade."""
     wave_rates: tuple[Array, Array]
     """First and second derivative of `waves` by ψ, shaped alike."""
     given_torsion: Array
@@ -80,6 +85,17 @@ class Problem:
         """The inflow model on this disk."""
         models = self.design.models
         return self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+
+    @cached_property
+    def interface(self) -> SectionInterface:
+        """The section of the inflow model, on a blade that bends or does not."""
+        own = self.inflow_terms.interface
+        return own if self.bending is None else bent(own)
+
+    def grid_data(self, step: int) -> SectionData | BentData:
+        """What `interface` needs beside the channels, on every `step`-th azimuth."""
+        own, bending = self.section_data(step), self.bending
+        return own if bending is None else BentData(own, bending.coupling, bending.reference, bending.share)
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
@@ -117,7 +133,12 @@ def build_problem(design: Design) -> Problem:
     weight += down
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     waves, *rates = _pitch_waves(design, disk)
-    torsion = None
+    torsion = bending = None
+    structure = rotor.blade.structure
+    held = structure is not None and structure.bends and (rotor.blade.flap_spring > 0.0 or rotor.blade.flap_hinge > 0.0)
+    if models.bending and models.flapping and not design.hovering and held:
+        bending = build_bending(rotor, disk, condition.density, MODES)
+    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
             rotor,
@@ -125,7 +146,7 @@ def build_problem(design: Design) -> Problem:
             condition.density,
             None if models.compressibility else LOW_MACH,
             models.has("swept_tip"),
-            highest_harmonic(design.pitch_waves),
+            highest,
         )
     return Problem(
         design=design,
@@ -144,6 +165,7 @@ def build_problem(design: Design) -> Problem:
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=_unloaded(design, disk),
         torsion=torsion,
+        bending=bending,
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else _given_torsion(torsion, twist, waves, rates[1]),
     )

@@ -24,13 +24,13 @@ CYCLIC = (("cyclic_1c", COS), ("cyclic_1s", SIN))
 FLAPPING = (("coning", STEADY), ("flap_1c", COS), ("flap_1s", SIN))
 
 
-def add_rigid_blade(s: Structure) -> None:
-    """Collective, cyclic and flapping."""
+def add_rigid_blade(s: Structure, *, bends: bool = False) -> None:
+    """Collective, cyclic, and flapping where it is not a mode of bending."""
     z, mu_x = s.states, s.made["mu_x"]
     s.column(TH, "one", STEADY, 1.0, z["collective"])
     for name, wave in CYCLIC:
         s.column(TH, "one", wave, 1.0, z[name])
-    for name, wave in FLAPPING:
+    for name, wave in () if bends else FLAPPING:
         s.column(UP, "one", wave, 1.0, z[name], mu_x, times=COS)
         rate, factor = rate_of(wave)
         if factor:
@@ -65,9 +65,10 @@ class Freedom(Protocol):
 class Torsion:
     """The elastic twist."""
 
-    def __init__(self, modes: int, functions: int) -> None:
-        self.modes, self.functions = modes, functions
-        self.key: Hashable = "torsion", modes, functions
+    def __init__(self, modes: int, functions: int, *, bends: bool = False) -> None:
+        """bends: whether bending adds the moments of the swept tip's mass."""
+        self.modes, self.functions, self._bends = modes, functions, bends
+        self.key: Hashable = "torsion", modes, functions, bends
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
         """Of the equations in the head of this file."""
@@ -114,7 +115,7 @@ class Torsion:
         s.term(row, -1.0, n["gain of a wave" if h else "gain", k], q=s.measure(M, ("mode", k), h))
         for other in range(self.modes):
             s.term(row, -1.0, n["coupling", k, other], z["twist", other, h])
-        if h == STEADY:
+        if h == STEADY and not self._bends:
             s.term(row, -1.0, n["tip mass", k], z["coning"])
         elif h in (COS, SIN):
             s.term(row, -1.0, n["inertia", k], z[CYCLIC[h - 1][0]])
@@ -123,9 +124,3 @@ class Torsion:
         """Φ_k"""
         assert problem.torsion is not None
         return {("mode", k): own for k, own in enumerate(problem.torsion.radial)}
-
-
-def freedoms_of(problem: Problem, functions: int | None = None) -> tuple[Freedom, ...]:
-    """Those of a design; functions: waves of the elastic twist, by default those of its torsion."""
-    torsion = problem.torsion
-    return () if torsion is None else (Torsion(len(torsion.gain), functions or torsion.functions),)

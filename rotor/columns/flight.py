@@ -15,9 +15,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from rotor.aero.bent_section import SLOPES
 from rotor.aero.disk import Disk
-from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState, TwistState
-from rotor.aero.inflow.interface import InflowTerms, Wake
+from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, TrimState, TwistState
+from rotor.aero.inflow.interface import InflowTerms, SectionInterface, Wake
 from rotor.aero.problem import Problem, in_disk_axes, swirl_of
 from rotor.aero.section import (
     ALPHA,
@@ -37,11 +38,12 @@ from rotor.aero.section import (
     M,
 )  # fmt: skip
 from rotor.arrays import Array
-from rotor.columns.blade import Freedom, add_rigid_blade, freedoms_of
+from rotor.columns.bending import bends, coordinates_of, freedoms_of, torque_terms
+from rotor.columns.blade import Freedom, add_rigid_blade
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
-from rotor.engine.waves import COS, SIN, STEADY, wave_grid
+from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, wave_grid
 
 LEAST_AZIMUTHS = 40
 """Azimuths on which derivatives are evaluated, and first steps made: the power of a trim on 40 agrees with that on 120
@@ -57,7 +59,7 @@ class SystemTolerances:
     inflow: float
     """Of the nodes, as a fraction of `Problem.scale`."""
     torsion: float
-    """[rad]"""
+    """[rad]; of bending in coordinates."""
     angle_step: float
     inflow_step: float
 
@@ -73,13 +75,14 @@ class _StructureKey:
     numbers: tuple[Hashable, ...] = field(compare=False)
     freedoms: tuple[Freedom, ...] = field(compare=False)
     terms: InflowTerms = field(compare=False)
+    interface: SectionInterface = field(compare=False)
 
 
 @lru_cache(maxsize=64)
 def _structure(key: _StructureKey) -> Structure:
     """Atoms, columns and equations of a flight; see the head of this file."""
     terms = key.terms
-    interface, name = terms.interface, (key.trim, key.blade, key.inflow)
+    interface, name = key.interface, (key.trim, key.blade, key.inflow)
     s = Structure(interface.pairs, interface.channels, interface.forces, name)
     for number in key.numbers:
         s.number(number)
@@ -89,7 +92,7 @@ def _structure(key: _StructureKey) -> Structure:
         freedom.declare(s)
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
     made = {name: s.quantity(name) for name in _MADE}
-    add_rigid_blade(s)
+    add_rigid_blade(s, bends=bends(s))
     s.column(UT, "one", SIN, 1.0, made["mu_x"])
     s.column(UR, "one", COS, 1.0, made["mu_x"])
     s.column(UP, "one", STEADY, 1.0, made["mu_z"])
@@ -106,7 +109,7 @@ def _structure(key: _StructureKey) -> Structure:
         s.column(channel, name, STEADY, 1.0, ONE)
     for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
         s.measure(FZ, shape, wave)
-    s.measure(FX, "r", STEADY)
+    torque_terms(s)
     return s.finish(free)
 
 
@@ -150,7 +153,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     for freedom in freedoms:
         values |= freedom.numbers(problem)
     key = trim_of(problem.design), tuple(freedom.key for freedom in freedoms), terms.key
-    structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms))
+    structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms, problem.interface))
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
     tolerance, limits = _tolerances(problem, structure, tolerances)
@@ -164,7 +167,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
         shapes=_shapes(_ShapesKey(structure, problem.disk, problem.flap.hinge, problem, freedoms)),
         grid=grid,
         thin=grid if step == 1 else _grid(problem, structure, step),
-        section=terms.interface.section,
+        section=problem.interface.section,
         make=_Flow(problem, structure, terms),
         numbers=np.array([1.0, *values.values()]),
         tolerance=tolerance,
@@ -198,13 +201,14 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     if problem.waves.size > 1:
         varying = {TH: problem.waves[:, ::step], RATE: problem.wave_rates[0][:, ::step]}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
-    return Grid(waves, steady, varying, problem.section_data(step))
+    return Grid(waves, steady, varying, problem.grid_data(step))
 
 
 def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:
     """Of every equation; and the largest step of every state solved for."""
     tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
-    tolerance[structure.equations_of("twist")] = wanted.torsion
+    for kind in ("twist", "bend"):
+        tolerance[structure.equations_of(kind)] = wanted.torsion
     limits = np.full(len(structure.free), wanted.angle_step)
     limits[structure.states_of("lambda0")] = wanted.inflow_step
     return tolerance, limits
@@ -266,11 +270,12 @@ def state_of(structure: Structure, x: Array) -> TrimState:
     return TrimState(*x[first : first + len(STATE_NAMES)].tolist())
 
 
-def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array]:
-    """Trim state, coordinates of the elastic twist and nodes of the inflow, both flat; empty without."""
+def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array, Array]:
+    """Trim state, coordinates of the elastic twist, those of bending and nodes of the inflow, flat; empty without."""
     first = structure.first_state + len(STATE_NAMES)
-    twists = len(structure.equations_of("twist"))
-    return state_of(structure, x), x[first : first + twists], x[structure.given :]
+    bending = first + len(structure.equations_of("twist"))
+    end = bending + len(structure.states_of("bend"))
+    return state_of(structure, x), x[first:bending], x[bending:end], x[structure.given :]
 
 
 def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:
@@ -299,8 +304,16 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)
         around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
+    bent = None
+    if problem.bending is not None:
+        offset = c[UR] - flow.flow(x).mu_x * problem.disk.cos
+        q, _ = coordinates_of(problem.bending, structure, point.z)
+        modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
+        lift = modes @ wave_grid(q.shape[1], c.shape[2]).at
+        bent = BentState(c[SLOPES[0] :], offset, lift)
     return BladeElements(
         state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
         loss=c[LOSS], rate=c[RATE], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl, fz=f[FZ],
         fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
+        bent=bent,
     )  # fmt: skip

@@ -44,7 +44,8 @@ from rotor.aero.section import (
 )  # fmt: skip
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
-from rotor.columns.blade import Torsion, freedoms_of
+from rotor.columns.bending import freedoms_of
+from rotor.columns.blade import Torsion
 from rotor.columns.trims import trim_numbers
 from rotor.compiled import compiled
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System

@@ -28,6 +28,7 @@ from functools import cache
 from rotor.aero.elements import TrimState, Unknown
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
+from rotor.columns.bending import FLAPPING_STATES, bends, torque_terms
 from rotor.columns.blade import FLAPPING
 from rotor.design.design import Design
 from rotor.engine.terms import ONE, Structure
@@ -142,9 +143,11 @@ def trim_numbers(problem: Problem) -> dict[str, float]:
 
 
 def drag_terms(s: Structure) -> list[tuple[float, int, int]]:
-    """H as a sum of factor · z · Q: (factor, atom, measure)."""
+    """H as a sum of factor · z · Q: (factor, atom, measure); F_r of a blade that bends holds its lean."""
     across, along = s.measure(FX, "one", SIN), s.measure(FR, "one", COS)
     terms = [(1.0, ONE, across), (1.0, ONE, along)]
+    if bends(s):
+        return terms
     for name, wave in FLAPPING:
         terms += [(-share, s.states[name], s.measure(FZ, "one", both)) for both, share in times_wave(wave, COS)]
     return terms
@@ -155,6 +158,8 @@ def add_equations(s: Structure, trim: Trim) -> None:
     z, q, drag = {**s.numbers, **s.states, **s.made}, s.measure, drag_terms(s)
     thrust = q(FZ, "one", STEADY)
     for name in trim.equations:
+        if name in FLAPPING_STATES and bends(s):  # With the equations of bending.
+            continue
         row = s.equation(name)
         match name:
             case "vertical" | "forward":
@@ -169,7 +174,8 @@ def add_equations(s: Structure, trim: Trim) -> None:
                 s.term(row, 1.0, q=thrust)
                 s.term(row, -1.0, z["resultant"])
             case "torque":
-                s.term(row, 1.0, q=q(FX, "r", STEADY))
+                for share, i, j, measure in torque_terms(s):
+                    s.term(row, share, i, j, measure)
             case "coning":
                 s.term(row, 1.0, q=q(FZ, "arm", STEADY))
                 s.term(row, -1.0, z["coning stiffness"], z["coning"])

@@ -10,6 +10,7 @@ from rotor.command.common import add_command, add_design_arguments, design_from
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
+from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -37,12 +38,28 @@ def run(args: argparse.Namespace) -> int:
         also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}
         if (band := between_drag_areas(solution)) is not None:
             also["power_band_w"] = [end.power.total for end in band]
-        print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
+        record = solution.to_dict()
+        also |= _vibration(solution, record["caveats"])
+        print(json.dumps({**record, **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
         if found is not None:
             print(f"\nlift of one blade\n{found.table()}")
     return 0 if solution.converged else 1
+
+
+def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
+    """Hub loads and blade frequencies of `--json`; where there are none, why is added to the caveats."""
+    reason, frequencies = why_no_hub_loads(solution.design), solution.blade_frequencies
+    loads = solution.hub_loads if solution.converged else None
+    if reason is not None:
+        caveats.append(reason.sentence)
+    elif loads is None and solution.converged:
+        caveats.append("No hub loads: the design does not trim with blades that bend.")
+    return {
+        "hub_loads": loads and loads.record(),
+        "blade_frequencies_per_rev": frequencies and {name: list(own) for name, own in vars(frequencies).items()},
+    }
 
 
 def _load(design: Design) -> str:
@@ -111,6 +128,17 @@ def report(solution: Solution) -> str:
         lines += [
             f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
             f"stalled {100 * solution.stalled_area:.1f} %"
+        ]
+    if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
+        lines.append(f"caveat: {reason.sentence}")
+    elif design.models.bending and solution.converged and (loads := solution.hub_loads) is not None:
+        low, high = loads.band or (loads.index, loads.index)
+        lines += [
+            f"hub loads at {loads.per_rev}/rev: "
+            + ", ".join(
+                f"{name} {value:.0f} {'N' if name[0] == 'f' else 'N m'}" for name, value in loads.amplitudes.items()
+            ),
+            f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over wakes: trade-offs, not a level",
         ]
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     return "\n".join(lines)

@@ -105,6 +105,8 @@ class Models:
     """Whether drag is multiplied by the rotor file's factor for the surface of its blades. Off: section data alone."""
     elastic_twist: bool = True
     """Whether the blade twists under its loads. Off: rigid in torsion."""
+    bending: bool = False
+    """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
     low_speed: LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
@@ -250,6 +252,7 @@ class Design:
             **({} if self.models.hover_inflow == preset.hover_inflow else {"hover_inflow": self.models.hover_inflow}),
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
             **{name: getattr(self.models, name) for name in switches},
+            **({"bending": True} if self.models.bending else {}),
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if self.condition.stand is None else self._stand_record(self.condition.stand)),

@@ -1,4 +1,4 @@
-"""The structure of a blade in torsion, as a rotor file states it."""
+"""The structure of a blade, as a rotor file states it."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,7 +11,7 @@ from rotor.arrays import Array
 
 @dataclass(frozen=True)
 class BladeStructure:
-    """Torsional stiffness, inertia and mass along one blade; linear between stations and constant beyond."""
+    """Stiffness, inertia and mass along one blade; linear between stations and constant beyond."""
 
     radius: float
     """Of the tip [m]."""
@@ -31,9 +31,16 @@ class BladeStructure:
     """K_θ of pitch link, swashplate and their supports, as a moment per pitch of one blade [N m/rad]."""
     pitch_horn: float
     """Distance of the pitch link from the pitch axis [m]."""
+    flap_stiffness: tuple[float, ...] = ()
+    """EI in flap [N m²]; empty where it is not known, as the next."""
+    lag_stiffness: tuple[float, ...] = ()
+    """EI in lag [N m²]"""
+    lag_damper: float = 0.0
+    """Of a linear damper at the lag hinge [N m s/rad]."""
 
     def __post_init__(self) -> None:
-        columns = (self.torsional_stiffness, self.mass_per_length, self.torsional_inertia)
+        bending = tuple(own for own in (self.flap_stiffness, self.lag_stiffness) if own)
+        columns = (self.torsional_stiffness, self.mass_per_length, self.torsional_inertia, *bending)
         if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in columns):
             raise ValueError(
                 f"a blade structure has {len(self.stations)} stations: give two or more, with one stiffness, mass and "
@@ -44,6 +51,13 @@ class BladeStructure:
         smallest = min(min(column) for column in columns)
         if min(smallest, self.control_stiffness, self.pitch_horn) <= 0.0 or self.tension_gyration < 0.0:
             raise ValueError("blade stiffness, mass, inertia, control stiffness and pitch horn must be positive")
+        if len(bending) == 1:
+            raise ValueError("a blade structure has one of flap and lag stiffness: give both, or neither")
+
+    @property
+    def bends(self) -> bool:
+        """Whether its stiffness in bending is known."""
+        return bool(self.flap_stiffness)
 
     def at(self, r: ArrayLike, values: tuple[float, ...]) -> Array:
         """One of the distributions at r [m]."""

@@ -11,15 +11,12 @@ from rotor.design.structure import BladeStructure
 from rotor.dynamics.thin_wall import Material
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class BendingStructure(BladeStructure):
-    """A blade whose bending and section are known as well, as the models of actuators need."""
+    """A blade whose section is known as well, as the models of actuators need."""
 
     chord: float
     """[m]"""
-    flap_stiffness: tuple[float, ...]
-    """EI [N m²]"""
-    lag_stiffness: tuple[float, ...]
     axial_stiffness: float
     """EA [N]"""
     section_stiffness: float
@@ -62,6 +59,7 @@ def uh60a_structure(radius: float = 8.1788) -> BendingStructure:
         torsional_inertia=tuple(stations["torsional_inertia_kg_m"]),
         flap_stiffness=tuple(stations["flap_stiffness_nm2"]),
         lag_stiffness=tuple(stations["lag_stiffness_nm2"]),
+        lag_damper=blade["lag_damper_nm_s_rad"],
         axial_stiffness=blade["axial_stiffness_n"],
         tension_gyration=blade["tension_gyration_m2"],
         control_stiffness=blade["control_stiffness_nm_rad"],

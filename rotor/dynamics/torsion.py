@@ -109,6 +109,8 @@ def stiffer_blade(structure: BladeStructure, scale: float, addition: Addition) -
         torsional_stiffness=column(structure.torsional_stiffness, scale, addition.stiffness),
         mass_per_length=column(structure.mass_per_length, 1.0, addition.mass_per_length),
         torsional_inertia=column(structure.torsional_inertia, 1.0, addition.torsional_inertia),
+        flap_stiffness=column(structure.flap_stiffness, 1.0, 0.0) if structure.bends else (),
+        lag_stiffness=column(structure.lag_stiffness, 1.0, 0.0) if structure.bends else (),
     )
 
 

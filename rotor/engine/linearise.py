@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
@@ -272,7 +273,7 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     nodes = point.system.nodes
     on_q, total = structure.residual.slopes(z, q, first)
     summing = structure.residual.summing
-    total[summing] += on_q[summing] @ by_z
+    total[summing] += _sparse_times(on_q[summing], by_z)
     added, further_q = np.zeros((0, total.shape[1])), np.zeros((0, len(q)))
     if further is not None:
         further_q, on_z = further.slopes(z, q, first)
@@ -280,7 +281,8 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     own, other = _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
     if nodes is None:
         return own, other
-    through = np.concatenate([on_q, further_q]) @ _measures_by_channel(point, nodes.channel) @ nodes.matrix
+    on_channel = _sparse_times(np.concatenate([on_q, further_q]), _measures_by_channel(point, nodes.channel))
+    through = on_channel @ nodes.matrix
     by_channel = _force_slope(point, nodes.force, nodes.channel).ravel()
     size, points = len(own), len(by_channel)
     full = np.empty((size + points, size + points))
@@ -289,6 +291,15 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
     full[range(size, size + points), range(size, size + points)] += 1.0
     return full, np.concatenate([other, through[size:]], axis=1)
+
+
+_MANY_ENTRIES = 20_000
+"""Size from which a matrix with few measures in each equation is multiplied as a sparse one. Our choice."""
+
+
+def _sparse_times(one: Array, other: Array) -> Array:
+    """A product whose first factor is mostly zero."""
+    return np.asarray(csr_matrix(one) @ other) if one.size > _MANY_ENTRIES else one @ other
 
 
 def _force_slope(point: Point, force: int, channel: int) -> Array:

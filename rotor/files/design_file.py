@@ -38,6 +38,7 @@ _KEYS = (
     "hover_inflow",
     "low_speed",
     *SWITCHES,
+    "bending",
     "airfoils",
     "active_twist",
     "twist_per_rev",
@@ -112,6 +113,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         design.models,
         inflow=inflow,
         hover_inflow=hover_inflow,
+        bending=_flag(record, "bending", design.models.bending),
         **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
     )
     if "active_twist" in record:

@@ -67,6 +67,7 @@ def make_design(
     low_speed: str | None = None,
     airfoils: str | None = None,
     off: str | None = None,
+    bending: bool = False,
     models: Models | None = None,
     trim: str | None = None,
     stand: Stand | Mapping[str, Any] | None = None,
@@ -94,6 +95,7 @@ def make_design(
     low_speed: hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not.
     airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
     off: physical effects switched off, separated by commas.
+    bending: blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads.
     models: all model choices at once.
     trim: in flight, or on a test stand (the last three).
     stand: inputs of the test, a `Stand` or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its keys:
@@ -132,7 +134,7 @@ def make_design(
         condition=condition,
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=_changed(models, inflow, low_speed, off),
+        models=_changed(replace(models, bending=models.bending or bending), inflow, low_speed, off),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )

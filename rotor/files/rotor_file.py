@@ -225,6 +225,10 @@ def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure 
         key: table.numbers(key, low=low, high=high)
         for key, low, high in (("gj_nm2", 1e-3, 1e9), ("mass_kg_m", 1e-3, 1e4), ("torsional_inertia_kg_m", 1e-9, 1e3))
     }
+    bending = [key for key in ("flap_stiffness_nm2", "lag_stiffness_nm2") if table.has(key)]
+    if len(bending) == 1:
+        raise table.fail(bending[0], f"{bending[0]} alone: give flap_stiffness_nm2 and lag_stiffness_nm2, or neither")
+    columns |= {key: table.numbers(key, low=1e-3, high=1e10) for key in bending}
     for key, values in columns.items():
         _ascending(table, "r_m", stations, key, values)
     structure = BladeStructure(
@@ -237,6 +241,9 @@ def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure 
         clamp=table.number("clamp_m", hinge, low=0.0, high=0.5 * radius, unit="m"),
         control_stiffness=table.number("control_stiffness_nm_rad", low=1e-3, high=1e12, unit="N m/rad"),
         pitch_horn=table.number("pitch_horn_m", low=1e-3, high=2.0, unit="m"),
+        flap_stiffness=columns.get("flap_stiffness_nm2", ()),
+        lag_stiffness=columns.get("lag_stiffness_nm2", ()),
+        lag_damper=table.number("lag_damper_nm_s_rad", 0.0, low=0.0, high=1e6, unit="N m s/rad"),
     )
     table.finish()
     return structure

@@ -20,10 +20,11 @@ from rotor.aero.problem import Problem
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
+from rotor.columns.bending import bending_work, bends, torque_terms
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms
-from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
+from rotor.engine.linearise import Measure, Point, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
@@ -121,6 +122,11 @@ class Adjoint:
         )  # fmt: skip
         own = _difference_adjoint(difference)
         return own.by_pitch(own.hover_measure(hovering))[0]
+
+    @property
+    def point(self) -> Point:
+        """The trim's equations there."""
+        return self._own.point
 
     @property
     def power_terms(self) -> Terms:
@@ -227,16 +233,21 @@ class _Linear:
 
 @lru_cache(maxsize=64)
 def _power_terms(s: Structure) -> Terms:
-    """Induced and profile power over ρA(ΩR)³ of a trim or a hovering rotor: C_Q + µ_x C_H − µ_z C_T − Σ (r − e) β' F_z.
+    """Induced and profile power over ρA(ΩR)³ of a trim or a hovering rotor: C_Q + µ_x C_H − µ_z C_T − Σ (r − e) β' F_z,
+    of a blade that bends with its work, Σ (w' F_z − v' F_x) with rates w' and v', in place of the last.
 
     From U dD = U_T dF_x − U_P dF_z + U_R dF_r, r = U_T + u − µ_x sin ψ and U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ.
     """
-    rows = [(0, s.measure(FX, "r", STEADY), ONE, ONE, 1.0)]
+    rows = [(0, measure, i, j, share) for share, i, j, measure in torque_terms(s)]
     if "mu_x" in s.made:
         mu_x, mu_z = s.made["mu_x"], s.made["mu_z"]
         rows += [(0, measure, mu_x, atom, share) for share, atom, measure in drag_terms(s)]
         rows += [
             (0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0),
+        ]
+        if bends(s):
+            return Terms.of(rows + [(0, measure, i, j, -share) for share, i, j, measure in bending_work(s)], 1)
+        rows += [
             (0, s.measure(FZ, "arm", SIN), s.states["flap_1c"], ONE, 1.0),
             (0, s.measure(FZ, "arm", COS), s.states["flap_1s"], ONE, -1.0),
         ]

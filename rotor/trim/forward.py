@@ -60,7 +60,7 @@ def linear_problem(design: Design) -> Problem:
 def _linear_guess(problem: Problem) -> Guess | None:
     """The trim with linear inflow; None where it has none."""
     found = newton(linear_problem(problem.design), first_guess(problem))
-    return Guess(found.state, found.guess.elastic) if found.converged else None
+    return Guess(found.state, found.guess.elastic, found.guess.bending) if found.converged else None
 
 
 def first_guesses(problem: Problem) -> Iterator[Guess]:

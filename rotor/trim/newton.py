@@ -27,7 +27,7 @@ class SolverOptions:
     inflow_tolerance: float = 1e-8
     """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
     torsion_tolerance: float = 1e-10
-    """Largest residual of the torsion equations [rad]."""
+    """Largest residual of the equations of torsion and bending [rad]."""
     accepted_residual: float = 1e-7
     accepted_inflow: float = 1e-6
     """The same two where Newton's method makes no more progress: the slopes of stall data jump from one table cell to
@@ -76,6 +76,8 @@ class Guess:
     state: TrimState
     elastic: Array | None = None
     """Coordinates of the elastic twist, (modes, functions)."""
+    bending: Array | None = None
+    """Coordinates of bending but for those in `state`, flat."""
     inflow: Array | None = None
     """Nodes of an inflow that answers the load."""
     inflow_kind: Hashable = None
@@ -139,11 +141,11 @@ class TrimResult:
     def guess(self) -> Guess:
         """A start for trims nearby."""
         structure = self.point.system.structure
-        state, twist, inflow = parts_of(structure, self.point.x)
+        state, twist, bending, inflow = parts_of(structure, self.point.x)
         modes = len(self.problem.given_torsion)
         elastic = twist.reshape(modes, -1).copy() if modes else None
         return Guess(
-            state, elastic, inflow.copy(), self.problem.inflow_terms.key, self.factors, structure.name
+            state, elastic, bending.copy(), inflow.copy(), self.problem.inflow_terms.key, self.factors, structure.name
         )  # fmt: skip
 
 
@@ -177,24 +179,30 @@ def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResul
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:
     """(1, numbers, states) of a guess."""
-    state, shape, terms = with_given_values(problem, start.state), problem.given_torsion.shape, problem.inflow_terms
-    elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
+    state, terms = with_given_values(problem, start.state), problem.inflow_terms
+    elastic: Array = np.zeros_like(problem.given_torsion)
+    if start.elastic is not None and len(start.elastic) == len(elastic):  # It may have more waves, or fewer.
+        both = min(elastic.shape[1], start.elastic.shape[1])
+        elastic[:, :both] = start.elastic[:, :both]
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
         inflow = terms.start()
     given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
+    bends = len(system.structure.states_of("bend"))
+    if start.bending is not None and len(start.bending) == bends:
+        others[:bends] = start.bending
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
 
 
 def _errors(point: Point, options: SolverOptions) -> tuple[float, float, float]:
-    """Largest residual of the trim equations, of those of torsion, and of the inflow, as `SolverOptions` measures."""
+    """Largest residual of the trim, of torsion and bending, and of the inflow, as `SolverOptions` measures."""
     system, structure = point.system, point.system.structure
     ratio = np.abs(point.residual) / system.tolerance
-    twists = structure.equations_of("twist")
+    elastic = np.concatenate([structure.equations_of(kind) for kind in ("twist", "bend")])
     ratio, nodes = np.split(ratio, [len(structure.equations)])
     return (
-        float(ratio[: len(ratio) - len(twists)].max()) * options.residual_tolerance,
-        float(ratio[twists].max(initial=0.0)) * options.torsion_tolerance,
+        float(np.delete(ratio, elastic).max()) * options.residual_tolerance,
+        float(ratio[elastic].max(initial=0.0)) * options.torsion_tolerance,
         float(nodes.max(initial=0.0)) * options.inflow_tolerance,
     )

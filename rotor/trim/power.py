@@ -154,7 +154,7 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
 
 
 def _loads(problem: Problem, elements: BladeElements) -> Array:
-    """All moments per unit of r about the pitch axis, M − j θ'' + w β0, (elements, azimuths)."""
+    """All moments per unit of r about the pitch axis, M − j θ'' + w β0 (bent: w (w' + w''/r)), (elements, azimuths)."""
     torsion, blade = problem.torsion, elements.torsion
     assert torsion is not None
     assert blade is not None
@@ -164,4 +164,7 @@ def _loads(problem: Problem, elements: BladeElements) -> Array:
     acceleration = torsion.radial.T @ elastic - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
     if problem.wave_rates[1].size > 1:
         acceleration = acceleration + problem.wave_rates[1]
-    return blade.moment - torsion.inertia[:, None] * acceleration + (torsion.tip_mass * state.coning)[:, None]
+    lifted: Array | float = state.coning
+    if elements.bent is not None:
+        lifted = elements.bent.channels[0] + elements.bent.lift / disk.r[:, None]
+    return blade.moment - torsion.inertia[:, None] * acceleration + torsion.tip_mass[:, None] * lifted

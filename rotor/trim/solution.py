@@ -6,13 +6,16 @@ reads a result finds here what each number means.
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line.geometry import WakeCourse
@@ -135,6 +138,36 @@ class ElasticTwist:
         }
 
 
+@dataclass(frozen=True, eq=False)
+class HubLoads:
+    """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
+
+    per_rev: int
+    """N_b: the lowest harmonic that reaches the hub."""
+    amplitudes: dict[str, float]
+    """At N_b/rev of fx, fy, fz [N] and of the moments mx (advancing side up) and my (nose up) about the hub [N m]."""
+    phases: dict[str, float]
+    """ψ N_b at the largest value [rad], by the same names."""
+    index: float
+    """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
+    band: tuple[float, float] | None
+    """Least and largest index over several models of the wake [%]."""
+    root_force: Array
+    """Of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
+    root_moment: Array
+    """There in flap, positive up, and in lag, positive forward [N m], (2, azimuths)."""
+
+    def record(self) -> dict[str, Any]:
+        """For `solve --json`."""
+        unit = {"f": "n", "m": "nm"}
+        return {
+            "per_rev": self.per_rev,
+            **{f"{name}_{unit[name[0]]}": value for name, value in self.amplitudes.items()},
+            "index_percent": self.index,
+            "band_percent": None if self.band is None else list(self.band),
+        }
+
+
 _RIGID: dict[str, Any] = {
     "elastic_twist_deg": None,
     "torsion_frequencies_per_rev": None,
@@ -218,6 +251,8 @@ class Solution:
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
+    find_hub_loads: "Callable[[Solution], HubLoads | None] | None" = None
+    """What `hub_loads` is computed by: it solves with other wakes."""
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None)}
@@ -254,6 +289,20 @@ class Solution:
                 "The power of the last iterate is in last_power."
             )
         return self.last_power
+
+    @cached_property
+    def hub_loads(self) -> HubLoads | None:
+        """Vibratory loads on the hub, of blades that bend, with their band over wakes; None where there are none.
+
+        Computed when asked for, in some tenths of a second. RuntimeError when the solution did not converge.
+        """
+        self.require()
+        return None if self.find_hub_loads is None else self.find_hub_loads(self)
+
+    @cached_property
+    def blade_frequencies(self) -> BladeFrequencies | None:
+        """Of the blade at its pitch in the trim; None where its stiffness in bending is not known."""
+        return blade_frequencies(self.design.rotor, self.design.twist, self.controls.collective)
 
     @property
     def ct_over_sigma(self) -> float:

@@ -13,10 +13,11 @@ from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
 from rotor.trim.forward import first_guess, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
-from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
+from rotor.trim.solution import DiskFields, ElasticTwist, HubLoads, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
 from rotor.trim.wake_course import course_of, laid_again
 
@@ -126,7 +127,12 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         start=result.guess,
         wake_course=course_of(problem),
         linear=result.linear,
+        find_hub_loads=_hub_loads,
     )
+
+
+def _hub_loads(solution: Solution) -> HubLoads | None:
+    return hub_loads(solution, solve)
 
 
 def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:

@@ -35,7 +35,7 @@ def with_slow_course(problem: Problem) -> Problem:
 
 def _laid(problem: Problem, design: Design) -> Problem:
     """The problem with the course of a design's wake; itself where there is none."""
-    models = replace(design.models, elastic_twist=False, tip_loss=True, hub_loss=True)
+    models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
     course = _course(
         replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
     )

@@ -20,6 +20,7 @@ from rotor.analysis.ideal_bound import ideal_factor
 from rotor.analysis.series import COLUMNS
 from rotor.command.optimise import digits_of_band
 from rotor.design.design import HOVER_INFLOWS
+from rotor.files.make_design import make_design
 from rotor.user_input import parse_range
 
 KEYS = [
@@ -29,6 +30,8 @@ KEYS = [
     "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent",
     "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w", "elapsed_ms",
 ]  # fmt: skip
+
+VIBRATION = ["hub_loads", "blade_frequencies_per_rev"]
 
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
@@ -45,7 +48,7 @@ def solved(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict:
 
 def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
     answer = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
-    assert list(answer) == KEYS
+    assert list(answer) == [*KEYS, *VIBRATION]
     power = answer["power_w"]
     assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "climb", "tail"]
     assert_allclose(power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12)
@@ -53,11 +56,29 @@ def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
     assert answer["status"] == "converged"
     assert answer["twist"] == "linear:-8"
     assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
+    loads = answer["hub_loads"]
+    assert list(loads) == ["per_rev", "fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "index_percent", "band_percent"]
+    assert loads["band_percent"][0] <= loads["index_percent"] <= loads["band_percent"][1]
+    force = math.hypot(0.5 * loads["fx_n"], 0.67 * loads["fy_n"], loads["fz_n"])
+    moment = math.hypot(loads["mx_nm"], loads["my_nm"]) / 8.1788
+    weight = make_design().condition.weight
+    assert_allclose(loads["index_percent"], 100.0 * (force + moment) / weight, rtol=1e-9)
+    assert list(answer["blade_frequencies_per_rev"]) == ["flap", "lag", "torsion"]
+
+
+def test_without_hub_loads_a_caveat_says_why(capsys: pytest.CaptureFixture[str]):
+    slow, unknown = solved(capsys, "--mu", "0.1"), solved(capsys, "--rotor", "r22", "--mu", "0.25")
+    assert slow["hub_loads"] is unknown["hub_loads"] is unknown["blade_frequencies_per_rev"] is None
+    assert any("No hub loads below µ 0.2" in sentence for sentence in slow["caveats"])
+    assert any("blade in flap and lag is not known" in sentence for sentence in unknown["caveats"])
+    code, out, _ = run(capsys, "solve", "--mu", "0.3", "--bending")
+    assert code == 0
+    assert "hub loads at 4/rev: fx" in out
 
 
 def test_distribution(capsys: pytest.CaptureFixture[str]):
     answer = solved(capsys, "--mu", "0.2", "--distribution")
-    assert list(answer) == [*KEYS, "distribution"]
+    assert list(answer) == [*KEYS, "distribution", *VIBRATION]
     found = answer["distribution"]
     assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
     assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
@@ -121,7 +142,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
     code, out, err = run(capsys, "solve", "--json", "--hover", "--mass-kg", "20000", "--altitude-m", "4000")
     answer = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
     assert (code, err) == (1, "")
-    assert list(answer) == KEYS
+    assert list(answer) == [*KEYS, *VIBRATION]
     assert answer["status"] == "not-converged"
     assert answer["power_w"]["total"] is None
     assert "lower the mass" in answer["message"]

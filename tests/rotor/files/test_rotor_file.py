@@ -262,6 +262,18 @@ def test_a_structure_makes_the_blade_elastic():
     assert copied.rotor.blade.structure is not None
 
 
+def test_a_structure_with_bending_has_hub_loads():
+    bending = "flap_stiffness_nm2 = [4e4, 3e4]\nlag_stiffness_nm2 = [8e5, 6e5]\nlag_damper_nm_s_rad = 2000.0\n"
+    craft = read(GOOD + STRUCTURE + bending)
+    structure = craft.rotor.blade.structure
+    assert structure is not None
+    assert structure.bends
+    assert (structure.lag_stiffness, structure.lag_damper) == ((8e5, 6e5), 2000.0)
+    solution = solve(make_design(rotor=craft, mu=0.25)).require()
+    assert solution.hub_loads is not None
+    assert solution.hub_loads.per_rev == craft.rotor.blades
+
+
 @pytest.mark.parametrize(
     ("old", "new", "remedy"),
     [
@@ -270,6 +282,7 @@ def test_a_structure_makes_the_blade_elastic():
         ("pitch_horn_m = 0.1\n", "", "pitch_horn_m"),
         ("pitch_horn_m", "pitch_horn", "pitch_horn_m"),
         ("20000.0", "-1.0", "control_stiffness_nm_rad"),
+        ("pitch_horn_m = 0.1", "pitch_horn_m = 0.1\nflap_stiffness_nm2 = [1e5, 1e5]", "or neither"),
     ],
 )
 def test_a_wrong_structure_is_one_sentence(old: str, new: str, remedy: str):

@@ -1,0 +1,195 @@
+"""The section of a blade that bends: velocities turned into its axes, forces turned back, and the coupling of bending
+with pitch; with partial derivatives.
+
+Channels are then relative to axes that turn with the hub, along the undeformed blade. At slopes w' up and v' forward
+
+    U_T' = U_T + v' U_R,    U_P' = U_P + w' U_R − w' v' U_T,    U_R' = U_R − v' U_T − w' U_P
+
+and forces go back by the transposed matrix, F_x U_T − F_z U_P + F_r U_R being the same in both: so the lift of a
+blade that slopes up leans inboard, F_r = … − w' F_z, and no energy is lost.
+
+Bending has its stiffness at a pitch of reference θ0 in the equations' own numbers; what the pitch θ changes is here.
+With the curvatures κ and b = ½ (EI_l − EI_f), from the energy ½ (EI_f κ_flap² + EI_l κ_lag²) along turned axes,
+
+    M_w = b (κ_v Δsin 2θ − κ_w Δcos 2θ),    M_v = b (κ_w Δsin 2θ + κ_v Δcos 2θ),    Δ: at θ less at θ0
+    M   = … − b [(κ_w² − κ_v²) sin 2θ + 2 κ_w κ_v cos 2θ]
+
+The last is the moment of a bent blade about its pitch axis (Houbolt & Brooks, NACA TR 1346, 1958). From the Coriolis
+forces of a blade that shortens, −½ ∫ (w'² + v'²) dr, with B = ∫_r^R m v̇ dr: E = w'² + v'², G_w = 2 w' B, G_v = 2 v' B.
+"""
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rotor.aero.inflow.interface import SectionInterface
+from rotor.aero.section import FR, FX, FZ, TH, UP, UR, UT, M, of_double_angle
+from rotor.arrays import Array
+from rotor.compiled import compiled
+
+SLOPES = (SW, SV, KW, KV, B) = tuple(range(-5, 0))
+"""Channels w', v', κ_w, κ_v and B: the last five."""
+BENDING = (E, GW, GV, MW, MV) = tuple(range(-5, 0))
+"""Forces: the last five."""
+
+
+class BentData(NamedTuple):
+    """Data of a section that bends."""
+
+    section: Any
+    """Of the section within."""
+    coupling: Array
+    """b, (elements,)."""
+    reference: Array
+    """cos 2θ0 and sin 2θ0, (2, elements)."""
+    share: Array
+    """By what an element stands for the blade inboard of the first as well, in E, G_w and G_v, (elements,)."""
+
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+@_compile
+def _turn(c: Any, slope: int, out: Any) -> None:
+    """Velocities in axes of the section, in place of those in axes of the hub."""
+    for i in range(c.shape[1]):
+        for j in range(c.shape[2]):
+            t, p, r, w, v = c[UT, i, j], c[UP, i, j], c[UR, i, j], c[slope, i, j], c[slope + 1, i, j]
+            out[UT, i, j] = t + v * r
+            out[UP, i, j] = p + w * r - w * v * t
+            out[UR, i, j] = r - v * t - w * p
+
+
+@_compile
+def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> None:
+    """All forces in axes of the hub, with those of bending."""
+    coupling, reference, share = data
+    out[:forces] = f
+    for i in range(c.shape[1]):
+        for j in range(c.shape[2]):
+            w, v, kw, kv, b = (
+                c[first, i, j], c[first + 1, i, j], c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
+            )  # fmt: skip
+            z, x, r = f[FZ, i, j], f[FX, i, j], f[FR, i, j]
+            out[FX, i, j] = x + w * v * z - v * r
+            out[FZ, i, j] = z + w * r
+            out[FR, i, j] = r + v * x - w * z
+            sine, cosine = of_double_angle(c[TH, i, j])
+            out[M, i, j] -= coupling[i] * ((kw * kw - kv * kv) * sine + 2.0 * kw * kv * cosine)
+            out[forces, i, j] = share[i] * (w * w + v * v)
+            out[forces + 1, i, j] = 2.0 * share[i] * w * b
+            out[forces + 2, i, j] = 2.0 * share[i] * v * b
+            cosine -= reference[0, i]
+            sine -= reference[1, i]
+            out[forces + 3, i, j] = coupling[i] * (kv * sine - kw * cosine)
+            out[forces + 4, i, j] = coupling[i] * (kw * sine + kv * cosine)
+
+
+@_compile
+def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data: Any, out: Any) -> None:
+    """Partial derivatives of all forces by all channels; rows: those of the section, made: those here, by pair."""
+    coupling, reference, share = data
+    forces, channels = rows.shape
+    full = np.zeros((forces, channels + 2, c.shape[2]))
+    for i in range(c.shape[1]):
+        t, p, r, w, v = c[UT, i], c[UP, i], c[UR, i], c[first, i], c[first + 1, i]
+        stiff, row = coupling[i], made[M, channels + 1] + 1
+        for o in range(forces):
+            for k in range(channels):
+                if rows[o, k] >= 0:
+                    full[o, k] = d[rows[o, k], i]
+                else:
+                    full[o, k] = 0.0
+            for j in range(len(t)):
+                by_t, by_p, by_r = full[o, UT, j], full[o, UP, j], full[o, UR, j]
+                full[o, UT, j] = by_t - w[j] * v[j] * by_p - v[j] * by_r
+                full[o, UP, j] = by_p - w[j] * by_r
+                full[o, UR, j] = v[j] * by_t + w[j] * by_p + by_r
+                full[o, channels, j] = by_p * (r[j] - v[j] * t[j]) - by_r * p[j]
+                full[o, channels + 1, j] = by_t * r[j] - by_p * w[j] * t[j] - by_r * t[j]
+        for k in range(channels + 2):
+            for j in range(len(t)):
+                z, x, along = full[FZ, k, j], full[FX, k, j], full[FR, k, j]
+                full[FX, k, j] = x + w[j] * v[j] * z - v[j] * along
+                full[FZ, k, j] = z + w[j] * along
+                full[FR, k, j] = along + v[j] * x - w[j] * z
+        for j in range(len(t)):
+            full[FX, channels, j] += v[j] * f[FZ, i, j]
+            full[FX, channels + 1, j] += w[j] * f[FZ, i, j] - f[FR, i, j]
+            full[FZ, channels, j] += f[FR, i, j]
+            full[FR, channels, j] -= f[FZ, i, j]
+            full[FR, channels + 1, j] += f[FX, i, j]
+        for j in range(len(t)):
+            kw, kv, b = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
+            sine, cosine = of_double_angle(c[TH, i, j])
+            full[M, TH, j] -= 2.0 * stiff * ((kw * kw - kv * kv) * cosine - 2.0 * kw * kv * sine)
+            by_w, by_v = 2.0 * stiff * (kw * sine + kv * cosine), 2.0 * stiff * (kw * cosine - kv * sine)
+            out[row, i, j] = -by_w  # M by κ_w and κ_v.
+            out[row + 1, i, j] = -by_v
+            out[row + 2, i, j] = 2.0 * share[i] * w[j]  # E by w' and v'.
+            out[row + 3, i, j] = 2.0 * share[i] * v[j]
+            out[row + 4, i, j] = 2.0 * share[i] * b  # G_w by w' and B.
+            out[row + 5, i, j] = 2.0 * share[i] * w[j]
+            out[row + 6, i, j] = 2.0 * share[i] * b  # G_v by v' and B.
+            out[row + 7, i, j] = 2.0 * share[i] * v[j]
+            cosine -= reference[0, i]
+            sine -= reference[1, i]
+            out[row + 8, i, j] = by_w  # M_w by θ, κ_w and κ_v.
+            out[row + 9, i, j] = -stiff * cosine
+            out[row + 10, i, j] = stiff * sine
+            out[row + 11, i, j] = by_v  # M_v by θ, κ_w and κ_v.
+            out[row + 12, i, j] = stiff * sine
+            out[row + 13, i, j] = stiff * cosine
+        for o in range(forces):
+            for k in range(channels + 2):
+                if made[o, k] >= 0:
+                    out[made[o, k], i] = full[o, k]
+
+
+class _BentSection:
+    """The section of an inflow model on a blade that bends."""
+
+    def __init__(self, inner: SectionInterface) -> None:
+        self._inner, self._first, self._forces = inner, inner.channels, inner.forces
+        own = self._first + SW + 5, self._first + SV + 5
+        kw, kv, b = (self._first + 5 + channel for channel in (KW, KV, B))
+        known = set(inner.pairs)
+        pairs = list[tuple[int, int]]()
+        self._rows = np.full((inner.forces, inner.channels), -1, dtype=np.int64)
+        self._made = np.full((inner.forces, inner.channels + 2), -1, dtype=np.int64)
+        for k, (force, channel) in enumerate(inner.pairs):
+            self._rows[force, channel] = k
+        turned = {channel for force, channel in known if force in (FX, FZ, FR)}
+        for force in sorted(range(inner.forces), key=lambda o: o == M):  # M last: those of bending follow it.
+            followed = turned if force in (FX, FZ, FR) else {channel for o, channel in known if o == force}
+            for channel in (*sorted(followed | {UT, UP, UR}), *own):
+                self._made[force, channel] = len(pairs)
+                pairs.append((force, channel))
+        last = {force: inner.forces + 5 + force for force in BENDING}
+        pairs += [
+            (M, kw), (M, kv), (last[E], own[0]), (last[E], own[1]), (last[GW], own[0]), (last[GW], b),
+            (last[GV], own[1]), (last[GV], b), (last[MW], TH), (last[MW], kw), (last[MW], kv), (last[MV], TH),
+            (last[MV], kw), (last[MV], kv),
+        ]  # fmt: skip
+        self.pairs = tuple(pairs)
+
+    def __call__(self, c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+        """As `section.section`, with the rows of `pairs`."""
+        first, forces = self._first, self._forces
+        turned = c[:first].copy()
+        _turn(c, first, turned)
+        f, d, s = self._inner.section(turned, data.section, slopes, flow)
+        out, own = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
+        _turn_back(c, first, f, forces, own, out)
+        made = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
+        if slopes:
+            _slopes_back(c, first, f, d, self._rows, self._made, own, made)
+        return out, made, s
+
+
+@lru_cache(maxsize=8)
+def bent(inner: SectionInterface) -> SectionInterface:
+    """The interface of a section on a blade that bends."""
+    made = _BentSection(inner)
+    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced)

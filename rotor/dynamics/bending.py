@@ -1,0 +1,203 @@
+"""Coupled flap-lag bending modes of a rotating, pretwisted blade.
+
+With w up and v forward, normal to a straight blade axis that turns about the shaft, the pitch θ(r) of the section, and
+the tension T(r) = Ω² ∫_r^R m ρ dρ,
+
+    ½ ∫ [EI_f (w'' cos θ − v'' sin θ)² + EI_l (v'' cos θ + w'' sin θ)² + T (w'² + v'²) − m Ω² v²] dr  =  ½ qᵀ K q
+    ½ ∫ m (ẇ² + v̇²) dr                                                                              =  ½ q̇ᵀ M q̇
+
+Source: Houbolt & Brooks, NACA TR 1346 (1958), without torsion, chordwise offsets of mass and tension. At an articulated
+root w = v = 0 and the slopes are free; at a hingeless one they vanish too. The axis is that of the steadily lagged
+blade: a hinge at e holds it at a distance y0 = e sin ζ from the shaft, which shortens the arm r by e (1 − cos ζ) only.
+
+Finite elements with cubic (Hermite) polynomials; integrals by Gauss' rule.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import eigh
+
+from rotor.arrays import Array, Integers
+from rotor.design.structure import BladeStructure
+
+ELEMENTS = 40
+_PLACES, _SHARES = np.polynomial.legendre.leggauss(4)
+
+Pitch = Callable[[Array], Array]
+"""θ at radii r [m] → [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class BendingBeam:
+    """A blade in bending on Gauss points; arrays are (points,), four to an element."""
+
+    nodes: Array
+    """[m], (elements + 1,), the first at the hinge, or where the blade is held."""
+    r: Array
+    """[m]"""
+    weight: Array
+    """Of the points in an integral along the blade [m]."""
+    mass: Array
+    """[kg/m]"""
+    tension: Array
+    """[N]"""
+    flap_stiffness: Array
+    """EI [N m²]"""
+    lag_stiffness: Array
+    pitch: Array
+    """[rad]"""
+    angular_speed: float
+    """[rad/s]"""
+    hingeless: bool
+    """Whether the first node holds the slopes too."""
+
+
+def bending_beam(
+    structure: BladeStructure, angular_speed: float, root: float, pitch: Pitch, *, hingeless: bool
+) -> BendingBeam:  # fmt: skip
+    """The blade from its hinge, or from where it is held, at `root` [m].
+
+    ValueError for a structure without stiffness in flap and lag.
+    """
+    if not structure.bends:
+        raise ValueError(
+            "the blade structure has no stiffness in bending: give flap_stiffness_nm2 and lag_stiffness_nm2"
+        )
+    nodes = np.linspace(root, structure.radius, ELEMENTS + 1)
+    half = 0.5 * np.diff(nodes)
+    r = (nodes[:-1, None] + half[:, None] * (1.0 + _PLACES)).ravel()
+    return BendingBeam(
+        nodes,
+        r,
+        (half[:, None] * _SHARES).ravel(),
+        structure.at(r, structure.mass_per_length),
+        structure.centrifugal_force(r, angular_speed, steps=4000),
+        structure.at(r, structure.flap_stiffness),
+        structure.at(r, structure.lag_stiffness),
+        pitch(r),
+        angular_speed,
+        hingeless,
+    )
+
+
+def _polynomials(nodes: Array, r: Array) -> tuple[Integers, Array]:
+    """Number of the element of each station, and its four polynomials with two derivatives, (stations, 3, 4)."""
+    element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    length = np.diff(nodes)[element]
+    s = (r - nodes[element]) / length
+    one, o = np.ones_like(s), length
+    values = [1 - 3 * s**2 + 2 * s**3, o * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3, o * (s**3 - s**2)]
+    slopes = [(6 * s**2 - 6 * s) / o, 1 - 4 * s + 3 * s**2, (6 * s - 6 * s**2) / o, 3 * s**2 - 2 * s]
+    curvatures = [(12 * s - 6) / o**2, (6 * s - 4) / o, (6 - 12 * s) / o**2, (6 * s - 2 * one) / o]
+    return element, np.stack([np.stack(own, axis=-1) for own in (values, slopes, curvatures)], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class BendingModes:
+    """The lowest natural modes in bending."""
+
+    beam: BendingBeam
+    frequency: Array
+    """[rad/s], (modes,)."""
+    nodal: Array
+    """w, w', v, v' at the nodes, (modes, nodes, 4)."""
+
+    def at(self, r: ArrayLike) -> Array:
+        """w, w', w'', v, v', v'' at r [m], (6, modes, stations); zero inboard of the root."""
+        radii = np.asarray(r, dtype=float)
+        element, basis = _polynomials(self.beam.nodes, radii)
+        ends = np.concatenate([np.take(self.nodal, element + k, axis=1) for k in range(2)], axis=2)
+        flap, lag = ends[:, :, [0, 1, 4, 5]], ends[:, :, [2, 3, 6, 7]]  # Of both ends, (modes, stations, 4) each.
+        out = np.stack([np.einsum("kn,mkn->mk", basis[:, d], own) for own in (flap, lag) for d in range(3)])
+        return out * (radii >= self.beam.nodes[0])
+
+    @property
+    def modal_mass(self) -> Array:
+        """∫ m (w² + v²) dr, (modes,)."""
+        at = self.at(self.beam.r)
+        return (at[0] ** 2 + at[3] ** 2) @ (self.beam.mass * self.beam.weight)
+
+    @property
+    def flap_share(self) -> Array:
+        """Part of the modal mass that moves in flap, (modes,)."""
+        at = self.at(self.beam.r)
+        return at[0] ** 2 @ (self.beam.mass * self.beam.weight) / self.modal_mass
+
+
+def bending_modes(beam: BendingBeam, count: int) -> BendingModes:
+    """The modes of lowest frequency, each with one unit of modal mass."""
+    mass, stiffness = _matrices(beam)
+    size = len(mass)
+    fixed = [0, 2, *([1, 3] if beam.hingeless else [])]
+    free = np.setdiff1d(np.arange(size), fixed)
+    squares, vectors = eigh(
+        stiffness[np.ix_(free, free)], mass[np.ix_(free, free)], subset_by_index=[0, count - 1], driver="gvx"
+    )
+    nodal = np.zeros((count, size))
+    nodal[:, free] = vectors.T
+    return BendingModes(beam, np.sqrt(np.maximum(squares, 0.0)), nodal.reshape(count, -1, 4))
+
+
+def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
+    """M and K, (4 nodes, 4 nodes) both; unknowns w, w', v, v' at each node."""
+    element, basis = _polynomials(beam.nodes, beam.r)
+    value, slope, curvature = (np.einsum("ka,kb->kab", basis[:, d], basis[:, d]) for d in range(3))
+    cos, sin, flap, lag = np.cos(beam.pitch), np.sin(beam.pitch), beam.flap_stiffness, beam.lag_stiffness
+    up = flap * cos**2 + lag * sin**2
+    forward, both = lag * cos**2 + flap * sin**2, (lag - flap) * sin * cos
+    size = 4 * len(beam.nodes)
+    mass, stiffness = np.zeros((size, size)), np.zeros((size, size))
+
+    def add(matrix: Array, by_value: Array, by_slope: Array, by_curvature: Array, rows: int, columns: int) -> None:
+        blocks = sum(
+            (beam.weight * factor)[:, None, None] * own
+            for factor, own in ((by_value, value), (by_slope, slope), (by_curvature, curvature))
+        )
+        first = 4 * element[:, None] + np.array([0, 1, 4, 5])
+        np.add.at(matrix, ((first + rows)[:, :, None], (first + columns)[:, None, :]), blocks)
+
+    none = np.zeros_like(beam.r)
+    for own in (0, 2):
+        add(mass, beam.mass, none, none, own, own)
+    add(stiffness, none, beam.tension, up, 0, 0)
+    add(stiffness, -(beam.angular_speed**2) * beam.mass, beam.tension, forward, 2, 2)
+    add(stiffness, none, none, both, 0, 2)
+    add(stiffness, none, none, both, 2, 0)
+    return mass, stiffness
+
+
+@lru_cache(maxsize=32)
+def blade_bending_modes(
+    structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...],
+    count: tuple[int, int],
+    hingeless: bool,
+) -> BendingModes:  # fmt: skip
+    """The modes of a blade whose pitch [rad] is linear between stations [m], (stations, angles).
+
+    count: how many of those that move more in flap, and in lag.
+    """
+    stations, angles = (np.array(own) for own in pitch)
+
+    def at(r: Array) -> Array:
+        return np.interp(r, stations, angles)
+
+    beam = bending_beam(structure, angular_speed, root, at, hingeless=hingeless)
+    return lowest_by_kind(bending_modes(beam, 4 * max(count)), *count)
+
+
+def lowest_by_kind(modes: BendingModes, flap: int, lag: int) -> BendingModes:
+    """So many of those that move more in flap, and of those that move more in lag."""
+    flaps = modes.flap_share > 0.5
+    chosen = np.sort(np.concatenate([np.flatnonzero(flaps)[:flap], np.flatnonzero(~flaps)[:lag]]))
+    return BendingModes(modes.beam, modes.frequency[chosen], modes.nodal[chosen])
+
+
+def frequencies_by_kind(modes: BendingModes) -> tuple[list[float], list[float]]:
+    """Frequencies [per rev] of the modes that move more in flap, and of those that move more in lag."""
+    per_rev, flaps = (modes.frequency / modes.beam.angular_speed).tolist(), (modes.flap_share > 0.5).tolist()
+    flap = [own for own, kind in zip(per_rev, flaps, strict=True) if kind]
+    return flap, [own for own, kind in zip(per_rev, flaps, strict=True) if not kind]

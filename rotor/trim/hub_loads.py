@@ -1,0 +1,193 @@
+"""Vibratory loads on the hub, what they are summed up to, and their gradient by the pitch along the blade.
+
+The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do: 0.5, 0.67 and 1 for aft, side
+and vertical force, moments over the radius. The weights of the forces are those of the intrusion index (S. Crews,
+Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987). Both are recalled, not looked up.
+
+Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
+frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from rotor.aero.bending import BladeBending
+from rotor.aero.problem import Problem
+from rotor.aero.section import FR, FX, FZ
+from rotor.arrays import Array
+from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
+from rotor.design.design import Design
+from rotor.engine.linearise import Point
+from rotor.engine.terms import Terms
+from rotor.engine.waves import wave_grid
+from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
+from rotor.trim.newton import Guess
+from rotor.trim.solution import Caveat, HubLoads, Solution
+from rotor.units import GRAVITY
+
+SLOWEST = 0.2
+"""Advance ratio below which the wake model decides the loads."""
+BAND = ("uniform", "drees", "pitt-peters", "lifting-line")
+"""Inflow models over which the index is stated."""
+_AFT, _SIDE = 0.5, 0.67
+"""Weights of the in-plane forces in the index."""
+
+
+def why_no_hub_loads(design: Design) -> Caveat | None:
+    """Why a design has none, None where it has them."""
+    structure, rotor = design.rotor.blade.structure, design.rotor
+    if structure is None or not structure.bends:
+        sentence = (
+            f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it "
+            "flaps as a rigid blade."
+        )
+    elif not design.models.flapping:
+        sentence = "No hub loads: flapping is switched off."
+    elif not has_hub_loads(rotor.blades):
+        sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
+    elif design.hovering or design.condition.advance_ratio < SLOWEST:
+        sentence = f"No hub loads below µ {SLOWEST:g}: there they are those of the wake model, not of the rotor."
+    else:
+        return None
+    return Caveat("no-hub-loads", sentence)
+
+
+Solve = Callable[[Design, Solution | Guess | None], Solution]
+"""As `rotor.trim.solve.solve`."""
+
+
+def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoads | None:
+    """Of a converged solution; None where `why_no_hub_loads` says why. band: whether to solve with other wakes as well.
+
+    A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
+    Raises RuntimeError with the solution's sentence when it is not converged.
+    """
+    design = solution.require().design
+    if why_no_hub_loads(design) is not None:
+        return None
+    if not design.models.bending:
+        design = replace(design, models=replace(design.models, bending=True))
+        solution = solve(design, replace(solution.start, factors=None))
+        if not solution.converged:
+            return None
+    adjoint = Adjoint(solution)
+    problem, point = adjoint.problem, adjoint.point
+    values = _scaled(problem, _terms(problem, point).value(point.z, point.q))
+    index = 100.0 * _index(design, values)[0]
+    others = _indices(design, solve) if band else []
+    amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
+    force, moment = root_loads(problem, point)
+    return HubLoads(
+        per_rev=design.rotor.blades,
+        amplitudes=dict(zip(LOADS, amplitudes, strict=True)),
+        phases=dict(zip(LOADS, phases, strict=True)),
+        index=index,
+        band=(min([index, *others]), max([index, *others])) if band else None,
+        root_force=force,
+        root_moment=moment,
+    )
+
+
+def _indices(design: Design, solve: Solve) -> list[float]:
+    """The index with each wake with which the design trims [%]."""
+    found = list[float]()
+    for name in BAND:
+        if name != design.models.inflow:
+            other = solve(replace(design, models=replace(design.models, inflow=name)), None)
+            loads = hub_loads(other, solve, band=False) if other.converged else None
+            found += [] if loads is None else [loads.index]
+    return found
+
+
+def _terms(problem: Problem, point: Point) -> Terms:
+    assert problem.bending is not None
+    return hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+
+
+def _scaled(problem: Problem, values: Array) -> Array:
+    """N and N m, cosine and sine of each load, (loads, 2)."""
+    design = problem.design
+    lengths = np.array([1.0] * 3 + [design.rotor.radius] * 2)
+    return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
+
+
+def _index(design: Design, values: Array) -> tuple[float, Array]:
+    """The index, a fraction, and its slopes by the loads, (loads, 2)."""
+    condition, radius = design.condition, design.rotor.radius
+    weight = condition.weight if condition.stand is None else design.weight_coefficient * design.thrust_unit
+    gains = np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius])[:, None] / weight
+    weighted = gains * values
+    force, moment = math.sqrt(float((weighted[:3] ** 2).sum())), math.sqrt(float((weighted[3:] ** 2).sum()))
+    slopes = gains * weighted
+    slopes[:3] /= max(force, 1e-30)
+    slopes[3:] /= max(moment, 1e-30)
+    return force + moment, slopes
+
+
+def hub_load_gradient(solution: Solution) -> PitchGradient:
+    """∂(index)/∂θ(r) [%/rad] of a converged solution with hub loads; trim, bending and inflow follow.
+
+    Raises RuntimeError where there are none, with the reason.
+    """
+    reason = why_no_hub_loads(solution.require().design)
+    if reason is not None:
+        raise RuntimeError(reason.sentence)
+    if not solution.design.models.bending:
+        raise RuntimeError("The blades do not bend in this solution: solve the design with bending first.")
+    adjoint = Adjoint(solution)
+    problem, point, design = adjoint.problem, adjoint.point, solution.design
+    terms = _terms(problem, point)
+    slopes = _index(design, _scaled(problem, terms.value(point.z, point.q)))[1]
+    weights = 100.0 * _scaled(problem, np.ones(2 * len(LOADS))) * slopes
+    summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
+    return PitchGradient(problem.disk.r, problem.disk.dr, adjoint.by_pitch(Weights(terms=summed)))
+
+
+def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
+    """Of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
+
+    (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and
+    forward; at a hinge they vanish but for that of the damper, up to what the modes leave and small angles neglect.
+    """
+    b, disk, forces = problem.bending, problem.disk, point.forces
+    assert b is not None
+    rotor = problem.design.rotor
+    u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
+    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(own) for own in (u, v, w))
+    acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
+    acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
+    air = np.stack([forces[FR], -forces[FX], forces[FZ]])
+    force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
+
+    def moment(along: int, moved: Array) -> Array:
+        """Of the forces along one axis times their distance from the root, less those outward times theirs."""
+        moved = moved - moved[0]
+        columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
+        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
+        return of_air - (b.r - b.r[0]) * b.strips @ acceleration[along] + b.strips @ (moved * acceleration[0])
+
+    return force * b.force, np.stack([moment(2, w), moment(1, v)]) * (b.force * rotor.radius)
+
+
+def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tuple[Array, Array, Array]:
+    """u outward, v forward with the offset y0, and w up over R at the stations of a blade: (stations, azimuths)."""
+    q = q.copy()
+    q[b.first, 0] -= b.precone
+    around = q @ wave_grid(q.shape[1], azimuths).at
+    w = b.precone * (b.r - b.r[0])[:, None] + b.along[0].T @ around
+    v = offset + b.along[3].T @ around
+    slopes = (b.precone + b.along[1].T @ around) ** 2 + (b.along[4].T @ around) ** 2
+    u = -0.5 * (b.r[1] - b.r[0]) * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
+    return u, v, w
+
+
+def _rates(field: Array) -> tuple[Array, Array]:
+    """First and second derivative by ψ of a periodic field, (…, azimuths)."""
+    count = field.shape[-1]
+    harmonic: Array = np.arange(count // 2 + 1, dtype=float)
+    found = np.fft.rfft(field)
+    first = np.where(2.0 * harmonic == count, 0.0, 1j * harmonic)
+    return np.fft.irfft(first * found, count), np.fft.irfft(-(harmonic**2) * found, count)

@@ -1,0 +1,343 @@
+"""Trims of a blade that bends: identities, hub loads from two sides, gradient, time marching, convergence."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor
+from rotor.aero.bending import BladeBending
+from rotor.aero.problem import Problem
+from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
+from rotor.arrays import Array
+from rotor.columns.bending import bending_work, coordinates_of
+from rotor.design.design import Design
+from rotor.engine.linearise import Point, evaluate, jacobian, transposed
+from rotor.engine.waves import wave_grid, waves_at
+from rotor.trim.adjoint import Adjoint, power_gradient
+from rotor.trim.hub_loads import displacements, hub_load_gradient, hub_loads, root_loads, why_no_hub_loads
+from rotor.trim.newton import SolverOptions
+from rotor.trim.solution import HubLoads, Solution
+from rotor.units import GRAVITY
+
+LINEAR, LINE = "pitt-peters", "lifting-line"
+
+
+def _design(mu: float, inflow: str, *, twist: str | None = None, twist_per_rev: str = "") -> Design:
+    design = rotor.make_design(mu=mu, inflow=inflow, twist=twist, twist_per_rev=twist_per_rev)
+    return replace(design, models=replace(design.models, bending=True))
+
+
+@cache
+def _solved(mu: float, inflow: str) -> Solution:
+    return rotor.solve(_design(mu, inflow)).require()
+
+
+def _at(solution: Solution) -> tuple[Problem, Point, BladeBending]:
+    adjoint = Adjoint(solution)
+    assert adjoint.problem.bending is not None
+    return adjoint.problem, adjoint.point, adjoint.problem.bending
+
+
+def _loads(solution: Solution) -> HubLoads:
+    found = hub_loads(solution, rotor.solve, band=False)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, "local-momentum", LINE])
+def test_jacobian(inflow: str) -> None:
+    """Along a random direction against differences of fourth order; and its transpose."""
+    _, point, _ = _at(_solved(0.3, inflow))
+    system, exact, random = point.system, jacobian(point)[0], np.random.default_rng(1)
+    along = random.standard_normal(len(system.free)) * 1e-6  # Stall data have kinks: no further.
+    along[len(system.structure.free) :] *= 0.01
+
+    def residual(share: float) -> Array:
+        x = point.x.copy()
+        x[system.free] += share * along
+        return evaluate(system, point.grid, x).residual
+
+    near, far = residual(0.1) - residual(-0.1), residual(0.2) - residual(-0.2)
+    expected = (8.0 * near - far) / 1.2
+    assert_allclose(exact @ along, expected, atol=1e-6 * float(np.abs(expected).max()))
+    weights = random.standard_normal(len(along))
+    assert_allclose(transposed(point, weights)[0] @ along, weights @ exact @ along, rtol=1e-12)
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, LINE])
+def test_energy(inflow: str) -> None:
+    """Shaft power less its parts is exactly the work of the air on bending; nearly all of it ends in the lag damper."""
+    solution = _solved(0.3, inflow)
+    _, point, b = _at(solution)
+    watts = solution.design.power_unit
+    work = sum(share * point.z[i] * point.z[j] * point.q[q] for share, i, j, q in bending_work(point.system.structure))
+    left = solution.power.shaft - solution.power.main_rotor
+    assert_allclose(work * watts, left, atol=1e-9 * solution.power.shaft)
+    q, _ = coordinates_of(b, point.system.structure, point.z)
+    rates = [n * n * (q[:, one] @ b.damping @ q[:, one]) for n in range(1, 9) for one in (2 * n - 1, 2 * n)]
+    assert_allclose(left, 0.5 * sum(rates) * watts, atol=1e-4 * solution.power.shaft)
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, LINE])
+@pytest.mark.parametrize("mu", [0.15, 0.3, 0.37])
+def test_hub_torque_is_that_of_the_shaft(mu: float, inflow: str) -> None:
+    """Forces of the blade times the place of its hinge: the torque that the air loads have about the shaft."""
+    solution = _solved(mu, inflow)
+    problem, point, b = _at(solution)
+    force, _ = root_loads(problem, point)
+    _, offset = coordinates_of(b, point.system.structure, point.z)
+    torque = -force[1].mean() * b.r[0] + force[0].mean() * offset
+    torque *= problem.design.rotor.blades * problem.design.rotor.radius
+    assert_allclose(torque, solution.torque, rtol=1e-3)
+
+
+def test_mean_force_is_thrust_less_weight() -> None:
+    solution = _solved(0.3, LINEAR)
+    problem, point, b = _at(solution)
+    design, rotor_ = problem.design, problem.design.rotor
+    mass = b.strips.sum() * b.force / (rotor_.radius * rotor_.angular_speed**2)
+    expected = solution.ct * design.thrust_unit / rotor_.blades - mass * GRAVITY
+    assert_allclose(root_loads(problem, point)[0][2].mean(), expected, rtol=1e-9)
+
+
+def test_inertia_is_the_second_derivative_of_the_centre_of_mass() -> None:
+    """In axes that do not turn: air loads and weight less the force on the hub."""
+    problem, point, b = _at(_solved(0.3, LINEAR))
+    force, psi = root_loads(problem, point)[0] / b.force, problem.disk.psi
+    air = np.einsum("i,kij->kj", problem.disk.dr, np.stack([point.forces[FR], -point.forces[FX], point.forces[FZ]]))
+    u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), len(psi))
+    x, y = b.r[:, None] + u, v
+    centre = (
+        b.strips @ (x * np.cos(psi) - y * np.sin(psi)),
+        b.strips @ (x * np.sin(psi) + y * np.cos(psi)),
+        b.strips @ w,
+    )
+    gravity = GRAVITY / (problem.design.rotor.radius * problem.design.rotor.angular_speed**2) * b.strips.sum()
+    left = air - force
+    fixed = (
+        left[0] * np.cos(psi) - left[1] * np.sin(psi),
+        left[0] * np.sin(psi) + left[1] * np.cos(psi),
+        left[2] - gravity,
+    )
+    for found, place in zip(fixed, centre, strict=True):
+        waves = np.fft.rfft(place)
+        expected = np.fft.irfft(-(np.arange(len(waves)) ** 2) * waves, len(psi))
+        assert_allclose(found, expected, atol=1e-9 * float(np.abs(left).max()))
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, LINE])
+def test_hub_loads_are_the_root_loads_of_all_blades(inflow: str) -> None:
+    """Vertical force and moments exactly; in the plane the radial shortening is summed over elements here: 2 %."""
+    solution = _solved(0.3, inflow)
+    problem, point, b = _at(solution)
+    loads, psi, blades = _loads(solution), problem.disk.psi, problem.design.rotor.blades
+    radial, forward, up = loads.root_force
+    radius, (_, offset) = problem.design.rotor.radius, coordinates_of(b, point.system.structure, point.z)
+    hinge, beside = b.r[0] * radius * up, offset * radius * up
+    fixed = {
+        "fx": radial * np.cos(psi) - forward * np.sin(psi), "fy": radial * np.sin(psi) + forward * np.cos(psi),
+        "fz": up, "mx": hinge * np.sin(psi) + beside * np.cos(psi), "my": -hinge * np.cos(psi) + beside * np.sin(psi),
+    }  # fmt: skip
+    for name, of_one in fixed.items():
+        wave = 2.0 * blades * (of_one * np.exp(1j * blades * psi)).mean()
+        expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
+        exact = name in ("fz", "mx", "my")
+        assert_allclose(wave, expected, rtol=1e-9 if exact else 0.03)
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, LINE])
+def test_gradients(inflow: str) -> None:
+    """Of index and power by linear twist, against differences of trims."""
+    tight = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
+    step, before = 0.05, rotor.solve(_design(0.3, inflow, twist="linear:-12"))
+    low, high = (
+        rotor.solve(_design(0.3, inflow, twist=f"linear:{-12 + sign * step}"), options=tight).require()
+        for sign in (-1.0, 1.0)
+    )
+    gradient = hub_load_gradient(before)
+    slopes = (np.radians(1.0) * (gradient.r - 0.75))[None]
+    expected = (_loads(high).index - _loads(low).index) / (2.0 * step)
+    assert_allclose(gradient.along(slopes), expected, rtol=3e-4)
+    expected = (high.power.total - low.power.total) / (2.0 * step)
+    assert_allclose(power_gradient(before).along(slopes), expected, rtol=3e-5)
+
+
+def test_where_there_are_no_hub_loads() -> None:
+    assert why_no_hub_loads(rotor.make_design(mu=0.2)) is None
+    for design, words in (
+        (rotor.make_design(mu=0.19), "below µ 0.2"),
+        (rotor.make_design(hover=True), "below µ 0.2"),
+        (rotor.make_design(rotor="r22", mu=0.25), "Robinson R22 blade in flap and lag is not known"),
+    ):
+        reason = why_no_hub_loads(design)
+        assert reason is not None
+        assert words in reason.sentence
+        assert rotor.solve(design).hub_loads is None
+    with pytest.raises(RuntimeError, match="do not bend"):
+        hub_load_gradient(rotor.solve(rotor.make_design(mu=0.3)))
+
+
+def test_solution_has_hub_loads_with_their_band() -> None:
+    """Of a design whose blades do not bend as well: those of the same design with blades that do."""
+    stiff, bent = rotor.solve(rotor.make_design(mu=0.3)), _solved(0.3, LINE)
+    loads, frequencies = stiff.hub_loads, bent.blade_frequencies
+    assert loads is not None
+    assert frequencies is not None
+    assert loads.band is not None
+    assert_allclose(loads.index, _loads(bent).index, rtol=1e-6)
+    assert loads.band[0] < 0.6 * loads.index <= loads.index == loads.band[1]
+    assert_allclose(frequencies.flap[:2], [1.035, 2.81], rtol=0.02)
+    assert_allclose(frequencies.lag[0], 0.27, atol=0.005)
+    assert_allclose(
+        frequencies.torsion[0], 4.97, atol=0.01
+    )  # Fan plots have 4.3 to 4.6: the control stiffness is assumed.
+
+
+class _March:
+    """The modes in time under the inflow and the controls of a trim, by the classical Runge-Kutta method."""
+
+    def __init__(self, solution: Solution, steps: int) -> None:
+        self.problem, self.point, self.b = _at(solution)
+        p, b, structure, torsion = self.problem, self.b, self.point.system.structure, self.problem.torsion
+        assert torsion is not None
+        self.torsion, self.steps, size = torsion, 2 * steps, len(b.mass)
+        self.q, self.offset = coordinates_of(b, structure, self.point.z)
+        self.phi = self.point.x[[structure.states["twist", k, h] for k in range(2) for h in range(17)]].reshape(2, 17)
+        self.psi = 2.0 * np.pi * np.arange(self.steps) / self.steps
+        around = wave_grid(structure.waves, self.steps)
+        rest = self.point.x.copy()
+        for name, atom in structure.states.items():
+            moves = isinstance(name, tuple) and name != ("bend", "offset")
+            if moves or name in ("coning", "flap_1c", "flap_1s"):
+                rest[atom] = 0.0
+        grid = replace(self.point.grid, waves=around, data=p.grid_data(len(p.disk.psi)))
+        self.data, self.given = grid.data, evaluate(self.point.system, grid, rest).channels
+        tip = torsion.radial * (torsion.tip_mass * torsion.dr)
+        self.by_slope, self.by_rise = tip @ b.shapes[1].T, tip / p.disk.r @ b.shapes[0].T
+        self.masses = np.block([
+            [np.diag(b.mass), -self.by_rise.T], [-self.by_rise, np.diag(1.0 / (torsion.gain * torsion.frequency**2))]
+        ])  # fmt: skip
+        self.size = size
+
+    def start(self) -> Array:
+        """Of harmonic balance at ψ = 0: coordinates and rates, bending first."""
+        at, after = (waves_at(17, np.array([one])) for one in (0.0, 1e-6))
+        q = np.concatenate([self.q, self.phi])
+        return np.concatenate([(q @ at)[:, 0], (q @ (after - at))[:, 0] / 1e-6])
+
+    def rates(self, step: int, state: Array) -> Array:
+        """At a half step."""
+        b, torsion, k, n = self.b, self.torsion, step % self.steps, self.size
+        x, dx = np.split(state, 2)
+        q, phi, dq, dphi = x[:n], x[n:], dx[:n], dx[n:]
+        c = self.given[:, :, [k]].copy()
+        _, dw, ddw, v, dv, ddv = (own.T @ q for own in b.shapes)
+        for channel, added in (
+            (TH, torsion.radial.T @ phi), (RATE, torsion.radial.T @ dphi), (UP, b.shapes[0].T @ dq),
+            (UT, b.shapes[3].T @ dq), (UR, v), (-5, dw), (-4, dv), (-3, ddw), (-2, ddv), (-1, b.outboard.T @ dq),
+        ):  # fmt: skip
+            c[channel, :, 0] += added
+        f = self.problem.interface.section(c, self.data, False, False)[0][:, :, 0]
+        width, share = self.problem.disk.dr, b.share
+        coriolis = 2.0 * share * (dw * (b.shapes[1].T @ dq) + dv * (b.shapes[4].T @ dq))  # Ė
+        of_air = b.shapes[0] @ (width * f[FZ]) - b.shapes[3] @ (width * f[FX])
+        inner = sum(b.shapes[row] @ (width * f[force]) for row, force in ((1, -4), (4, -3), (2, -2), (5, -1)))
+        held = b.load + self.offset * b.in_plane
+        held[b.lag] -= 0.5 * self.offset * self._shortened / (1.0 - b.r[0])
+        right = of_air + held - inner + b.outboard @ (width * coriolis) - b.mass * b.frequency**2 * q - b.damping @ dq
+        right += self.by_slope.T @ phi
+        state_ = self.point.system.structure.states
+        cyclic = self.point.x[state_["cyclic_1c"]] * math.cos(self.psi[k])
+        cyclic += self.point.x[state_["cyclic_1s"]] * math.sin(self.psi[k])
+        moment = torsion.radial @ (width * f[M]) + torsion.coupling @ phi + torsion.modal_inertia * cyclic
+        moment += self.by_slope @ q - (phi + self.problem.given_torsion[:, 0]) / torsion.gain
+        return np.concatenate([dx, np.linalg.solve(self.masses, np.concatenate([right, moment]))])
+
+    @property
+    def _shortened(self) -> float:
+        structure = self.point.system.structure
+        force = structure.forces - 5
+        return float((self.problem.disk.dr * self.b.mass_outboard) @ self.point.forces[force].mean(axis=1))
+
+    def turns(self, count: int) -> Array:
+        """Coordinates over the last of some turns, (steps, modes)."""
+        state, found, width = self.start(), list[Array](), 4.0 * np.pi / self.steps
+        for k in range(count * self.steps // 2):
+            found.append(state)
+            one = self.rates(2 * k, state)
+            two = self.rates(2 * k + 1, state + 0.5 * width * one)
+            three = self.rates(2 * k + 1, state + 0.5 * width * two)
+            four = self.rates(2 * k + 2, state + width * three)
+            state = state + width / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+        return np.array(found[-self.steps // 2 :])[:, : self.size + 2]
+
+
+@pytest.mark.slow
+def test_time_marching() -> None:
+    """The same blade in time, from the trim: every mode moves the tip by the same to 0.1 mm in harmonics 0 to 6."""
+    march = _March(_solved(0.3, LINEAR), 540)
+    found = march.turns(4)
+    psi = march.psi[::2]
+    waves = waves_at(13, psi)
+    means = found.T @ waves.T / len(psi)
+    means[:, 1:] *= 2.0
+    expected = np.concatenate([march.q, march.phi])[:, :13]
+    assert_allclose(means[:-2], expected[:-2], atol=1e-4 / 8.1788)
+    assert_allclose(means[-2:], expected[-2:], atol=math.radians(0.005))
+
+
+@pytest.mark.slow
+def test_loads_do_not_depend_on_the_pitch_of_the_modes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What turns the axes of bending is at every point; modes at another pitch leave what they are cut off at."""
+    expected = _loads(_solved(0.3, LINE)).index
+    monkeypatch.setattr("rotor.aero.bending.REFERENCE_COLLECTIVE", math.radians(4.0))
+    design = _design(0.3, LINE)
+    other = replace(design, rotor=replace(design.rotor, name="with other modes"))
+    assert_allclose(_loads(rotor.solve(other)).index, expected, rtol=0.03)
+
+
+@pytest.mark.slow
+def test_more_modes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two flap modes more: index within 1 %, vertical force within 3 %, power within 0.2 %."""
+    few = _solved(0.3, LINE)
+    monkeypatch.setattr("rotor.aero.problem.MODES", (6, 3))
+    more = rotor.solve(_design(0.3, LINE)).require()
+    assert_allclose(_loads(more).index, _loads(few).index, rtol=0.01)
+    assert_allclose(_loads(more).amplitudes["fz"], _loads(few).amplitudes["fz"], rtol=0.03)
+    assert_allclose(more.power.total, few.power.total, rtol=2e-3)
+
+
+@pytest.mark.slow
+def test_more_harmonics(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Up to 10/rev in place of 8/rev: every load within 1 %."""
+    few = _loads(_solved(0.3, LINEAR)).amplitudes
+    monkeypatch.setattr("rotor.columns.bending.Bending.functions", 21)
+    monkeypatch.setattr("rotor.aero.problem.BENDING_HARMONICS", 10)
+    more = _loads(rotor.solve(_design(0.3, LINEAR)).require()).amplitudes
+    assert_allclose(list(more.values()), list(few.values()), rtol=0.01)
+
+
+@pytest.mark.slow
+def test_more_azimuths() -> None:
+    """40 in place of 120: every load within 1 %."""
+    few = _design(0.3, LINEAR)
+    found = rotor.solve(replace(few, models=replace(few.models, azimuths=40))).require()
+    expected = _loads(_solved(0.3, LINEAR)).amplitudes
+    assert_allclose(list(_loads(found).amplitudes.values()), list(expected.values()), rtol=0.01)
+
+
+@pytest.mark.slow
+def test_trends() -> None:
+    """With a lifting line, as an independent prototype with other wakes has them; linear inflow misses the last."""
+    flat, much = (_loads(rotor.solve(_design(0.35, LINE, twist=f"linear:{own}"))).index for own in (0, -20))
+    assert much > 3.0 * flat
+    base = _loads(_solved(0.3, LINE)).index
+    two, three = (
+        _loads(rotor.solve(_design(0.3, LINE, twist_per_rev=own))).index / base - 1.0 for own in ("2:1:270", "3:1:45")
+    )
+    assert -0.20 < two < -0.10
+    assert -0.65 < three < -0.40
