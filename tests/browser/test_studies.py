@@ -62,7 +62,7 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied")).wait_for(timeout=WAIT)
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
-    inputs = watched.at_rest(session.page.controls.inputs, 0.4)
+    inputs = watched.at_rest(session.page.controls.inputs)
     assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
     assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
     assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
