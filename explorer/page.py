@@ -155,7 +155,9 @@ class Page:
 
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
-        self._pause = self.controls.pauses.longest()
+        pause = self.controls.pauses.longest()
+        # While something is held a rest ends nothing, also if it is let go before this update has its answer.
+        self._pause = 0.0 if self.context.tracker.held else pause
         return self.history.read(self._pause), self.display.view()
 
     def driven(self, design: Design) -> Design:
@@ -315,6 +317,7 @@ class Page:
             if (state := self.context.state()) is not None:
                 self.grab.learn(state.inputs, self.results.sliders.slopes)
         else:
+            self.controls.pauses.longest()  # Rests of this grab do not end it when its last answer comes.
             self.context.tracker.release()
             self.context.bridge.set(hand=None, arc=None)
         self.history.grab(held)

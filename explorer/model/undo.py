@@ -134,6 +134,11 @@ class PowerTracker:
         self._held = False
 
     @property
+    def held(self) -> bool:
+        """Whether a pointer is down."""
+        return self._held
+
+    @property
     def reference(self) -> float | None:
         """Total power before the grab [W]; None when nothing has been moved yet."""
         return self._reference
