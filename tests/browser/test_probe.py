@@ -150,7 +150,7 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
 def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched, app: App):
     page = watched.page
     watched.settled()
-    watched.until(lambda: app.sessions[-1].page.scene._settled)
+    watched.until(lambda: app.sessions[-1].page.scene._fine)
     disk = watched.at_rest(lambda: watched.node("/rotor/disk/field"))  # The fine picture comes last.
     alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
     page.keyboard.press("Space")
