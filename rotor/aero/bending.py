@@ -202,6 +202,12 @@ def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> Blade
     return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
 
 
+def can_bend(rotor: Rotor) -> bool:
+    """Whether the stiffness of the blade is known, and its root: held, or with its hinges away from the shaft."""
+    structure = rotor.blade.structure
+    return structure is not None and structure.bends and (_hingeless(rotor) or rotor.blade.flap_hinge > 0.0)
+
+
 def _hingeless(rotor: Rotor) -> bool:
     """Whether the blade is held at the root; else it has hinges for flap and lag."""
     return rotor.blade.flap_spring > 0.0

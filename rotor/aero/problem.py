@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
-from rotor.aero.bending import MODES, BladeBending, build_bending
+from rotor.aero.bending import MODES, BladeBending, build_bending, can_bend
 from rotor.aero.bent_section import BentData, bent
 from rotor.aero.disk import Disk, azimuths_of, build_disk
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
@@ -134,9 +134,7 @@ def build_problem(design: Design) -> Problem:
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
-    structure = rotor.blade.structure
-    held = structure is not None and structure.bends and (rotor.blade.flap_spring > 0.0 or rotor.blade.flap_hinge > 0.0)
-    if models.bending and models.flapping and not design.hovering and held:
+    if models.bending and models.flapping and not design.hovering and can_bend(rotor):
         bending = build_bending(rotor, disk, condition.density, MODES)
     highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:

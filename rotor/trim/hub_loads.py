@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor.aero.bending import BladeBending
+from rotor.aero.bending import BladeBending, can_bend
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
 from rotor.arrays import Array
@@ -39,7 +39,9 @@ _AFT, _SIDE = 0.5, 0.67
 def why_no_hub_loads(design: Design) -> Caveat | None:
     """Why a design has none, None where it has them."""
     structure, rotor = design.rotor.blade.structure, design.rotor
-    if structure is None or not structure.bends:
+    if structure is not None and structure.bends and not can_bend(rotor):
+        sentence = "No hub loads: blades hinged at the shaft flap as rigid blades here; give flap_hinge_m."
+    elif structure is None or not structure.bends:
         sentence = (
             f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it "
             "flaps as a rigid blade."

@@ -168,7 +168,10 @@ def test_gradients(inflow: str) -> None:
 
 def test_where_there_are_no_hub_loads() -> None:
     assert why_no_hub_loads(rotor.make_design(mu=0.2)) is None
+    fast = rotor.make_design(mu=0.25)
+    central = replace(fast.rotor, blade=replace(fast.rotor.blade, flap_hinge=0.0))
     for design, words in (
+        (replace(fast, rotor=central), "hinged at the shaft"),
         (rotor.make_design(mu=0.19), "below µ 0.2"),
         (rotor.make_design(hover=True), "below µ 0.2"),
         (rotor.make_design(rotor="r22", mu=0.25), "Robinson R22 blade in flap and lag is not known"),
