@@ -148,6 +148,15 @@ class Page:
         """The session begins: widgets as they will be, also where the first solution takes long."""
         self._refresh(Reading(self.controls.inputs(), self.display.view()))
 
+    def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
+        """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
+
+        def answer(asked: tuple[int, bool]) -> None:
+            wait(asked[1])
+            self.context.bridge.set(idle=asked[0])
+
+        self.context.bridge.on("idle", answer)
+
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
         for part in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):

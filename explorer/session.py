@@ -24,7 +24,6 @@ import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 
 import viser
 
@@ -69,11 +68,12 @@ class Session:
         self._begun = -math.inf
         """When the last update began."""
         self._worker = NewestWins(self._update, self._failed)
+        self._client = client
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
-        self.page.context.bridge.on("idle", partial(self._tell_idle, client))
 
     def start(self) -> None:
+        self.page.answer_when_idle(self._until_idle)
         self.page.start()
         self._wake()
 
@@ -205,12 +205,10 @@ class Session:
         self._all_changed = True
         self._worker.wake()
 
-    def _tell_idle(self, client: viser.ClientHandle, asked: tuple[int, bool]) -> None:
-        """Give the page its number back once all that it sent before is answered (`RX.idle`)."""
-        number, wholly = asked
-        until_called(client)
+    def _until_idle(self, wholly: bool) -> None:
+        """Wait until all that the page sent before is answered; `wholly`: and nothing is computed for it any more."""
+        until_called(self._client)
         self._worker.until_answered(wholly)
-        self.page.context.bridge.set(idle=number)
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

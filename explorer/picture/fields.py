@@ -157,7 +157,7 @@ FIELDS: dict[str, Field] = {
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust, speeds=2),
         Field("Circulation", "m²/s", -5.0, 35.0, "sequential", _circulation, void_in_reverse_flow=True, speeds=1),
-        Field("Drag dD/dr", "N/m per blade", 0.0, 300.0, "sequential", _drag, speeds=2),
+        Field("Drag dD/dr", "N/m per blade", 0.0, 400.0, "sequential", _drag, speeds=2),
         Field("Power dP/dr", "kW/m per blade", -20.0, 150.0, "sequential", _power, speeds=3),
         Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),

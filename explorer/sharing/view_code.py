@@ -5,6 +5,7 @@ left out: the one turns while one looks, the other is every reader's own.
 """
 
 import unicodedata
+from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
@@ -22,15 +23,17 @@ _NAMES = tuple(item.name for item in fields(ViewState) if item.name not in ("azi
 _SWITCHED = {"on": True, "off": False}
 
 
-def _short(title: str) -> str:
-    """The first word of a title, in small letters that every keyboard has."""
-    return unicodedata.normalize("NFKD", title.split()[0]).lower()
+def _by_word(titles: Iterable[str]) -> dict[str, str]:
+    """Titles by their first word, or by two where it is another's, in small letters that every keyboard has."""
+    named: dict[str, str] = {}
+    for title in titles:
+        words = unicodedata.normalize("NFKD", title).lower().split()
+        named["-".join(words[:2]) if words[0] in named else words[0]] = title
+    return named
 
 
-_CHOICES: dict[str, dict[str, str]] = {
-    "field": {_short(title): title for title in FIELDS},
-    "units": {_short(title): title for title in UNITS},
-}
+_CHOICES = {"field": _by_word(FIELDS), "units": _by_word(UNITS)}
+_WORDS = {name: {title: word for word, title in choices.items()} for name, choices in _CHOICES.items()}
 
 
 def view_code(view: ViewState) -> str | None:
@@ -59,7 +62,7 @@ def _default(name: str) -> Any:
 
 def _word(name: str, value: Any) -> str:
     if name in _CHOICES:
-        return _short(value)
+        return _WORDS[name][value]
     return f"{value:g}" if isinstance(value, float) else "on" if value else "off"
 
 

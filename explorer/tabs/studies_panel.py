@@ -9,7 +9,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from html import escape
-from importlib.util import find_spec
 from pathlib import Path
 
 import viser
@@ -123,10 +122,6 @@ _log = logging.getLogger(__name__)
 
 SCATTER, FRONT = "Scatter", "Hover against cruise"
 _NONE = "Choose …"
-_MISSING = (
-    "The packages for studies are not installed here. Stop the page, run "
-    "<code>pip install 'rotor-explorer[study]'</code>, start it again."
-)
 _EMPTY = (
     "No results in the folder that the page reads (python -m explorer --studies DIR). To make one there: "
     "python -m rotor study hover_cruise.toml"
@@ -150,9 +145,6 @@ class StudiesPanel(Tab):
         self._studies: dict[str, FoundStudy] = {}
         self._lock = threading.RLock()
         gui = context.gui
-        if find_spec("pyarrow") is None:
-            gui.add_html(f'<div class="rx rx-small" data-explorer="studies-missing">{_MISSING}</div>')
-            return
         gui.add_html(f'<div class="rx rx-dim rx-small">{_HINT}</div>')
         self._menu = _menu(gui, "Result", "study", visible=True)
         with gui.add_folder("Not in the list?", expand_by_default=False):

@@ -16,7 +16,6 @@ from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field
 from functools import cache, partial
-from importlib.util import find_spec
 from typing import Any
 
 from rotor.assets import package_version
@@ -167,7 +166,7 @@ def connected(address: str | None, workers: int | None) -> Generator[Any]:
     """A Dask client of the cluster at `address`, or of one on this machine. ValueError without a cluster there.
 
     On this machine one worker is a thread of this process. More are processes that talk over 127.0.0.1, with TLS and
-    certificates of this run where the package `cryptography` is installed. A cluster at a tls:// address is reached
+    certificates of this run. A cluster at a tls:// address is reached
     with the certificates of Dask's own configuration.
     """
     distributed: Any = importlib.import_module("distributed")
@@ -207,7 +206,7 @@ def _local_cluster(workers: int) -> Any:
                 memory_limit=0,  # A trim needs little; Dask would stop workers on a machine that is nearly full.
                 silence_logs=logging.CRITICAL,
                 protocol=None if several else "inproc://",
-                security=distributed.Security.temporary() if several and find_spec("cryptography") else None,
+                security=distributed.Security.temporary() if several else None,
             )
     finally:
         signal.signal(signal.SIGINT, before)

@@ -202,10 +202,11 @@ def test_at_rest_the_picture_is_fine_before_the_address_and_what_the_page_keeps(
         keep=lambda: called.append("kept"),
         store=lambda: called.append("steps"),
     )
-    page: Any = SimpleNamespace(scene=part, file=part, history=part)
-    state: Any = None
+    views = SimpleNamespace(show_plan=lambda *_, at_rest: called.append("plan"))
+    page: Any = SimpleNamespace(scene=part, file=part, history=part, _views=views)
+    state: Any = SimpleNamespace(solution=None, view=None)
     Page.refine(page, state)
-    assert called == ["picture", "address", "kept", "steps"]
+    assert called == ["picture", "plan", "address", "kept", "steps"]
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 import math
 import os
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree
 
@@ -12,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from explorer.tabs import study_charts
-from explorer.tabs.studies_panel import StudiesPanel, find_studies, numbers, open_study, point_line, summary
+from explorer.tabs.studies_panel import find_studies, numbers, open_study, point_line, summary
 from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs
@@ -136,19 +135,6 @@ def test_a_single_point_can_be_drawn(tmp_path: Path):
     results = finished(tmp_path, "[axes]\nmu = [0.2]\n" + TRIMS[TRIMS.index("[models]") :])
     assert study_charts.choices(results)[:2] == ("mu", "power_total_w")
     assert set(drawn(study_charts.scatter(results, "mu", "power_total_w", "mu", None))) == {0}
-
-
-def test_without_the_packages_the_tab_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):
-    said: list[str] = []
-    monkeypatch.setattr("explorer.tabs.studies_panel.find_spec", lambda name: None)
-    context: Any = SimpleNamespace(gui=SimpleNamespace(add_html=said.append))
-    state: Any = None
-    panel = StudiesPanel(context, Path())
-    assert len(said) == 1
-    assert "pip install 'rotor-explorer[study]'" in said[0]
-    panel.show(state)
-    panel.show_failure()
-    panel.stop()
 
 
 def test_the_front_is_what_none_beats_in_both():

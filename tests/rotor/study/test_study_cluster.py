@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -249,8 +248,7 @@ def test_workers_of_this_machine_are_reached_from_this_machine_only(workers: int
         assert (process == os.getpid()) == (workers == 1)
         for port in (ports | where(0.0)[1]) - before:
             assert port.startswith("0100007F:")  # 127.0.0.1
-        several = "tls" if find_spec("cryptography") else "tcp"
-        assert client.scheduler.address.startswith("inproc" if workers == 1 else several)
+        assert client.scheduler.address.startswith("inproc" if workers == 1 else "tls")
 
 
 def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
