@@ -171,10 +171,10 @@ def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Sessi
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     assert update(session).calls.count("sweep") == 1
-    for recent, expected in ((False, ["sweep", "settle", "sweep"]), (True, ["settle", "sweep"])):
+    for recent, expected in ((False, ["sweep", "refine", "sweep"]), (True, ["refine", "sweep"])):
         monkeypatch.setattr(type(session._curves), "recent", property(lambda _, recent=recent: recent))
         calls = update(session).calls
-        assert [one for one in calls if one in ("sweep", "settle")] == expected
+        assert [one for one in calls if one in ("sweep", "refine")] == expected
 
 
 def test_in_a_crowd_the_number_comes_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
