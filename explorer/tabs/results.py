@@ -97,8 +97,10 @@ _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
-_STALLED = 0.025
-"""Fraction of the disk from which stall is named beside the power."""
+_STALLED = 0.01
+"""Part of the thrust, or a fifth of that of the disk, from which stall is named beside the power: near the root much of
+the disk may be stalled without weight.
+"""
 
 
 class PowerCard:
@@ -231,8 +233,9 @@ def _status(state: SessionState) -> dict[str, str]:
     title = " ".join([*reasons, record.sentence])
     if state.solution.power.total < 0.0:
         words = "autorotation"
-    elif stalled >= _STALLED:
-        words = f"{number(100.0 * stalled, 1)} % of disk stalled"
+    elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
+        thrust = number(100.0 * state.solution.stalled_thrust, 1)
+        words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
     elif reasons:
         words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
     else:

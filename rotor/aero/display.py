@@ -95,24 +95,28 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     return f, s, bends
 
 
-def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float]:
-    """Reverse-flow and stalled parts of πR², the latter without reverse flow.
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
+    """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
     angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
     """
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
-        stalled, cells = (stall_margin < 0.0) & ~reverse, disk.cells
+        stalled, cells, lift = (stall_margin < 0.0) & ~reverse, disk.cells, disk.dr[:, None] * elements.fz
     else:
         limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
-        theta, u_t, u_p, low, high = matrix @ np.stack((elements.theta, elements.u_t, elements.u_p, *limits))
+        theta, u_t, u_p, lift, low, high = matrix @ np.stack(
+            (elements.theta, elements.u_t, elements.u_p, elements.fz, *limits)
+        )
         alpha = np.empty_like(theta)
         angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
         reverse, cells = u_t < 0.0, cells / len(disk.psi)
         stalled = ((alpha > high) | (alpha < low)) & ~reverse
-    return float(cells @ np.count_nonzero(reverse, axis=1)), float(cells @ np.count_nonzero(stalled, axis=1))
+    thrust = float(lift.sum())
+    reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
+    return reversed_area, area, float(lift[stalled].sum()) / thrust if thrust else 0.0
 
 
 @lru_cache(maxsize=16)

@@ -237,6 +237,8 @@ class Solution:
     """Part of the disk πR² with U_T < 0 on the blade (0…1)."""
     stalled_area: float
     """Part of the disk πR² beyond the stall angle, reverse flow not counted (0…1)."""
+    stalled_thrust: float
+    """Part of the thrust that stalled sections carry; negative where they press down."""
     residual: float
     """Largest trim residual, as a fraction of the weight (moments: of weight × radius)."""
     passes: int
@@ -383,6 +385,7 @@ class Solution:
             "lambda0": controls.lambda0,
             "reverse_flow_area_percent": 100.0 * self.reverse_flow_area,
             "stalled_area_percent": 100.0 * self.stalled_area,
+            "stalled_percent": {"area": 100.0 * self.stalled_area, "thrust": 100.0 * self.stalled_thrust},
             **(self.elastic.record() if self.elastic else _RIGID),
         }
         return {

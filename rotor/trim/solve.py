@@ -91,7 +91,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    reverse, stalled = areas(shown[0].disk, shown[1], fields.stall_margin)
+    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
     message = "Trimmed."
     if not converged:
@@ -120,6 +120,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         cp=power.main_rotor / (newtons * design.rotor.tip_speed),
         reverse_flow_area=reverse,
         stalled_area=stalled,
+        stalled_thrust=stalled_thrust,
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,

@@ -133,6 +133,7 @@ def parts(report: DesignReport, entry: ReportEntry) -> str:
 def trim(solution: Solution) -> str:
     """The trim and the coefficients of the rotor."""
     c = solution.controls
+    stalled = [number(100 * part, 1) for part in (solution.stalled_area, solution.stalled_thrust)]
     rows = [
         ("Collective θ0, at 0.75 R", degrees(c.collective)),
         ("Cyclic θ1c, θ1s", f"{degrees(c.cyclic_1c)}, {degrees(c.cyclic_1s)}"),
@@ -145,7 +146,7 @@ def trim(solution: Solution) -> str:
         ("κ = Pi/(CT·λ0)", number(solution.induced_power_factor, 3)),
         ("Figure of merit" if solution.design.hovering else "Rotor L/De", _efficiency_number(solution)),
         ("Reverse flow", f"{number(100 * solution.reverse_flow_area, 1)} % of the disk"),
-        ("Stalled", f"{number(100 * solution.stalled_area, 1)} % of the disk"),
+        ("Stalled", f"{stalled[0]} % of the disk, {stalled[1]} % of the thrust"),
     ]
     return _table("Trim", rows)
 
