@@ -16,6 +16,7 @@ from explorer.hosting.browser import PageFacts, set_query
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.pinned import Pinned
 from explorer.model.session_state import Failure, Frame, Reading, SessionState
+from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.grab import BladeGrab
@@ -48,6 +49,7 @@ from explorer.tabs.views import SceneViews, SettingsPanel
 from explorer.tabs.waterfall import WaterfallPanel
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
@@ -137,6 +139,7 @@ class Page:
         self._views = SceneViews(context, self.scene, self.probe, self.actuator.shown)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
+        bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         self.file.begin(problems, retired)
@@ -270,6 +273,19 @@ class Page:
             tab.show_failure()
         pinned = self.context.pinboard.answer if reading.view.difference else None
         self.scene.fade(failure.good, reading.view, pinned)
+
+    def _nearest_trim(self) -> None:
+        """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
+        state = self.context.state()
+        if state is not None and not self.context.held:
+
+            def trims(inputs: Inputs) -> bool:
+                try:
+                    return solve(self.driven(inputs.design()), state.solution).converged
+                except ValueError:
+                    return False
+
+            self.context.set_inputs(nearest_trim(state.inputs, self.controls.inputs(), trims))
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""

@@ -8,7 +8,8 @@ take some 50 ms, so they belong after the frame.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,8 @@ _CONCEPTS: dict[str, Concept] = {
 """By law of the page: the concept with the same parameters in the same order as the law's inputs."""
 _FLAT = 50.0
 """Power changes per step below this [W] are no effect: less than the last digit shown."""
+_HALVINGS = 6
+"""Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
 """Part of a step by which flight conditions are moved for the differences."""
 
@@ -241,3 +244,32 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
         return None
     answer = solve(replace(solution.design, condition=moved), solution)
     return answer.power.total if answer.converged and np.isfinite(answer.power.total) else None
+
+
+def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool]) -> Inputs:
+    """Of the designs from one that trims towards one that does not, the last that trims, on the sliders' steps.
+
+    Sliders that differ move together; where anything else differs it is `good` itself.
+    """
+    differing = [one.name for one in fields(Inputs) if getattr(good, one.name) != getattr(wanted, one.name)]
+    if not differing or not all(isinstance(getattr(good, name), float) and name in SLIDERS for name in differing):
+        return good
+
+    def between(share: float) -> Inputs:
+        values: dict[str, Any] = {}
+        for name in differing:
+            start, end = getattr(good, name), getattr(wanted, name)
+            step = slider(name, SI, good.aircraft).step
+            # Towards the good end, so that the step does not lead beyond what trims.
+            values[name] = round(start + math.trunc(share * (end - start) / step) * step, 6)
+        return replace(good, **values)
+
+    reached, low, high = good, 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        there = between(middle)
+        if trims(there):
+            reached, low = there, middle
+        else:
+            high = middle
+    return reached

@@ -13,7 +13,7 @@
     place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span></div>
       <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div></div>
       <div class="rxf-rule"></div>
-      ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)}</div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
+      ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)} <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2'))}</div></div>`}
       <div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details" aria-label="Power and trim in detail: ${now.parts.map(one => `${text(one.name)} ${text(one.value)}`).join(', ')}" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>

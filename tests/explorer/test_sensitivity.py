@@ -9,7 +9,14 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import LAWS, Inputs, preset_inflow
 from explorer.model.pinned import FLIGHT
-from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
+from explorer.model.sliders import (
+    SLIDERS,
+    SliderSensitivity,
+    flight_sensitivities,
+    nearest_trim,
+    slider,
+    twist_sensitivities,
+)
 from explorer.model.units import AVIATION, SI
 from explorer.tabs.results import sensitivity_row
 from rotor.trim.adjoint import power_gradient
@@ -140,3 +147,28 @@ def test_twist_sliders_take_little_beside_a_solve():
             work()
             best[k] = min(best[k], time.thread_time() - begin)
     assert best[0] < 0.1 * best[1]
+
+
+def test_the_nearest_design_that_trims_lies_a_step_before_the_end():
+    """All sliders that were moved go together, towards those of the last trim."""
+    good, asked = Inputs(advance_ratio=0.3, mass_t=8.0), list[Inputs]()
+
+    def trims(inputs: Inputs) -> bool:
+        asked.append(inputs)
+        return inputs.advance_ratio <= 0.38
+
+    nearest = nearest_trim(good, replace(good, advance_ratio=0.5, mass_t=12.0), trims)
+    assert 0.38 - 2 * slider("advance_ratio", SI).step <= nearest.advance_ratio <= 0.38
+    assert nearest.mass_t == pytest.approx(8.0 + 4.0 * (nearest.advance_ratio - 0.3) / 0.2, abs=0.1)
+    assert len(asked) <= 6
+    other = replace(good, rotor="r22", mass_t=0.6)
+    assert nearest_trim(good, other, lambda _: True) == good
+
+
+def test_the_nearest_design_that_trims_trims():
+    good = Inputs(advance_ratio=0.3, mass_t=8.0)
+    wanted = replace(good, advance_ratio=0.5, mass_t=14.0)
+    assert not solve(wanted.design()).converged
+    nearest = nearest_trim(good, wanted, lambda inputs: solve(inputs.design()).converged)
+    assert solve(nearest.design()).converged
+    assert nearest.mass_t > 9.0
