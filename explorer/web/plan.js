@@ -99,7 +99,8 @@
   RX.paint('plan', now => {
     page.toggleAttribute('data-plan', Boolean(now));
     place.hidden = around.hidden = !now;
-    if (!now) { pointer = null; pins = []; return; }
+    if (!now) { pointer = null; pins = []; around.innerHTML = ''; return; }
+    if (!around.childElementCount) around.innerHTML = '<div class="rxf-chart" data-wide></div><div class="rxf-chart rxf-shares"></div>';
     if (now.values) {
       tables = Object.fromEntries(Object.entries(now.values).map(([name, one]) => [name, unpack(one)]));
       tables.before = now.values_a ? unpack(now.values_a.alpha) : undefined;
@@ -166,7 +167,7 @@
 
   // α around the circle, with the stall angles there, and the shares of the regions beside it.
   function drawAround() {
-    if (!tables.alpha) return;
+    if (!tables.alpha || !around.childElementCount) return;
     const [chart, shares] = around.children, width = Math.max(chart.clientWidth - 32, 80), height = Math.max(chart.clientHeight - 36, 40), left = 34, base = height - 17, right = width - 8;
     const at360 = table => Array.from({length: 121}, (_, k) => reversed(circle, 3 * k) ? null : at(table, circle, 3 * k));
     const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), before = tables.before && at360(tables.before);

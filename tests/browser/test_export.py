@@ -88,6 +88,7 @@ def test_the_disk_is_a_drawing(watched: Watched, tmp_path: Path):
     assert "drag divergence" in drawing
 
 
+@pytest.mark.slow
 def test_the_view_is_a_picture_of_the_scene(watched: Watched, tmp_path: Path):
     with Image.open(saved(watched, "View as PNG", tmp_path)) as picture:
         size = watched.page.locator("canvas").first.bounding_box()

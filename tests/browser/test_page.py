@@ -1,12 +1,12 @@
 """The real page in a real browser: sliders move, and power, blade, disk and charts follow."""
 
 import re
-import threading
 import time
 
 import pytest
 from watched import Visit, Watched
 
+from explorer.app import App
 from explorer.model.inputs import Inputs
 
 pytestmark = pytest.mark.browser
@@ -112,19 +112,16 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
-def test_sessions_end_with_their_browsers(visit: Visit):
-    def working() -> set[str]:
-        return {thread.name for thread in threading.enumerate() if thread.name.startswith("session-")}
-
-    before = working()
+def test_sessions_end_with_their_browsers(visit: Visit, app: App):
+    before = len(app.sessions)
     watched = visit()
-    assert len(working()) == len(before) + 1
+    assert len(app.sessions) == before + 1
     watched.press("Adv. ratio", "ArrowRight")
     watched.close()
-    deadline = time.monotonic() + 60.0
-    while working() != before and time.monotonic() < deadline:
+    watched_by = time.monotonic() + 60.0
+    while len(app.sessions) != before and time.monotonic() < watched_by:
         time.sleep(0.1)
-    assert working() == before
+    assert len(app.sessions) == before
 
 
 def test_two_browsers_do_not_disturb_each_other(watched: Watched, visit: Visit):
