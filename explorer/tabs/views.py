@@ -64,7 +64,7 @@ VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("b
 """Views of the buttons, and their titles."""
 _PLAN_PIXELS = 720
 """Along each edge of the plan's picture once nothing moves."""
-_COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "disk", "view_blade": "blade", "view_side": "side"}
+_COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
 
 
 class SceneViews:
