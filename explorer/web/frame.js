@@ -42,14 +42,14 @@
     // For tests: true once all that was sent is answered and drawn, and nothing more was sent meanwhile; wholly, once the
     // server computes nothing more for this page, searches apart. It gives the number back that it is sent.
     async idle(wholly = false) {
-      const frame = () => new Promise(requestAnimationFrame);
+      const drawn = () => new Promise(requestAnimationFrame);
       for (let asked = -1; asked !== serial;) {
-        await frame();  // A slider that is moved changes in the next frame; nothing is kept back for longer than 120 ms then.
+        await drawn();  // A slider that is moved changes in the next frame; nothing is kept back for longer than 120 ms then.
         await new Promise(done => setTimeout(done, 150));
         RX.send('idle', [asked = serial + 1, wholly]);
-        while (state.idle !== asked) await frame();
-        await frame();
-        await frame();
+        while (state.idle !== asked) await drawn();
+        await drawn();
+        await drawn();
       }
       return true;
     },
