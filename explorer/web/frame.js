@@ -169,7 +169,14 @@
   RX.paint('notice', notice => {
     const place = part('notice');
     place.hidden = !notice;
-    if (notice) place.innerHTML = `<span data-explorer="notice">${RX.text(notice.text)}</span>` + notice.actions.map(([name, title]) => `<button data-do="${name}">${RX.text(title)}</button>`).join('');
+    if (!notice) return;
+    // Its buttons stay the same ones while its words change with every design tried: a press must not meet a new one.
+    const actions = JSON.stringify(notice.actions);
+    if (place.dataset.actions !== actions) {
+      place.dataset.actions = actions;
+      place.innerHTML = '<span data-explorer="notice"></span>' + notice.actions.map(([name, title]) => `<button data-do="${name}">${RX.text(title)}</button>`).join('');
+    }
+    place.querySelector('span').textContent = notice.text;
   });
   RX.paint('prompt', words => {
     const place = part('prompt');
