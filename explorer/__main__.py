@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-import warnings
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
@@ -66,8 +65,6 @@ def _run(options: argparse.Namespace) -> int:
         print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
         if not options.no_browser:
             _open_browser(app.address)
-        # A browser may leave in the middle of an update.
-        warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         stop = StopSignal()
         app.wait_until_warm()
         stop.wait()

@@ -2,7 +2,7 @@
 
 | what is changed | why | what it becomes |
 | --- | --- | --- |
-| `viser.infra._infra.AsyncMessageBuffer` | an update sent by a thread could be lost | `ThreadedBuffer` |
+| `viser.infra._infra.AsyncMessageBuffer` | an update sent by a thread could be lost; warnings when a browser leaves | `ThreadedBuffer` |
 | `AssignablePropsBase._cast_value_recursive` | most of an assignment's time, for nothing | `_cast_unless_plain` |
 | `print_threadpool_errors` | errors of callbacks are printed | `log_failed_callbacks` |
 | `websockets.asyncio.server.serve`, while a server starts | viser has no option for a filter | `quiet_server` |
@@ -65,11 +65,14 @@ class _ThreadedEvent(asyncio.Event):
 
 
 class ThreadedBuffer(AsyncMessageBuffer):
-    """viser's queue of messages, with events that any thread may set."""
+    """viser's queue of messages, with events that any thread may set. It does not warn of a message to a browser that
+    has left: that may happen in the middle of any update. (A filter of warnings would not do: it is one for all
+    threads, and a library that sets its own for a moment in one of them undoes it.)"""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.message_event, self.flush_event = _ThreadedEvent(self.event_loop), _ThreadedEvent(self.event_loop)
+        self._warned_push_after_done = True
 
 
 setattr(_infra, "AsyncMessageBuffer", ThreadedBuffer)  # noqa: B010 - its module does not export it

@@ -68,7 +68,9 @@ def plan(
     if at_rest:
         content["values"] = _values(solution, field)
         if pinned is not None:
-            content["values_a"] = {"alpha": _values(pinned, field)["alpha"]}
+            content["alpha_a"] = _packed(
+                FIELDS[_READ["alpha"]].sample(pinned, polar_grid(pinned.disk, _RADII, _AZIMUTHS))
+            )
     return content
 
 

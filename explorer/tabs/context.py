@@ -5,12 +5,12 @@ from pathlib import Path
 
 import viser
 
+from explorer.hosting.bridge import Bridge
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.pinned import Pinboard
 from explorer.model.session_state import SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import UNITS, Units
-from explorer.overlay.bridge import Bridge
 from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display

@@ -6,10 +6,10 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from explorer.hosting.bridge import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.overlay.bridge import Bridge
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.page_scene import TURN_RATES
 from explorer.theme.colours import Scheme, colour_map, css

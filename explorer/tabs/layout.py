@@ -1,12 +1,12 @@
 """Where the parts of the page stand: three modes in the rail on the right, and one drawer at a time on the left."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from html import escape
 from typing import Any, Literal
 
 import viser
 
-from explorer.overlay.bridge import Bridge
+from explorer.hosting.bridge import Bridge
 
 Mode = Literal["explore", "optimise", "actuate"]
 MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
@@ -30,6 +30,11 @@ _WIDER = 1.22
 def by_hand(handle: Any, action: Callable[[Any], None]) -> None:
     """Call `action` with the value of a widget whenever the user changes it, not when the program does."""
     handle.on_update(lambda event: action(event.target.value) if event.client is not None else None)
+
+
+def key_of(titles: Mapping[Any, str], title: str) -> Any:
+    """The key of what a menu shows."""
+    return next(key for key, value in titles.items() if value == title)
 
 
 class Layout:

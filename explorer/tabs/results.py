@@ -4,12 +4,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from explorer.hosting.bridge import Bridge
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
 from explorer.model.undo import PowerTracker
 from explorer.model.units import BLANK, SI, UNITS, Units, number
-from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_mesh import inset
 from explorer.picture.camera_views import LETTER_SIZE
 from explorer.picture.poses import flown_twist, follows_azimuth

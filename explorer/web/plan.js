@@ -103,7 +103,7 @@
     if (!around.childElementCount) around.innerHTML = '<div class="rxf-chart" data-wide></div><div class="rxf-chart rxf-shares"></div>';
     if (now.values) {
       tables = Object.fromEntries(Object.entries(now.values).map(([name, one]) => [name, unpack(one)]));
-      tables.before = now.values_a ? unpack(now.values_a.alpha) : undefined;
+      tables.before = now.alpha_a ? unpack(now.alpha_a) : undefined;
       if (!tables.before) delete tables.before;
     }
     place.toggleAttribute('data-moving', !now.values);

@@ -10,7 +10,6 @@ The residual has to meet the same tolerance, whatever the derivatives of the ste
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,8 +86,6 @@ class NewtonLimits:
     """The same on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
     """Factors are kept for the next solution where the last step left less than this part of the residual."""
-    pause: Callable[[], object] | None = None
-    """Called before each evaluation of derivatives."""
 
 
 DEFAULT_LIMITS = NewtonLimits()
@@ -223,8 +220,6 @@ class _Steps:
 
     def _differentiate(self, point: Point) -> _Corrected:
         """New factors, on few azimuths."""
-        if self._limits.pause is not None:
-            self._limits.pause()
         system = self._system
         near = point if point.grid is system.thin else evaluate(system, system.thin, point.x, slopes=True)
         if not near.slopes.shape[1]:

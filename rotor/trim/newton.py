@@ -56,8 +56,6 @@ class SolverOptions:
     """Evaluations of the blade elements in one solve, after which continuation gives up."""
     stop: Callable[[], bool] | None = None
     """Asked between two runs of Newton's method; True ends a solve that has not converged."""
-    pause: Callable[[], object] | None = None
-    """Called before each evaluation of derivatives, which takes longest; it returns after others have computed."""
     smallest_continuation_step: float = 1.0 / 128.0
     """Step, as a part of the whole way, below which continuation gives up."""
 
@@ -165,7 +163,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     most_steps, kept_ratio = options.most_old_steps, options.kept_ratio
     if system.nodes is not None:
         most_steps, kept_ratio = options.most_old_steps_of_nodes, options.kept_ratio_of_nodes
-    limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio, options.pause)
+    limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio)
     return _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
 
 

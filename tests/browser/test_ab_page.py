@@ -17,7 +17,9 @@ def ghost_seen(watched: Watched) -> bool:
 
 def total_row(watched: Watched) -> list[str]:
     """A, B, Δ kW, Δ % of the total."""
-    cells = watched.page.locator('[data-explorer="ab"] tr', has_text="Total").locator("td").all_inner_texts()
+    row = watched.page.locator('[data-explorer="ab"] tr', has_text="Total").locator("td")
+    row.nth(4).wait_for()  # The page fills the table anew with each answer.
+    cells = row.all_inner_texts()
     return [text.strip() for text in cells[1:]]
 
 

@@ -189,6 +189,8 @@ def test_each_slider_says_what_a_step_is_worth_and_no_text_is_smaller_than_twelv
     assert page.evaluate(_SMALL_TEXT) == []
     for name in ("built_inner", "built_outer", "built_division", "advance_ratio", "mass_t", "altitude_m", "climb_m_s"):
         place = page.locator(f'[data-worth="{name}"]')
+        # viser may be mounting the place anew: what stands there counts once something does.
+        watched.until(place.inner_text)
         assert re.search(r"[+−]\d+\.\d\s*(kW|hp)/|no effect", place.inner_text()), name
         assert "changes power by" in (place.get_attribute("title") or "")
     mass = page.locator('[data-worth="mass_t"]').inner_text()

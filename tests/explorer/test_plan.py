@@ -70,7 +70,7 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     own, before = (max(np.abs(np.concatenate(reverse[name])[:, 0])) for name in ("lines", "before"))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
     assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
-    assert table(shown["values_a"]["alpha"]).shape == (40, 120)
+    assert np.abs(table(shown["alpha_a"]) - ALPHA.sample(other, polar_grid(other.disk, 40, 120))).max() < 0.01
 
 
 @pytest.mark.parametrize(

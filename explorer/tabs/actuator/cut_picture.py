@@ -9,8 +9,8 @@ from html import escape
 import numpy as np
 import viser
 
+from explorer.hosting.bridge import Bridge
 from explorer.model.units import number
-from explorer.overlay.bridge import Bridge
 from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import cut_blade as actuator_cut
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs

@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer.hosting.bridge import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT

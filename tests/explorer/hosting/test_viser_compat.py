@@ -83,6 +83,15 @@ def test_a_thread_does_not_touch_what_waits_on_the_loop():
     asyncio.run(wait())
 
 
+def test_a_message_to_a_browser_that_has_left_is_no_warning():
+    async def late() -> None:
+        buffer = ThreadedBuffer(asyncio.get_running_loop(), persistent_messages=False)
+        buffer.set_done()
+        buffer.push(_messages.RunJavascriptMessage("late"))  # A warning is an error in these tests.
+
+    asyncio.run(late())
+
+
 def test_servers_use_it():
     assert vars(_infra)["AsyncMessageBuffer"] is ThreadedBuffer
 

@@ -59,7 +59,10 @@ def test_hinged_blade_flaps_once_per_revolution() -> None:
 
 
 def test_cantilever_pretwisted_by_45_degrees() -> None:
-    """A steel strip of 0.1524 × 0.0254 × 0.0017272 m: frequencies that Gupta & Rao list (J. Sound Vib. 56, 1978)."""
+    """A steel strip of 0.1524 × 0.0254 × 0.0017272 m: frequencies in hertz.
+
+    They stand in the literature since Gupta & Rao (J. Sound Vib. 56, 1978); recalled, not looked up.
+    """
     length, width, height, young, density = 0.1524, 0.0254, 0.0017272, 206.85e9, 7857.6
     flap, lag = young * width * height**3 / 12.0, young * height * width**3 / 12.0
     structure = _uniform(flap, lag, density * width * height, length)

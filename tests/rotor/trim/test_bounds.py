@@ -60,11 +60,3 @@ def test_a_solve_ends_when_it_is_told_to_stop():
     assert len(asked) == 2
     easy = make_design(mu=0.2)
     assert solve(easy, options=replace(DEFAULT_OPTIONS, stop=lambda: True)).converged
-
-
-def test_a_solve_lets_others_compute_before_each_evaluation_of_derivatives():
-    """A lifting line factors a matrix of hundreds of rows each time: no page waits for more than one."""
-    pauses: list[int] = []
-    paused = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, pause=lambda: pauses.append(1)))
-    assert len(pauses) >= paused.passes / 10
-    assert solve(make_design(mu=0.2), options=replace(DEFAULT_OPTIONS, pause=lambda: pauses.append(1))).converged

@@ -1,1 +1,0 @@
-"""The bridge between Python and the page's own scripts."""
