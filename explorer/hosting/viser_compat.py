@@ -2,7 +2,7 @@
 
 | what is changed | why | what it becomes |
 | --- | --- | --- |
-| `viser.infra._infra.AsyncMessageBuffer` | an update sent by a thread could be lost; warnings when a browser leaves | `ThreadedBuffer` |
+| `viser.infra._infra.AsyncMessageBuffer` | updates of threads could be lost; needless warnings | `ThreadedBuffer` |
 | `AssignablePropsBase._cast_value_recursive` | most of an assignment's time, for nothing | `_cast_unless_plain` |
 | `print_threadpool_errors` | errors of callbacks are printed | `log_failed_callbacks` |
 | `websockets.asyncio.server.serve`, while a server starts | viser has no option for a filter | `quiet_server` |
