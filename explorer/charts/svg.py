@@ -61,9 +61,9 @@ def words(
     at: Point, text: str, anchor: str = "middle", colour: str = "currentColor", style: str = "", *, low: str = ""
 ) -> str:
     """Text with a halo, so that it reads on whatever it crosses; `low` is its subscript."""
-    subscript = f'<tspan font-size="8" dy="2.5">{escape(low)}</tspan>' if low else ""
+    subscript = f'<tspan font-size="10" dy="2.5">{escape(low)}</tspan>' if low else ""
     return (
-        f'<text x="{at[0]:.1f}" y="{at[1]:.1f}" text-anchor="{anchor}" fill="{colour}" font-size="10.5" '
+        f'<text x="{at[0]:.1f}" y="{at[1]:.1f}" text-anchor="{anchor}" fill="{colour}" font-size="12" '
         f'stroke="{BODY}" stroke-width="3" paint-order="stroke" stroke-linejoin="round" {style}>'
         f"{escape(text)}{subscript}</text>"
     )
@@ -71,7 +71,7 @@ def words(
 
 def tick(at: Point, text: str, anchor: str) -> str:
     """A number along an axis."""
-    look = 'font-size="9.5" fill="currentColor"'
+    look = 'font-size="12" fill="currentColor"'
     return f'<text x="{at[0]:.1f}" y="{at[1]:.1f}" {look} text-anchor="{anchor}">{escape(text)}</text>'
 
 

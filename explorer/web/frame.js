@@ -227,13 +227,15 @@
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
       const wide = ['.rxf-inset', '.rxf-field'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
-      const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = [seen('.rxf-notice'), ...wide.filter(box => !low.includes(box))];
+      const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
+      if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
       const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;
       RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
     }, 120);
   }
   for (const name of ['.rxf-inset', '.rxf-field', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
   const LABELS = ['cut_labels', 'probe_label', 'beside_labels'];

@@ -29,7 +29,7 @@
       if (reach.every(([at, up]) => y0 + 0.06 * height * at - up * chord > 17)) break;
       chord *= 0.93;
     }
-    const x0 = 0.62 * chord + 8, x1 = width - 0.62 * chord - 12, y1 = y0 + 0.06 * height, at = r => [x0 + (x1 - x0) * share(r), y0 + (y1 - y0) * share(r)];
+    const x0 = Math.max(0.62 * chord + 8, 84), x1 = width - 0.62 * chord - 12, y1 = y0 + 0.06 * height, at = r => [x0 + (x1 - x0) * share(r), y0 + (y1 - y0) * share(r)];
     // Points forward and up of the quarter chord, in chords; the leading edge is drawn on the right.
     const turned = ([ox, oy], angle, [x, z], datum = now.datum) => {
       const drawn = (datum + now.times * (angle - datum)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
@@ -50,10 +50,10 @@
       inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${cut.r}"`);
       if (width < (changed(cut) ? 900 : 700) && k === now.cuts.length - 2) return;  // Its numbers would meet those of the tip.
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
-        <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-blade);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;
+        <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-ink);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;
     });
-    // What the two rows of numbers are, where there is room beside the first of them.
-    if (x0 > 82) inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">${now.cuts.some(changed) ? 'Δ · ' : ''}r/R</text>`;
+    // What the two rows of numbers are.
+    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">${now.cuts.some(changed) ? 'Δ · ' : ''}r/R</text>`;
     const spoken = now.cuts.map(cut => `${signed(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b><button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${now.times}${now.times > 1 ? ', as in the scene' : ''}</button>
       <div class="rxf-key"><span title="${text(now.name_hint)}"><i></i>${text(now.name)}</span>${now.ghost ? `<span title="${text(now.ghost_hint)}"><i data-ghost></i>${text(now.ghost_name)}</span>` : ''}<span>root ← r/R → tip</span></div></div>

@@ -74,9 +74,7 @@ def test_another_actuator_gets_another_verdict(watched: Watched):
 
 
 def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: Watched):
-    switch = watched.page.get_by_label("Show blade cut").first
-    switch.click()
-    watched.until_changed(lambda: seen(watched, "/rotor"), True)
+    watched.until(lambda: not seen(watched, "/rotor"))
     watched.page.wait_for_function("() => window.__viserSceneTree.getState()['/cut/part_0'] !== undefined")
     labels = watched.page.locator('[data-explorer="labels"]')
     labels.get_by_text("spar web").wait_for(timeout=VERDICT)

@@ -27,7 +27,6 @@ def show(watched: Watched, scene: str) -> None:
         page.get_by_role("button", name="Show B − A").click()
     elif scene == "actuator":
         watched.mode("actuate")
-        page.get_by_label("Show blade cut").first.click()
         watched.type("Voltage", 60)
         page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=4 * WAIT)
         page.mouse.move(640, 360)

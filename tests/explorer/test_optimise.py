@@ -187,14 +187,12 @@ class TestWords:
             assert part in words
         assert "nan" not in words.lower()
 
-    def test_a_saving_is_told_without_a_sign(self, run: SearchRun):
+    def test_the_headline_names_the_change_against_the_start(self, run: SearchRun):
         assert run.best is not None
         assert run.start_power is not None
         saved = 100.0 * (1.0 - run.best.power / run.start_power)
-        row = search_text.result(run).split("</tr>")[0]
         assert saved > 0.01
-        assert row.endswith(f">{saved:.2f} %</td>")
-        assert "saving vs. starting design" in row
+        assert f"−{saved:.2f} % vs. start" in search_text.headline(run)
 
     def test_before_the_first_search(self):
         assert "Not run yet" in search_text.standing(None)

@@ -156,8 +156,25 @@ def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
     if isinstance(outcome, str):
         return problem_panel(outcome)
     lead, sentence = headline(outcome), verdict_sentence(outcome)
-    text = f"<b>{escape(lead)}</b>{escape(sentence.removeprefix(lead))}"
-    return _box("yes" if outcome.pays else "no", "ready", text)
+    name = escape(outcome.installed.actuator.name)
+    why = f"<details><summary>{name}: reach and limits</summary>{escape(sentence.removeprefix(lead))}</details>"
+    return _box("yes" if outcome.pays else "no", "ready", f"<b>{escape(lead)}</b>{_balance(outcome)}{why}")
+
+
+def _balance(verdict: Verdict) -> str:
+    """What the saving is made of, as bars one below the other: each begins where the one before it ends."""
+    parts = [("twist", verdict.twist_saving), ("stiffness", -verdict.stiffness_cost)]
+    parts.append(("mass, drive", verdict.net_saving - verdict.gross_saving))
+    ends = np.cumsum([0.0, *(saving for _, saving in parts)])
+    spans = [*zip(ends[:-1], ends[1:], strict=True), (0.0, ends[-1])]
+    low, span = ends.min(), max(float(np.ptp(ends)), 1.0)
+    rows = "".join(
+        f'<span>{name}</span><span class="rxa-track"><u style="left:{100.0 * -low / span:.1f}%"></u>'
+        f'<i class="{"rxa-loss" if end < start else "rxa-gain"}" style="left:{100.0 * (min(start, end) - low) / span:.1f}%;'
+        f'width:{100.0 * abs(end - start) / span:.1f}%"></i></span><span class="rx-num">{_kw(saving)}</span>'
+        for (name, saving), (start, end) in zip([*parts, ("<b>net saving</b>", ends[-1])], spans, strict=True)
+    )
+    return f'<div class="rxa-bars" data-explorer="balance">{rows}</div>'
 
 
 def _box(look: str, kind: str, text: str) -> str:

@@ -233,7 +233,7 @@ def _scale(installed: InstalledActuator) -> str:
         marks.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="76" y2="80" stroke="currentColor" stroke-width=".8"/>')
         place = "start" if end < 0.03 else "end" if end > 0.97 else "middle"
         if not (0.0 < end < 0.08 or 0.9 < end < 1.0):
-            look = f'font-size="9" fill="currentColor" text-anchor="{place}"'
+            look = f'font-size="12.5" fill="currentColor" text-anchor="{place}"'
             marks.append(f'<text x="{x:.1f}" y="90" {look}>{end:g} c</text>')
     marks.append(f'<line x1="6" x2="{_WIDTH - 6.0:g}" y1="78" y2="78" stroke="currentColor" stroke-width=".5"/>')
     return "".join(marks)

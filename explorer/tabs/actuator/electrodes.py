@@ -147,7 +147,7 @@ def _cut(sheet: PiezoPly) -> str:
     mean = _KV_MM * sheet.voltage_range[1] / sheet.electrode_gap
     name = f"{sheet.id.replace('_', ' ')}, {MODE[sheet.electrodes]}"
     under = f"{sheet.electrodes}, {number(mean, 1)} kV/mm"
-    look = 'font-size="10" fill="currentColor"'
+    look = 'font-size="12" fill="currentColor"'
     return (
         f'<text x="0" y="10" {look} font-weight="600">{escape(name)}</text>'
         f'<image href="data:image/png;base64,{data}" x="0" y="20" width="{_CUT:g}" height="{_TALL:g}" '

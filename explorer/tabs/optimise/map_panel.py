@@ -148,7 +148,7 @@ def _axis(parameter: Parameter, along: bool) -> str:
             at = _TOP + (1.0 - part) * _H
             out.append(f'<text x="{_LEFT - 6}" y="{at + 3.5:.1f}" text-anchor="end">{tick_text(value)}</text>')
             out.append(f'<path d="M{_LEFT},{at:.1f} h-4" stroke="currentColor"/>')
-    return f'<g font-size="10.5" fill="currentColor">{"".join(out)}</g>'
+    return f'<g font-size="12" fill="currentColor">{"".join(out)}</g>'
 
 
 def _clicks(x: Parameter, y: Parameter) -> str:
@@ -220,7 +220,7 @@ def colour_bar() -> str:
         'aria-label="colours: power above the least, 0 to 8 %">'
         f'<defs><linearGradient id="rx-map-colours">{stops}</linearGradient></defs>'
         f'<rect x="{_LEFT}" y="2" width="{_W}" height="9" rx="2" fill="url(#rx-map-colours)"/>'
-        f'<g font-size="10.5" fill="currentColor">{"".join(marks)}'
+        f'<g font-size="12" fill="currentColor">{"".join(marks)}'
         f'<text x="{_LEFT + _W / 2}" y="35" text-anchor="middle" opacity=".7">'
         "power above the least [%]</text></g></svg>"
     )

@@ -9,7 +9,6 @@ from typing import Any
 import viser
 
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
-from explorer.model.units import number
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
@@ -229,14 +228,12 @@ class OptimisePanel:
         if run is None or not self._offered or design is None or not run.matches(design):
             return None
         best, units = run.best, self._context.units
-        words = "" if best is None else f": {units.watts(best.power)}"
-        if best is not None and run.start_power:
-            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)}\u00a0% vs.\u00a0start"
         if run.under_way:
-            return {"text": f"Searching{words or ' …'}", "actions": [("halt", "Stop")]}
+            words = " …" if best is None else f": {units.watts(best.power)}"
+            return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
         if len(run.frames) < 2:
             return None
-        return {"text": f"Previewing optimum{words}", "actions": [("apply", "Apply"), ("discard", "Discard")]}
+        return {"text": "Previewing optimum", "actions": [("apply", "Apply"), ("discard", "Discard")]}
 
     def _replay(self) -> None:
         if self._run is not None:

@@ -18,6 +18,8 @@ from rotor.optimisation.search import Optimum
 _WIDTH, _HEIGHT, _EDGE = 272, 62, 8
 _MIDDLE, _AMPLITUDE = 28, 15
 _ROOT = 0.13
+_EQUAL = 50.0
+"""Powers closer than this [W] read the same."""
 _NOMINAL = {"tilt": (-0.21, -0.09, -0.24), "bend": (0.28,), "lift": (0.17, 0.09, 0.055, 0.03, -0.025, -0.05)}
 """Typical values [SI] that tell the shapes apart; a slide stands where it is typical."""
 
@@ -49,7 +51,7 @@ def concept_picture(concept: Concept) -> str:
         f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" width="100%" role="img" aria-label="what the concept moves">'
         f'<line x1="{_x(_ROOT)}" y1="{_MIDDLE}" x2="{_x(1.0)}" y2="{_MIDDLE}" stroke="currentColor" opacity=".25"/>'
         f'<polyline points="{curve}" fill="none" stroke="currentColor" stroke-width="2"/>{"".join(marks)}'
-        f'<g font-size="10" fill="currentColor" opacity=".65"><text x="{_x(_ROOT)}" y="{_HEIGHT - 2}">root</text>'
+        f'<g font-size="11" fill="currentColor" opacity=".65"><text x="{_x(_ROOT)}" y="{_HEIGHT - 2}">root</text>'
         f'<text x="{_x(1.0)}" y="{_HEIGHT - 2}" text-anchor="end">tip</text></g></svg>'
     )
 
@@ -85,7 +87,7 @@ def headline(run: SearchRun, units: Units = SI) -> str:
     if not ends:
         return ""
     change = None if run.start_power is None else min(ends) - run.start_power
-    kind = "" if change is None or abs(change) < 50.0 else "rx-less" if change < 0.0 else "rx-more"
+    kind = "" if change is None or abs(change) < _EQUAL else "rx-less" if change < 0.0 else "rx-more"
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
     mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
@@ -97,7 +99,8 @@ def headline(run: SearchRun, units: Units = SI) -> str:
     return (
         f'<div class="rxp-big" data-explorer="starts"><b data-explorer="best">{units.watts(min(ends), 1)}</b>'
         f'<em class="{kind}">{"" if change is None else units.watts(change, 1, sign=True)}</em>'
-        f'<div class="rx-dim">{mean}</div><div class="rxp-starts">{rows}</div></div>'
+        f'<div class="rx-dim">{mean}{_against_start(min(ends), run.start_power)}</div>'
+        f'<div class="rxp-starts">{rows}</div></div>'
     )
 
 
@@ -121,17 +124,26 @@ def starts_chart(run: SearchRun, units: Units) -> dict[str, Any]:
         level = round(unit.of(run.start_power), 3)
         lines.insert(0, {"x": [1, longest], "y": [level, level], "role": "reference"})
     above = sum(unit.of(power) > high for one in starts for power in one.powers)
-    best = next((one for one in starts if one.is_best), None)
     return {
         "name": "starts", "title": "Searches from several starts", "wide": True,
         "unit": f"least {unit.symbol} so far over designs tried",
         "x_range": [1, longest], "x_ticks": round_ticks(1.0, float(longest), 5), "x_name": "",
         "y_range": [low, high], "y_ticks": round_ticks(low, high, 4),
         "lines": lines, "dots": [],
-        "value": "" if best is None else f"start {best.number} is best",
+        "value": _agreement(starts),
         "note": f"{above} designs lie above the axis." if above else "",
         "kind": "", "faded": False, "pinned": False,
     }  # fmt: skip
+
+
+def _agreement(starts: tuple[StartTrace, ...]) -> str:
+    """Which of the starts are best, as far as the digits that the page shows tell them apart."""
+    best = [one.number for one in starts if one.gap is not None and one.gap < _EQUAL]
+    if len(best) == len(starts) > 1:
+        return f"all {len(starts)} starts agree"
+    if len(best) > 1:
+        return f"{len(best)} of {len(starts)} starts are best"
+    return f"start {best[0]} is best" if best else ""
 
 
 def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tuple[float, float]:
@@ -186,8 +198,14 @@ def _where(run: SearchRun) -> str:
             return f"Ended early, {kept}"
 
 
+def _against_start(power: float, start: float | None) -> str:
+    if not start or start <= 0.0:
+        return "; the starting design has no trim"
+    return f", {number(100.0 * (power / start - 1.0), 2, sign=True)} % vs. start"
+
+
 def result(run: SearchRun, units: Units = SI) -> str:
-    """The best so far, and what it saves."""
+    """What the best so far saves against what is not the starting design; or why there is none."""
     best = run.best
     parts = []
     if run.state == "broken":
@@ -196,10 +214,8 @@ def result(run: SearchRun, units: Units = SI) -> str:
         if run.state == "done":
             parts.append(f"<div>{escape(run.sentence)}</div>")
         return _block(parts)
-    rows = [_saving("starting design", best.power, run.start_power, units)]
     if run.reference_power != run.start_power:
-        rows.append(_saving(run.reference_title, best.power, run.reference_power, units))
-    parts.append(f"<table>{''.join(rows)}</table>")
+        parts.append(f"<table>{_saving(run.reference_title, best.power, run.reference_power, units)}</table>")
     return _block(parts)
 
 
