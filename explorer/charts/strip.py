@@ -13,6 +13,7 @@ import numpy as np
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor.arrays import Array
+from rotor.design.aircraft import Aircraft
 from rotor.line_chart import round_ticks
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
@@ -179,11 +180,13 @@ def total_power_chart(
     units: Units = SI,
     held: Range | None = None,
     marks: tuple[StripMark, ...] = (),
+    aircraft: Aircraft | None = None,
 ) -> StripChart:
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
-    `marks`: main-rotor power measured in flight; then there is a line of ours too.
+    `marks`: main-rotor power measured in flight; then there is a line of ours too. `aircraft`: draws the power of its
+    engines, where its file has it.
     """
     unit = units.power[0]
     here = curve.in_unit(unit)
@@ -197,20 +200,43 @@ def total_power_chart(
     role: Role = "saving" if curve.current else "earlier"
     driven = StripLine(mus, np.where(power < 0.0, power, np.nan), role, filled=True)
     value = "autorotation" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
+    note, engines = autorotation_words(curve), []
+    if aircraft is not None and aircraft.installed_power is not None:
+        installed = unit.of(aircraft.installed_power)
+        engines = [StripLine(mus, np.full(len(mus), installed), "limit")]
+        top = top_speed(mus, power, installed) if curve.current else math.nan
+        note += f" Engines: {number(installed)} {unit.symbol} at sea level, less at altitude; losses of gearboxes and"
+        note += " what the gearbox allows are not counted, so the top speed is an upper bound."
+        if math.isfinite(top) and value and now >= 0.0:
+            value = f"least µ {mus[least]:.2f} · top ≤ {units.speed[0].text(top * aircraft.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or not marks else [StripLine(mus, here.main_rotor, "reference")]
     return StripChart(
         title="Power over µ",
         unit=f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol,
         x_range=(0.0, SWEEP[-1]),
         y_range=held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan)),
-        lines=(*shaft, StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),
+        lines=(*engines, *shaft, StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),
         dots=(*([StripDot(0.0, float(power[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
         marks=marks,
         band=None if here.band is None else StripBand(mus, here.band[0], here.band[1]),
         value=value,
-        note=autorotation_words(curve),
+        note=note.strip(),
         x_name="µ",
     )
+
+
+def top_speed(mus: Array, power: Array, installed: float) -> float:
+    """The advance ratio beyond which power stays above what is installed; NaN where the curve does not reach it.
+
+    `power` (points,), in the unit of `installed`; NaN where there is no trim.
+    """
+    known = np.isfinite(power)
+    x, above = mus[known], power[known] - installed
+    below = np.flatnonzero(above <= 0.0)
+    if not len(below) or below[-1] == len(x) - 1:
+        return math.nan
+    k = below[-1]
+    return float(x[k] + (x[k + 1] - x[k]) * above[k] / (above[k] - above[k + 1]))
 
 
 def alpha_chart(

@@ -203,7 +203,8 @@ class ChartStrip:
         self._plain = plain
         if plain:
             marks = self._flown.marks(state.solution, units)
-            chart = total_power_chart(curve, mu, None if failed else state.solution.power.total, units, held, marks)
+            total = None if failed else state.solution.power.total
+            chart = total_power_chart(curve, mu, total, units, held, marks, design.aircraft)
             notes = [chart.note, band_words(design, curve.band is not None), source_of(design)]
             value = "" if failed else self._flown.value(state.solution)
             chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))

@@ -125,8 +125,10 @@ class SceneViews:
         self._context.wake()
 
     def _mode_changed(self) -> None:
-        if self._context.layout.mode != "actuate":
-            self._close_cut()
+        """Actuate opens on the blade that carries the actuator."""
+        wanted = self._context.layout.mode == "actuate"
+        if self._cut.value != wanted:
+            self._cut.value = wanted
 
     def _close_cut(self) -> None:
         if self._cut.value:

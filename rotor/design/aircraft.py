@@ -217,6 +217,8 @@ class Aircraft:
     """Files of a user's own aircraft; None for a shipped one."""
     remarks: tuple[str, ...] = ()
     """Assumptions made when the files were read, in sentences."""
+    installed_power: float | None = None
+    """What the engines give at sea level [W]; None where the file does not say."""
     isolated: bool = False
     """Whether the file is of a rotor alone, without an airframe, to be tested on a stand."""
 

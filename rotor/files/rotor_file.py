@@ -83,6 +83,7 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         rotor=rotor,
         fuselage=_fuselage(airframe) if airframe else Fuselage(0.0),
         mass=airframe.number("mass_kg", low=100.0, high=50_000.0, unit="kg") if airframe else _carried(rotor),
+        installed_power=_installed_power(airframe),
         tail_rotor=_tail_rotor(tail) if tail else None,
         hub=hub,
         stated=stated,
@@ -113,6 +114,12 @@ def _fuselage(airframe: TomlTable) -> Fuselage:
             airframe.number("drag_area_high_m2", low=area, high=50.0, unit="m²"),
         )
     return Fuselage(area, airframe.number("hover_download", 0.0, low=0.0, high=0.3), band)
+
+
+def _installed_power(airframe: TomlTable | None) -> float | None:
+    if not airframe or not airframe.has("installed_power_kw"):
+        return None
+    return 1e3 * airframe.number("installed_power_kw", low=1.0, high=50_000.0, unit="kW")
 
 
 def _carried(rotor: Rotor) -> float:

@@ -142,6 +142,13 @@ def caveats(
             "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
             "engine off the rotor turns faster.",
         )
+    installed = design.aircraft.installed_power
+    if installed is not None and power.total > installed and design.condition.stand is None:
+        add(
+            "installed-power",
+            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
+            "and less at altitude.",
+        )
     if mu > HIGH_SPEED:
         add(
             "high-speed",

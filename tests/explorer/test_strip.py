@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from explorer.charts.strip import (
 )
 from explorer.model.units import AVIATION
 from rotor.files.make_design import make_design
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -82,6 +84,20 @@ class TestPowerChange:
         assert_allclose(chart.lines[0].y, 700.0 + 8000.0 * (chart.lines[0].x - 0.15) ** 2)
         assert [(dot.x, dot.y, dot.label) for dot in chart.dots] == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "")]
         assert chart.y_range[0] == 0.0
+
+    def test_the_top_speed_is_where_power_meets_that_of_the_engines(self):
+        """A parabola meets a level at a place known in closed form; the points lie .025 apart."""
+        curve, black_hawk = self.curve(0.0), shipped_aircraft("uh60a")
+        curve.design[:] = 700.0 + 40000.0 * (np.array(SWEEP) - 0.15) ** 2
+        chart = total_power_chart(curve, 0.2, 720e3, aircraft=black_hawk)
+        mu = 0.15 + math.sqrt((2327.0 - 700.0) / 40000.0)
+        kmh = float(re.findall(r"[\d.]+", chart.value)[-1])
+        assert kmh == pytest.approx(3.6 * mu * black_hawk.rotor.tip_speed, rel=0.005)
+        assert chart.lines[0].role == "limit"
+        assert_allclose(chart.lines[0].y, 2327.0)
+        curve.design[:] = 700.0
+        assert total_power_chart(curve, 0.2, 700e3, aircraft=black_hawk).value.startswith("least near")
+        assert total_power_chart(curve, 0.2, 700e3, aircraft=shipped_aircraft("s61")).lines[0].role != "limit"
 
     def test_autorotation_is_marked_below_zero(self):
         curve = self.curve(0.0)

@@ -137,7 +137,7 @@ class ActuatorControls:
         """What each title of a menu means."""
         start = ActuatorInputs()
         self.verdict = gui.add_html("")
-        self.shown = self._watched(gui.add_checkbox("Show blade cut", True, hint=hint("cut")))
+        self.shown = self._watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
         self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
         self.now = gui.add_html("")
         self._drives = [

@@ -2,6 +2,7 @@
 
 import math
 from html import escape
+from itertools import pairwise
 
 import numpy as np
 
@@ -166,11 +167,11 @@ def _balance(verdict: Verdict) -> str:
     parts = [("twist", verdict.twist_saving), ("stiffness", -verdict.stiffness_cost)]
     parts.append(("mass, drive", verdict.net_saving - verdict.gross_saving))
     ends = np.cumsum([0.0, *(saving for _, saving in parts)])
-    spans = [*zip(ends[:-1], ends[1:], strict=True), (0.0, ends[-1])]
+    spans = [*pairwise(ends), (0.0, ends[-1])]
     low, span = ends.min(), max(float(np.ptp(ends)), 1.0)
     rows = "".join(
         f'<span>{name}</span><span class="rxa-track"><u style="left:{100.0 * -low / span:.1f}%"></u>'
-        f'<i class="{"rxa-loss" if end < start else "rxa-gain"}" style="left:{100.0 * (min(start, end) - low) / span:.1f}%;'
+        f'<i class="rxa-{"loss" if end < start else "gain"}" style="left:{100.0 * (min(start, end) - low) / span:.1f}%;'
         f'width:{100.0 * abs(end - start) / span:.1f}%"></i></span><span class="rx-num">{_kw(saving)}</span>'
         for (name, saving), (start, end) in zip([*parts, ("<b>net saving</b>", ends[-1])], spans, strict=True)
     )

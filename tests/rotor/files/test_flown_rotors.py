@@ -32,6 +32,15 @@ def baseline() -> Solution:
     return solve(make_design(rotor="hart2", mu=32.9 / (109.12 * 2.0), stand=HART2)).require()
 
 
+def test_more_power_than_the_engines_give_is_a_caveat():
+    """The R22's placard speed, 102 kt, takes less than its 124 hp; 135 kt takes more."""
+    slow, fast = (solve(make_design(rotor="r22", speed_kt=speed)).require() for speed in (102.0, 135.0))
+    assert slow.power.total < 124.0 * 745.7 < fast.power.total
+    assert "installed-power" not in {one.name for one in slow.caveats}
+    (caveat,) = [one for one in fast.caveats if one.name == "installed-power"]
+    assert f"take {1e-3 * fast.power.total:.0f} kW; the engines give 92 kW" in caveat.sentence
+
+
 def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
     """ν² = 1 + 3e/2(1 − e) + K/(IΩ²) of a uniform blade, against 400 masses that swing in the centrifugal field."""
     radius, hinge, mass, spring, speed = 3.0, 0.45, 20.0, 9000.0, 40.0
