@@ -21,8 +21,6 @@ Range = tuple[float, float]
 HALF = 134.0
 """Half the edge of the drawing, where the rotor's radius is 100."""
 _STOPS = 25
-_FROM_ABOVE = 0.0, 1.0
-"""Labels face a reader behind the tail, as tall as they are wide."""
 
 
 def disk_drawing(
@@ -39,7 +37,7 @@ def disk_drawing(
     `pixels`: along each edge of the field's picture; `letters`: their height.
     """
     half = image.half_width(100.0, min(pixels, image.LARGEST))
-    png = disk_png(solution, field, colour_range, size=pixels, marks=marks, reader=_FROM_ABOVE)
+    png = disk_png(solution, field, colour_range, size=pixels, marks=marks)
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = "".join(f'<circle r="{r:.2f}" fill="none"/>' for r in (100.0, cutout))
     rim = f'<g stroke="{css(RIM)}" stroke-width=".8">{rings}<path d="{_ticks()}"/></g>'

@@ -147,12 +147,6 @@ def _two_outlines(radius: float) -> Array:
     return np.concatenate((one - apart(radius), one + apart(radius)))
 
 
-def reader(view: View) -> tuple[float, float]:
-    """For words that lie on the disk: the azimuth [rad] a view is seen from, and how much taller they should be."""
-    stand = _STANDS.get(view, _STANDS["disk"])
-    return stand.azimuth, min(0.85 / math.sin(stand.elevation), 2.2)
-
-
 def _standing(stand: _Stand, size: float, aspect: float, backward: Array, cover: Cover) -> Camera:
     """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
     higher = USUAL_COVER.free / cover.free

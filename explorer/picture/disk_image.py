@@ -28,11 +28,7 @@ _LEVELS = 112
 _HATCHED = _LEVELS
 """Added to the entry of a colour: the same under a stripe."""
 _VOID, _REVERSE, _REVERSE_RIM, _DASH, _STALL_RIM = range(1 + 2 * _LEVELS, 6 + 2 * _LEVELS)
-_TEXT = _STALL_RIM + 1
-_TEXT_STEPS = 5
-"""From the ground of a label to its ink."""
-_LABEL_GROUND_ALPHA = 190
-_FIRST_EDGE = _TEXT + _TEXT_STEPS
+_FIRST_EDGE = _STALL_RIM + 1
 _EDGE_COLOURS = 7
 _EDGE_ALPHAS = (0.25, 0.5, 0.75)
 _STRIPES = 26.0
@@ -155,12 +151,6 @@ def paint(codes: Bytes, index: Places, covered: Places, kind: NDArray[np.uint16]
     return image
 
 
-def write_labels(pixels: Bytes, ink: Bytes, ground: NDArray[np.bool_]) -> None:
-    """Write labels into a picture: `ink` 0…255 on their `ground`, both of the picture's shape."""
-    steps = (ink.astype(np.uint16) * (_TEXT_STEPS - 1) // 255 + _TEXT).astype(np.uint8)
-    pixels[ground] = steps[ground]
-
-
 def palette(scheme: Scheme, faded: bool, ink: DiskInk | None = None) -> Bytes:
     """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of a solution that no longer holds.
 
@@ -186,10 +176,6 @@ def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
     entries[_REVERSE_RIM] = (*ink.reverse_flow_rim, 255)
     entries[_DASH] = (*ink.drag_divergence, 255)
     entries[_STALL_RIM] = (*ink.stall, 255)
-    shade = np.linspace(0.0, 1.0, _TEXT_STEPS)[:, None]
-    text = (1.0 - shade) * np.array(ink.label_ground) + shade * np.array(ink.label)
-    entries[_TEXT : _TEXT + _TEXT_STEPS, :3] = text.astype(np.uint8)
-    entries[_TEXT : _TEXT + _TEXT_STEPS, 3] = np.linspace(_LABEL_GROUND_ALPHA, 255, _TEXT_STEPS)
     for colour in range(_EDGE_COLOURS):
         source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
         for step, share in enumerate(_EDGE_ALPHAS):

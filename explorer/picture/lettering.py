@@ -1,10 +1,9 @@
-"""Flat pictures round the disk: the words and ticks outside its rim, its region labels, and the airframe's shadow.
+"""Flat pictures round the disk: the words and ticks outside its rim, and the airframe's shadow.
 
 Each is a mask 0…255; its colour is given when it is encoded, so light and dark pages share the drawing.
 """
 
 import math
-from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -13,7 +12,6 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
 from explorer.picture.airframe import Airframe
 from explorer.picture.png import encode_png
-from explorer.picture.regions import LETTER, RegionLabel
 from explorer.theme.colours import Rgb
 
 Bytes = NDArray[np.uint8]
@@ -27,8 +25,6 @@ SHADOW_HALF, SHADOW_CENTRE = 1.72, 0.27
 _SHADOW_SIZE = 384
 _SHARP = 2
 """The words are drawn this many times as large and reduced: lines and arcs have no smooth edges of their own."""
-_INSIDE = 0.98
-"""Radius that no label reaches beyond."""
 
 
 def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
@@ -125,37 +121,6 @@ def letter_mask(text: str) -> Bytes:
     font = ImageFont.load_default(200)
     ImageDraw.Draw(tile).text((128, 128), text, fill=245, font=font, anchor="mm", stroke_width=5, stroke_fill=245)
     return np.asarray(tile)
-
-
-def label_masks(
-    labels: Sequence[RegionLabel], size: int, azimuth: float = 0.0, stretch: float = 1.5
-) -> tuple[Bytes, NDArray[np.bool_]]:
-    """Ink 0…255 and ground of the region labels, on a disk picture of `size` pixels along each edge.
-
-    They read from left to right for a viewer at `azimuth` [rad], 0 behind the tail. As on a road, letters are taller
-    than wide by `stretch`, because the disk is seen from a low angle.
-    """
-    ink, ground = Image.new("L", (size, size), 0), Image.new("L", (size, size), 0)
-    unit = 0.5 * (size - 2)
-    font = ImageFont.load_default(round(LETTER * unit))
-    for label in labels:
-        wide, high = round(label.size[0] * unit), round(1.35 * LETTER * unit)
-        words, pad = Image.new("L", (wide, high), 0), Image.new("L", (wide, round(stretch * high)), 0)
-        pen = ImageDraw.Draw(words)
-        pen.text((0.5 * wide, 0.5 * high), label.text, fill=255, font=font, anchor="mm", stroke_width=0.6)
-        words = words.resize(pad.size, Image.Resampling.BICUBIC)
-        ImageDraw.Draw(pad).rounded_rectangle((0, 0, pad.width - 1, pad.height - 1), radius=0.45 * pad.height, fill=255)
-        words, pad = (
-            tile.rotate(math.degrees(azimuth), Image.Resampling.BICUBIC, expand=True) for tile in (words, pad)
-        )
-        # Within the disk: a label at the rim moves in.
-        room = _INSIDE * unit - 0.5 * math.hypot(wide, stretch * high)
-        aside, aft = (offset * unit for offset in label.place)
-        inward = min(1.0, room / max(math.hypot(aside, aft), 1e-9))
-        corner = (round(0.5 * (size - pad.width) + inward * aside), round(0.5 * (size - pad.height) + inward * aft))
-        ink.paste(words, corner, pad)
-        ground.paste(pad, corner, pad)
-    return np.asarray(ink), np.asarray(ground) > 127
 
 
 @lru_cache(maxsize=4)

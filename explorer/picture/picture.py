@@ -11,7 +11,6 @@ from explorer.picture import disk_image
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.lettering import label_masks
 from explorer.picture.png import encode_png
 from explorer.picture.polar import polar_grid, refined
 from explorer.picture.poses import (
@@ -23,7 +22,7 @@ from explorer.picture.poses import (
     rotor_pose,
     tip_path_pose,
 )
-from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
+from explorer.picture.regions import NO_MARKS, Marks, region_codes
 from explorer.picture.scene_theme import DiskInk, scene_theme
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
@@ -35,9 +34,6 @@ DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
 LINE_LIFT = 0.02
 """How far lines lie above the disk [m]."""
-Reader = tuple[float, float]
-"""Whom the labels on the disk face: azimuth [rad], and how much taller than wide they are drawn."""
-READER: Reader = (0.0, 1.5)
 _SLOW = 0.2
 """U_T/ΩR below which a field without meaning in reverse flow does not count for its range."""
 _LINE_PIXELS = 1.4
@@ -108,12 +104,10 @@ def make_picture(
     colour_range: tuple[float, float],
     field: Field | None = None,
     pixels: int = disk_image.AT_REST,
-    reader: Reader = READER,
 ) -> Picture:
     """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
 
     `pixels`: along each edge of the disk's picture; the small one of a moving page bends the reference blade alone.
-    `reader`: whom its labels face.
     """
     rotor, controls = solution.design.rotor, solution.controls
     shape = blade_shape(rotor)
@@ -124,7 +118,7 @@ def make_picture(
         blades=turned_blades(solution, view, each=pixels != disk_image.MOVING),
         blade_vertices=blade_vertices(shape, flown_twist(solution, math.radians(view.azimuth_deg)), view.exaggeration),
         blade_faces=shape.faces,
-        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels, reader),
+        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels),
         png_size=pixels,
     )
 
@@ -140,11 +134,10 @@ def page_disk_png(
     colour_range: tuple[float, float],
     view: ViewState,
     pixels: int,
-    reader: Reader = READER,
 ) -> bytes:
-    """The disk as the scene shows it: marked regions, in the ink of the page, with labels once it is at rest."""
+    """The disk as the scene shows it: marked regions, in the ink of the page."""
     ink = scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink, reader=reader)
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
 
 
 def disk_png(
@@ -155,11 +148,10 @@ def disk_png(
     size: int = disk_image.SIZE,
     marks: Marks = NO_MARKS,
     ink: DiskInk | None = None,
-    reader: Reader = READER,
 ) -> bytes:
     """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`.
 
-    `marks`: regions drawn into it, and labelled where the picture is large enough to read.
+    `marks`: regions drawn into it.
     """
     size = min(size, disk_image.LARGEST)
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
@@ -167,8 +159,6 @@ def disk_png(
     regions = region_codes(solution, grid, marks, half_width)
     void = field.void(solution, grid)
     pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void, size, regions)
-    if marks != NO_MARKS and size > disk_image.MOVING:
-        disk_image.write_labels(pixels, *label_masks(region_labels(solution, marks), size, *reader))
     return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
 
 

@@ -1,7 +1,6 @@
-"""Regions marked on the disk: stall, reverse flow, drag divergence; as codes on a polar grid, and their labels."""
+"""Regions marked on the disk: stall, reverse flow, drag divergence; as codes on a polar grid."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import lru_cache
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from explorer.picture.fields import filled
-from explorer.picture.polar import PolarGrid, Single, Sums, polar_grid, refined
+from explorer.picture.polar import PolarGrid, Single, Sums, refined
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
 from rotor.trim.solution import Solution
@@ -29,13 +28,6 @@ _CLEAR_OF_REVERSE = 0.055
 """U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
 _DASHES = 96
 _DASH_SHARE = 0.58
-_LABEL_RADII, _LABEL_AZIMUTHS = 40, 180
-_PLANE = 90
-"""Points a side of the square on which the widest place of a region is looked for."""
-LETTER = 0.046
-"""Width of the letters' em on the disk, in radii."""
-_LEAST_AREA = 0.006
-"""Of the disk: a smaller region is not labelled."""
 
 
 class MarkedRegion(IntEnum):
@@ -59,27 +51,6 @@ class Marks:
 
 
 ALL_MARKS, NO_MARKS = Marks(), Marks(False, False, False)
-
-
-@dataclass(frozen=True)
-class RegionLabel:
-    """A word on the disk."""
-
-    text: str
-    r: float
-    """r/R"""
-    psi: float
-    """[rad]"""
-
-    @property
-    def place(self) -> tuple[float, float]:
-        """To starboard and aft of the hub, in radii."""
-        return self.r * math.sin(self.psi), self.r * math.cos(self.psi)
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Its width and height on the disk, in radii."""
-        return (0.65 * len(self.text) + 1.2) * LETTER, 2.0 * LETTER
 
 
 def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
@@ -184,70 +155,3 @@ def region_masks(solution: Solution, grid: PolarGrid, slowest: float = 0.0) -> d
         "reverse_flow": flow.u_t < 0.0,
         "drag_divergence": (divergence_margin(solution, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
     }
-
-
-def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
-    """The words for the regions large enough to name, each near the widest place of its region, none over another."""
-    grid = polar_grid(solution.disk, _LABEL_RADII, _LABEL_AZIMUTHS)
-    clear = refined(solution, grid).u_t > _CLEAR_OF_REVERSE
-    masks = region_masks(solution, grid, _CLEAR_OF_REVERSE)
-    regions: list[tuple[str, Booleans]] = []
-    if marks.reverse_flow:
-        regions.append(("REVERSE FLOW", masks["reverse_flow"]))
-    if marks.stall:
-        regions += [("STALL", masks["stall"]), ("NEGATIVE STALL", masks["negative_stall"])]
-    labels: list[RegionLabel] = []
-    for text, inside in regions:
-        label = _widest(text, _on_plane(grid, inside), float(grid.r[0]), labels)
-        labels += [label] if label else []
-    if marks.drag_divergence:
-        labels += _divergence_label(solution, grid, clear, labels)
-    return tuple(labels)
-
-
-def _on_plane(grid: PolarGrid, inside: Booleans) -> Booleans:
-    """A polar mask on a square of _PLANE points a side: rows run aft, columns to starboard."""
-    place = (2.0 * np.arange(_PLANE) + 1.0) / _PLANE - 1.0
-    starboard, aft = np.meshgrid(place, place)
-    r = np.hypot(aft, starboard)
-    row = np.rint((r - grid.r[0]) / (grid.r[1] - grid.r[0])).astype(int)
-    column = np.rint(np.arctan2(starboard, aft) / (2.0 * math.pi) * len(grid.psi)).astype(int) % len(grid.psi)
-    within = (row >= 0) & (row < len(grid.r))
-    return within & inside[np.clip(row, 0, len(grid.r) - 1), column]
-
-
-def _widest(text: str, inside: Booleans, cutout: float, others: Sequence[RegionLabel]) -> RegionLabel | None:
-    """A label for a region, clear of the hub; None where the region is too small to name."""
-    if np.count_nonzero(inside) < _LEAST_AREA * 0.25 * math.pi * _PLANE**2:
-        return None
-    depth = np.asarray(ndimage.distance_transform_edt(inside))
-    for index in np.argsort(depth, axis=None)[::-1][: np.count_nonzero(depth)]:
-        row, column = divmod(int(index), _PLANE)
-        aft, starboard = (2.0 * row + 1.0) / _PLANE - 1.0, (2.0 * column + 1.0) / _PLANE - 1.0
-        width, height = RegionLabel(text, 0.0, 0.0).size
-        if abs(aft) < cutout + 0.5 * height:
-            starboard = math.copysign(max(abs(starboard), cutout + 0.5 * width), starboard)
-        label = RegionLabel(text, math.hypot(aft, starboard), math.atan2(starboard, aft) % (2.0 * math.pi))
-        if not any(_overlap(label, other) for other in others):
-            return label
-    return None
-
-
-def _divergence_label(
-    solution: Solution, grid: PolarGrid, clear: Booleans, others: Sequence[RegionLabel]
-) -> list[RegionLabel]:
-    """Inboard of the line on the advancing side, where it stands clear of the reference blade."""
-    beyond = (divergence_margin(solution, grid) > 0.0) & clear
-    column = int(np.argmin(np.abs(grid.psi - math.radians(122.0))))
-    outside = np.flatnonzero(~beyond[:, column])
-    if not len(outside) or not 0.45 < grid.r[outside[-1]] < 0.97:
-        return []
-    label = RegionLabel("DRAG DIVERGENCE", float(grid.r[outside[-1]]), float(grid.psi[column]))
-    half = 0.5 * label.size[0] + 0.03
-    label = RegionLabel(label.text, label.r - half, label.psi)
-    return [] if any(_overlap(label, other) for other in others) else [label]
-
-
-def _overlap(one: RegionLabel, other: RegionLabel) -> bool:
-    apart = [abs(a - b) for a, b in zip(one.place, other.place, strict=True)]
-    return all(gap < 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True))

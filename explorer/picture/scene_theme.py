@@ -16,8 +16,6 @@ class DiskInk:
     reverse_flow: Rgb = (92, 99, 112)
     reverse_flow_rim: Rgb = (255, 255, 255)
     drag_divergence: Rgb = (16, 20, 30)
-    label: Rgb = (255, 255, 255)
-    label_ground: Rgb = (38, 44, 56)
     opacity: float = 1.0
 
 
@@ -112,7 +110,6 @@ DARK = SceneTheme(
         stall=(255, 92, 150),
         reverse_flow=(58, 63, 74),
         drag_divergence=(245, 247, 250),
-        label_ground=(16, 19, 26),
         opacity=0.80,
     ),
 )

@@ -9,7 +9,7 @@ from typing import Protocol
 import viser
 
 from explorer.model.inputs import ViewState, baseline_of
-from explorer.picture.camera_views import View, apart, reader
+from explorer.picture.camera_views import View, apart
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
@@ -131,10 +131,9 @@ class SceneController:
             fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
         self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
-        towards = reader(drawn.look)
-        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST, towards)
+        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
         beside = drawn.pinned if view.beside and drawn.pinned is not None and drawn.pinned.converged else None
-        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST, towards)
+        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
         with self._client.atomic():
             self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution, view, at_rest=True)

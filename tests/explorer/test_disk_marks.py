@@ -16,7 +16,7 @@ from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid, refined, stall_angles
-from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, RegionLabel, region_codes, region_labels
+from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, region_codes
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
@@ -102,61 +102,6 @@ class TestRegions:
         alpha = theta - np.arctan2(u_p, u_t)
         assert np.abs(flow.alpha - alpha)[ahead].max() < 1e-4
         assert np.abs(flow.margin - np.minimum(upper - alpha, alpha - lower))[ahead].max() < 1e-4
-
-
-class TestLabels:
-    def test_each_region_is_named_where_it_is(self, fast: Solution):
-        labels = {label.text: label for label in region_labels(fast, Marks())}
-        assert {"STALL", "REVERSE FLOW", "DRAG DIVERGENCE"} <= set(labels)
-        stall, reverse, divergence = (labels[name] for name in ("STALL", "REVERSE FLOW", "DRAG DIVERGENCE"))
-        assert stall.r > 0.5
-        assert stall.place[0] < 0.0  # On the retreating side.
-        assert reverse.place[0] < 0.0
-        assert reverse.r < 0.5
-        assert divergence.place[0] > 0.0
-
-    def test_no_label_lies_over_another(self, fast: Solution):
-        labels = region_labels(fast, Marks())
-        for k, one in enumerate(labels):
-            for other in labels[k + 1 :]:
-                apart = [abs(a - b) for a, b in zip(one.place, other.place, strict=True)]
-                room = [0.5 * (a + b) for a, b in zip(one.size, other.size, strict=True)]
-                assert apart[0] >= room[0] - 1e-9 or apart[1] >= room[1] - 1e-9
-
-    def test_a_switched_off_region_is_not_named(self, fast: Solution):
-        assert {label.text for label in region_labels(fast, Marks(stall=False))} <= {"REVERSE FLOW", "DRAG DIVERGENCE"}
-        assert region_labels(fast, NO_MARKS) == ()
-
-    @pytest.mark.parametrize("psi_deg", [0, 90, 200, 315])
-    def test_a_label_at_the_rim_stays_on_the_disk(self, psi_deg: int):
-        size = 960
-        label = RegionLabel("NEGATIVE STALL", 0.98, math.radians(psi_deg))
-        ink, ground = lettering.label_masks([label], size)
-        rows, columns = np.nonzero(ground)
-        r = np.hypot(rows - 479.5, columns - 479.5) / 479.0
-        assert r.max() < 1.0
-        assert ink[ground].max() > 200
-        assert not ink[~ground].any()
-
-    @pytest.mark.parametrize("azimuth_deg", [0.0, 34.0])
-    def test_a_label_reads_from_left_to_right_for_its_reader(self, azimuth_deg: float):
-        """Its long side lies along the reader's right: forward of starboard for one who stands to starboard."""
-        azimuth = math.radians(azimuth_deg)
-        _, ground = lettering.label_masks([RegionLabel("DRAG DIVERGENCE", 0.5, 1.6)], 960, azimuth, 1.5)
-        rows, columns = np.nonzero(ground)
-        aft, starboard = rows - rows.mean(), columns - columns.mean()
-        along = np.linalg.eigh(np.cov(np.stack((aft, starboard))))[1][:, -1]
-        along *= np.sign(along[1])
-        assert along == pytest.approx([-math.sin(azimuth), math.cos(azimuth)], abs=0.02)
-
-    def test_the_picture_at_rest_is_labelled_and_the_moving_one_is_not(self, fast: Solution):
-        ground = np.array(LIGHT.ink.label_ground)
-
-        def count(size: int, marks: Marks) -> int:
-            return int(np.count_nonzero((shown(fast, size, marks)[..., :3] == ground).all(axis=2)))
-
-        assert count(960, Marks()) > 2000
-        assert count(960, NO_MARKS) == count(disk_image.MOVING, Marks()) == 0
 
 
 class TestHatch:

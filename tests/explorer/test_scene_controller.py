@@ -125,15 +125,6 @@ class TestLook:
         assert page["/airframe"].visible
         assert page["/rotor/disk/words"].visible
 
-    def test_labels_turn_with_the_view(self, page: Page, built: Solution):
-        pictures = []
-        for view in ("3d", "disk"):
-            page.controller.look(view)
-            page.controller.draw(built, VIEW, None)
-            page.controller.draw_finely()
-            pictures.append(page["/rotor/disk/field"]._data)
-        assert pictures[0] != pictures[1]
-
 
 def rigid(solution: Solution) -> Solution:
     design = solution.design
