@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from explorer.model.inputs import ViewState
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.poses import flown_twist, with_elastic_twist
+from explorer.picture.hub_drawing import HubLines
+from explorer.picture.poses import drawn_bending, flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import inflow_arrows, tip_vortices
@@ -90,16 +91,21 @@ class Ghost:
         """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown."""
         psi, exaggeration = math.radians(view.azimuth_deg), view.exaggeration
         ghost = ghost_twist(solution, other.twist, psi)
+        bent = drawn_bending(solution, blade_shape(other.rotor).r, psi)
+        if bent is not None and ghost is None:
+            ghost = flown_twist(solution, psi)
         # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
-        self._surface.visible = ghost is not None and other.twist != solution.design.twist
+        self._surface.visible = ghost is not None and (bent is not None or other.twist != solution.design.twist)
         self._lines.visible = ghost is not None and at_rest
         if ghost is None:
             return
         twist = flown_twist(solution, psi)
         differs = other.twist != solution.design.twist
-        if differs:
+        if not differs and bent is not None:
+            ghost = twist  # The straight blade as flown tells bending apart; its jig shape would hide it.
+        if differs or bent is not None:
             shape = blade_shape(other.rotor)
-            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST)
+            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST, bent)
             set_mesh(self._surface, Mesh(vertices, shape.faces))
         colour = other.colour if other.colour is not None and differs else self._theme.ghost
         self._surface.color = colour
@@ -139,6 +145,33 @@ class AirLines:
     def hide_vortices(self) -> None:
         """They belong to blades that have moved on."""
         self._vortices.visible = False
+
+
+class HubLoadLines:
+    """Vibratory loads over the hub: a path of the in-plane force, a bar of the vertical force, a path of the moment."""
+
+    def __init__(self, api: viser.SceneApi) -> None:
+        nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
+        self._lines = {
+            name: api.add_line_segments(
+                f"{ROTOR}/hub_{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
+            )
+            for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8))
+        }
+
+    def show(self, lines: HubLines, theme: SceneTheme) -> None:
+        """Draw these."""
+        of = {"stem": lines.stem, "force": lines.force, "bar": lines.bar, "moment": lines.moment}
+        for name, segments in of.items():
+            colour = theme.hub_moment if name == "moment" else theme.hub_force
+            handle = self._lines[name]
+            handle.points, handle.colors = segments.astype(np.float32), _even(colour, len(segments))
+            handle.visible = True
+
+    def hide(self) -> None:
+        """There are none."""
+        for handle in self._lines.values():
+            handle.visible = False
 
 
 class Strip:
