@@ -117,9 +117,7 @@ def section_ring(rotor: Rotor, r: float, points: int) -> Array:
     return float(rotor.blade.chord(r)) * ((1.0 - weight) * one + weight * two)
 
 
-def blade_vertices(
-    shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0, bent: Array | None = None
-) -> Array:
+def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0, bent: Array | None = None) -> Array:
     """The twisted blade's vertices, shape (n, 3); only these change when the twist does.
 
     `exaggeration` multiplies the twist relative to that at 0.75 R; `bent`: how far each ring is moved, (rings, 3).
@@ -133,8 +131,8 @@ def ghost_vertices(
 ) -> Array:
     """The straight blade with twist `ghost`, shown only where it differs from one with `twist`, and `bent` where given.
 
-    Shape (n, 3). Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one and a half:
-    two surfaces in one place would flicker.
+    Shape (n, 3). Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one
+    and a half: two surfaces in one place would flicker.
     """
     rings = _turned(shape, shape.pitch(ghost, exaggeration))
     apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0))

@@ -1,4 +1,4 @@
-"""Vibratory hub loads as lines over the hub, in the shaft's axes: paths of force and moment, a bar for vertical force."""
+"""Vibratory hub loads as lines over the hub, in the axes of the shaft: paths of force and moment, a vertical bar."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from rotor.design.design import Design
 from rotor.trim.solution import HubLoads
 from rotor.units import GRAVITY
 
-_TENTH = 0.3
+_TENTH = 0.5
 """A tenth of the reference weight is drawn about this long [R]."""
 HEIGHT = 0.11
 """Of the lines over the hub [R]: they stand clear of the blades."""
@@ -39,8 +39,9 @@ class HubLines:
     """Path of the moment, right-handed about its own direction, and the moment at that azimuth."""
     stem: Array
     """From the hub to their centre."""
-    places: dict[str, tuple[float, float, float]]
+    places: dict[str, list[float]]
     """Of the labels of `force`, `bar` and `moment`."""
+    centre: list[float]
 
 
 def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
@@ -68,7 +69,8 @@ def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
         bar=np.array([[centre - half, centre + half]]),
         moment=moment,
         stem=np.array([[np.zeros(3), centre]]),
-        places={name: (float(end[0]), float(end[1]), float(end[2])) for name, end in ends.items()},
+        places={name: end.tolist() for name, end in ends.items()},
+        centre=centre.tolist(),
     )
 
 
@@ -79,8 +81,8 @@ def hub_words(loads: HubLoads, design: Design) -> dict[str, tuple[str, str]]:
     return {
         "force": (
             f"in-plane {fx} × {fy} kN",
-            f"In-plane force on the hub at {per_rev}: {fx} kN aft, {fy} kN to starboard. The ellipse is the path of the "
-            f"force over one period, drawn 1 m for {scale} kN.",
+            f"In-plane force on the hub at {per_rev}: {fx} kN aft, {fy} kN to starboard. The ellipse is its path over "
+            f"one period, drawn 1 m for {scale} kN.",
         ),
         "bar": (
             f"vertical {fz} kN",

@@ -96,7 +96,7 @@ class Ghost:
             ghost = flown_twist(solution, psi)
         # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
         self._surface.visible = ghost is not None and (bent is not None or other.twist != solution.design.twist)
-        self._lines.visible = ghost is not None and at_rest
+        self._lines.visible = ghost is not None and (at_rest or bent is not None)
         if ghost is None:
             return
         twist = flown_twist(solution, psi)
@@ -109,8 +109,9 @@ class Ghost:
             set_mesh(self._surface, Mesh(vertices, shape.faces))
         colour = other.colour if other.colour is not None and differs else self._theme.ghost
         self._surface.color = colour
-        if at_rest:
-            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, _LEAST).astype(np.float32)
+        if at_rest or bent is not None:  # Of the straight blade beside the bent one all edges.
+            least = _LEAST if bent is None else -1.0
+            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, least).astype(np.float32)
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)

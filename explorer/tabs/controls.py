@@ -216,7 +216,9 @@ class DesignControls:
 
     def show_bending(self, words: str) -> None:
         """What bending costs, or why there is none, beside its switch."""
-        self._bending_words.content = f'<div class="rxp-cost" data-explorer="bending">{words}</div>' if words else ""
+        content = f'<div class="rxp-cost" data-explorer="bending">{words}</div>' if words else ""
+        if self._bending_words.content != content:
+            self._bending_words.content = content
 
     def _change_units(self, units: Units) -> None:
         """Weight, altitude and climb in other units; the inputs stay what they are."""
