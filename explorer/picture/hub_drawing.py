@@ -32,13 +32,15 @@ class HubLines:
     """Lines in the axes of the shaft [m], (segments, 2, 3), and where their labels stand."""
 
     force: Array
-    """Path of the in-plane force over one period, and the force at the azimuth of the reference blade."""
+    """Path of the in-plane force over one period."""
     bar: Array
     """Vertical force, up and down."""
     moment: Array
-    """Path of the moment, right-handed about its own direction, and the moment at that azimuth."""
+    """Path of the moment, right-handed about its own direction."""
     stem: Array
     """From the hub to their centre."""
+    now: Array
+    """Force and moment at the azimuth of the reference blade, (2, 2, 3)."""
     places: dict[str, list[float]]
     """Of the labels of `force`, `bar` and `moment`."""
     centre: list[float]
@@ -49,26 +51,25 @@ def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
     scale, radius = load_scale(design), design.rotor.radius
     centre = np.array([0.0, 0.0, HEIGHT * radius])
 
-    def path(x: str, y: str) -> tuple[Array, Array]:
-        """Points of the path, the first of them that at ψ, (points, 3)."""
-        at = loads.per_rev * psi + np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
+    def points(x: str, y: str, at: Array) -> Array:
+        """Ends of the vector where N_b ψ is `at` [rad], (points, 3)."""
         flat = [loads.amplitudes[name] * np.cos(at - loads.phases[name]) / scale for name in (x, y)]
-        points = centre + np.stack([*flat, np.zeros_like(at)], axis=1)
-        return np.concatenate([np.stack((points[:-1], points[1:]), axis=1), [[centre, points[0]]]]), points
+        return centre + np.stack([*flat, np.zeros_like(at)], axis=1)
 
-    force, force_points = path("fx", "fy")
-    moment, moment_points = path("mx", "my")
+    period, here = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1), np.array([loads.per_rev * psi])
+    force, moment = points("fx", "fy", period), points("mx", "my", period)
     half = np.array([0.0, 0.0, loads.amplitudes["fz"] / scale])
     ends = {
-        "force": force_points[int(np.argmax(force_points[:, 1]))],
+        "force": force[int(np.argmax(force[:, 1]))],
         "bar": centre + half,
-        "moment": moment_points[int(np.argmin(moment_points[:, 1]))],
+        "moment": moment[int(np.argmin(moment[:, 1]))],
     }
     return HubLines(
-        force=force,
+        force=np.stack((force[:-1], force[1:]), axis=1),
         bar=np.array([[centre - half, centre + half]]),
-        moment=moment,
+        moment=np.stack((moment[:-1], moment[1:]), axis=1),
         stem=np.array([[np.zeros(3), centre]]),
+        now=np.array([[centre, points(*names, here)[0]] for names in (("fx", "fy"), ("mx", "my"))]),
         places={name: end.tolist() for name, end in ends.items()},
         centre=centre.tolist(),
     )

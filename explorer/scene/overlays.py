@@ -13,17 +13,18 @@ from numpy.typing import NDArray
 from explorer.model.inputs import ViewState
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.hub_drawing import HubLines
+from explorer.picture.hub_drawing import HubLines, hub_lines
 from explorer.picture.poses import drawn_bending, flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
-from rotor.trim.solution import Solution
+from rotor.trim.solution import HubLoads, Solution
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 _LEAST = math.radians(0.25)
@@ -157,22 +158,30 @@ class HubLoadLines:
             name: api.add_line_segments(
                 f"{ROTOR}/hub_{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
             )
-            for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8))
+            for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8), ("now", 2.0))
         }
+        self._drawn: tuple[HubLoads, SceneTheme] | None = None
 
-    def show(self, lines: HubLines, theme: SceneTheme) -> None:
-        """Draw these."""
-        of = {"stem": lines.stem, "force": lines.force, "bar": lines.bar, "moment": lines.moment}
-        for name, segments in of.items():
-            colour = theme.hub_moment if name == "moment" else theme.hub_force
+    def show(self, loads: HubLoads, design: Design, psi: float, theme: SceneTheme) -> HubLines:
+        """Draw them with the reference blade at ψ [rad]; where only that has changed, only the vectors now."""
+        lines, force, moment = hub_lines(loads, design, psi), theme.hub_force, theme.hub_moment
+        drawn = {"now": (lines.now, np.stack([_even(force, 1)[0], _even(moment, 1)[0]]))}
+        if self._drawn != (loads, theme):
+            self._drawn = loads, theme
+            for name, colour in (("stem", force), ("force", force), ("bar", force), ("moment", moment)):
+                segments: Array = getattr(lines, name)
+                drawn[name] = segments, _even(colour, len(segments))
+        for name, (segments, shades) in drawn.items():
             handle = self._lines[name]
-            handle.points, handle.colors = segments.astype(np.float32), _even(colour, len(segments))
-            handle.visible = True
+            handle.points, handle.colors, handle.visible = segments.astype(np.float32), shades, True
+        return lines
 
     def hide(self) -> None:
         """There are none."""
+        self._drawn = None
         for handle in self._lines.values():
-            handle.visible = False
+            if handle.visible:
+                handle.visible = False
 
 
 class Strip:

@@ -12,7 +12,7 @@ from typing import Any
 from explorer.charts.vibration import FAN_SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
-from explorer.picture.hub_drawing import hub_lines, hub_words
+from explorer.picture.hub_drawing import hub_words
 from explorer.picture.poses import BENDING_SHOWN
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.controller import SceneController
@@ -175,8 +175,8 @@ class VibrationPanel:
         if loads is None or beside:
             self._scene.hub_loads.hide()
         else:
-            lines = hub_lines(loads, design, math.radians(state.view.azimuth_deg))
-            self._scene.hub_loads.show(lines, scene_theme(state.view.dark))
+            psi, theme = math.radians(state.view.azimuth_deg), scene_theme(state.view.dark)
+            lines = self._scene.hub_loads.show(loads, design, psi, theme)
             labels += [
                 {
                     "text": words,

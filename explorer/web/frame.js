@@ -254,7 +254,9 @@
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
-      if (!node?.visible || !client.camera) { label.style.visibility = 'hidden'; return; }
+      let seen = Boolean(node);
+      for (let one = node; one; one = one.parent) seen &&= one.visible;
+      if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
       if (one.aside) {  // Beside its point, away from what it belongs to, and below a label that is there already.
