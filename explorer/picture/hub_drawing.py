@@ -75,6 +75,12 @@ def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
     )
 
 
+def scale_words(design: Design) -> str:
+    """What a metre of the lines stands for."""
+    scale = f"{load_scale(design) / 1e3:g}"
+    return f"1 m drawn: {scale} kN, {scale} kN m"
+
+
 def hub_words(loads: HubLoads, design: Design) -> dict[str, tuple[str, str]]:
     """Label and sentence of `force`, `bar` and `moment`."""
     fx, fy, fz, mx, my = (number(loads.amplitudes[name] / 1e3, 1) for name in ("fx", "fy", "fz", "mx", "my"))
@@ -86,7 +92,7 @@ def hub_words(loads: HubLoads, design: Design) -> dict[str, tuple[str, str]]:
             f"one period, drawn 1 m for {scale} kN.",
         ),
         "bar": (
-            f"vertical {fz} kN",
+            f"vertical ±{fz} kN",
             f"Vertical force on the hub at {per_rev}: up and down by {fz} kN, drawn 1 m for {scale} kN.",
         ),
         "moment": (

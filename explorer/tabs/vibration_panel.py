@@ -12,7 +12,7 @@ from typing import Any
 from explorer.charts.vibration import FAN_SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
-from explorer.picture.hub_drawing import hub_words
+from explorer.picture.hub_drawing import hub_words, scale_words
 from explorer.picture.poses import BENDING_SHOWN
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.controller import SceneController
@@ -198,13 +198,15 @@ class VibrationPanel:
         reason, loads = why_no_hub_loads(design), self._loads.get(state.solution)
         if reason is not None or loads is None:
             sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
-            return {"index": "", "sentence": sentence, "band": "", "change": "", "kind": "", "title": sentence}
+            return {"index": "", "sentence": sentence, "change": "", "title": sentence}
         band = "band over wakes: computing"
         if loads.band is not None:
             band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over wakes"
         change, kind = self._change(state, loads)
         return {
             "index": number(loads.index, 1),
+            "at": f"at {loads.per_rev}/rev",
+            "scale": scale_words(design),
             "sentence": "",
             "band": band,
             "change": change,

@@ -146,7 +146,7 @@ class TestHubLines:
             assert f"drawn 1 m for {scale / 1e3:g} {unit}." in sentence
 
     def test_the_force_now_is_that_of_all_blades_on_their_roots(self, bent: Solution, loads: HubLoads):
-        """Root forces of four blades turned into the axes of the shaft: their part at 4/rev."""
+        """Root forces of four blades in the axes of the shaft: their part at 4/rev, to what small angles leave."""
         out, forward, _ = loads.root_force
         count = out.shape[0]
         psi = 2.0 * math.pi * np.arange(count) / count
@@ -265,7 +265,8 @@ class TestPanel:
         assert row["index"] == f"{loads.index:.1f}"
         assert row["band"] == "band over wakes: computing"
         assert "0.5 aft, 0.67 to starboard, 1 vertical" in row["title"]
-        assert "at 4/rev" in row["title"]
+        assert row["at"] == "at 4/rev"
+        assert row["scale"] == "1 m drawn: 2 kN, 2 kN m"
         page.panel.solve_deferred(lambda: False)
         low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"]["band"]))
         assert low <= float(row["index"]) <= high
