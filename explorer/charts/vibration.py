@@ -101,15 +101,15 @@ def index_chart(
     """
     if not _has_curve(solution.design):
         return None
-    own, other, mu = curves.known(solution.design), curves.known(reference.design), _speed(solution)
+    own, other = curves.known(solution.design), curves.known(reference.design)
     seen = [value for value in (*own, *other, math.nan if index is None else index) if math.isfinite(value)]
-    left = curves.left(solution.design) + (curves.left(reference.design) if reference is not solution else 0)
-    mus = np.array(SPEEDS)
-    now = () if index is None else (StripDot(mu, index, ""),)
     same = reference.design == solution.design
+    left = curves.left(solution.design) + (0 if same else curves.left(reference.design))
+    mus = np.array(SPEEDS)
+    now = () if index is None else (StripDot(solution.design.condition.advance_ratio, index, ""),)
     return StripChart(
         title="Vibration over µ",
-        unit="index, % of weight",
+        unit=f"index, {index_unit(solution.design)}",
         x_range=(0.0, SWEEP[-1]),
         y_range=held_range(held, 0.0, max(seen, default=math.nan)),
         lines=(*([] if same else [StripLine(mus, other, "reference")]), StripLine(mus, own, "saving")),
@@ -121,8 +121,9 @@ def index_chart(
     )
 
 
-def _speed(solution: Solution) -> float:
-    return solution.design.condition.advance_ratio
+def index_unit(design: Design) -> str:
+    """What the index is a part of: a rotor on a test stand carries no weight."""
+    return "% of weight" if design.condition.stand is None else "% of thrust"
 
 
 FAN_SPEEDS = (0.03, *(round(0.1 * k, 1) for k in range(1, 13)))

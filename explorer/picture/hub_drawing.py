@@ -83,7 +83,8 @@ def scale_words(design: Design) -> str:
 
 def hub_words(loads: HubLoads, design: Design) -> dict[str, tuple[str, str]]:
     """Label and sentence of `force`, `bar` and `moment`."""
-    fx, fy, fz, mx, my = (number(loads.amplitudes[name] / 1e3, 1) for name in ("fx", "fy", "fz", "mx", "my"))
+    digits = 1 if load_scale(design) >= 1e3 else 2
+    fx, fy, fz, mx, my = (number(loads.amplitudes[name] / 1e3, digits) for name in ("fx", "fy", "fz", "mx", "my"))
     per_rev, scale = f"{loads.per_rev}/rev", f"{load_scale(design) / 1e3:g}"
     return {
         "force": (

@@ -9,7 +9,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from explorer.charts.vibration import FAN_SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart, stopping
+from explorer.charts.vibration import (
+    FAN_SPEEDS,
+    FanKey,
+    FanPlots,
+    IndexCurves,
+    fan_plot,
+    index_chart,
+    index_unit,
+    stopping,
+)
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.picture.hub_drawing import hub_words, scale_words
@@ -93,7 +102,8 @@ class VibrationPanel:
         """The inputs have no answer: what stands here is of the last one."""
         self._scene.hub_loads.hide()
         self._context.bridge.set(hub_labels=[])
-        self._fan.content = faded(self._content)
+        if self._content:
+            self._fan.content = faded(self._content)
 
     @property
     def words(self) -> str:
@@ -102,7 +112,7 @@ class VibrationPanel:
         if card is None:
             return ""
         change = f", {card['change']}" if card["change"] else ""
-        return card["sentence"] or f"Vibration index {card['index']} % of weight{change}."
+        return card["sentence"] or f"Vibration index {card['index']} {card['unit']}{change}."
 
     def _solve_loads(self, solution: Solution, band: bool, superseded: Callable[[], bool]) -> None:
         known = self._loads.get(solution)
@@ -205,6 +215,7 @@ class VibrationPanel:
         change, kind = self._change(state, loads)
         return {
             "index": number(loads.index, 1),
+            "unit": index_unit(design),
             "at": f"at {loads.per_rev}/rev",
             "scale": scale_words(design),
             "sentence": "",

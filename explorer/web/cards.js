@@ -35,9 +35,9 @@
     html.toggleAttribute('data-vibration', Boolean(now));
     card.querySelector('.rxf-vibration')?.remove();
     if (!now) return;
-    const numbers = now.sentence ? `<span class="rxf-dim">${text(now.sentence)}</span>` : `<span class="rxf-num"><b data-explorer="index">${text(now.index)}</b> % of weight</span><span class="rxf-dim rxf-num" data-explorer="index-band">${text(now.band)}</span>
+    const numbers = now.sentence ? `<span class="rxf-dim">${text(now.sentence)}</span>` : `<span class="rxf-num"><b data-explorer="index">${text(now.index)}</b> ${text(now.unit)}</span><span class="rxf-dim rxf-num" data-explorer="index-band">${text(now.band)}</span>
       ${now.change ? `<span class="rxf-num ${now.kind ? `rxf-${now.kind}` : ''}" data-explorer="index-change">${text(now.change)}</span>` : ''}<span class="rxf-dim rxf-push rxf-scale">${text(now.scale)}</span>`;
-    card.insertAdjacentHTML('beforeend', `<div class="rxf-vibration" data-explorer="vibration" role="group" tabindex="0" aria-label="Vibration: ${text(now.sentence || `${now.index} % of weight, ${now.band}${now.change ? `, ${now.change}` : ''}. ${now.title}`)}" title="${text(now.title)}"><b>Vibration${now.at ? ` ${text(now.at)}` : ''}</b>${numbers}</div>`);
+    card.insertAdjacentHTML('beforeend', `<div class="rxf-vibration" data-explorer="vibration" role="group" tabindex="0" aria-label="Vibration: ${text(now.sentence || `${now.index} ${now.unit}, ${now.band}${now.change ? `, ${now.change}` : ''}. ${now.title}`)}" title="${text(now.title)}"><b>Vibration${now.at ? ` ${text(now.at)}` : ''}</b>${numbers}</div>`);
   }
   RX.also('vibration', vibration);
   RX.also('power', () => vibration(RX.state.vibration));

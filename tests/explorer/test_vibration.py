@@ -307,6 +307,12 @@ class TestPanel:
         assert page.charts[-1] is None
         assert page.switch.startswith("The stiffness of the Robinson R22 blade")
 
+    def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: Page):
+        hart = solve(replace(with_rotor(FAST, "hart2"), advance_ratio=0.3).design()).require()
+        page.show(hart)
+        assert page.shown["vibration"]["unit"] == "% of thrust"
+        assert re.fullmatch(r"in-plane 0\.\d\d × 0\.\d\d kN", page.shown["hub_labels"][1]["text"])
+
     def test_without_bending_nothing_is_computed(self, page: Page, straight: Solution, monkeypatch: pytest.MonkeyPatch):
         def never(*_: Any, **__: Any) -> None:
             raise AssertionError("computed without bending")
