@@ -45,6 +45,7 @@ from explorer.tabs.sensitivity_panel import SensitivityPanel
 from explorer.tabs.studies_panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
 from explorer.tabs.twist_curve import TwistCurveEditor
+from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel
 from explorer.tabs.waterfall import WaterfallPanel
 from rotor.design.design import Design
@@ -114,6 +115,7 @@ class Page:
             self._sensitivity = SensitivityPanel(context, Strip(client.scene))
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
+            self.vibration = VibrationPanel(context, self.scene, self.results.strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Studies", "Files", "History"))
             with opened["Studies"]:
@@ -217,6 +219,7 @@ class Page:
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
+        self.vibration.turn(state)
         self._sensitivity.show(state)
         self.probe.show(state)
 
@@ -225,6 +228,8 @@ class Page:
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
+        self.vibration.show(state)
+        self.per_rev.show_vibration(self.vibration.words)
         self._curve.show(state)
         self._show_hand(state)
         self.context.bridge.set(beside_labels=beside_labels(state))
@@ -261,6 +266,7 @@ class Page:
         if self._followed is not None and not self._actuator_in_frame and self.layout.mode != "actuate":
             self._show_actuator(self._followed, state.solution)
         self.results.solve_deferred(stop)
+        self.vibration.solve_deferred(stop)
         self.waterfall.solve_steps(stop)
 
     def show_failure(self, failure: Failure) -> None:
@@ -269,6 +275,7 @@ class Page:
         self._refresh(reading)
         self.actuator.show_problem(failure.message)
         self.results.problem(failure.message)
+        self.vibration.problem()
         for tab in self.tabs:
             tab.show_failure()
         pinned = self.context.pinboard.answer if reading.view.difference else None

@@ -4,7 +4,7 @@ Each chart compares this design with its reference. Gaps are NaN in the arrays a
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import Any, Literal
 
@@ -72,6 +72,15 @@ class StripBand:
     high: Array
 
 
+@dataclass(frozen=True)
+class StripGap:
+    """Where a chart has no lines, and why."""
+
+    low: float
+    high: float
+    words: str
+
+
 @dataclass(frozen=True, eq=False)
 class StripChart:
     """One chart, ready to draw."""
@@ -91,6 +100,7 @@ class StripChart:
     """One sentence: what the chart says, or what lies outside it."""
     x_name: str = "r/R"
     """What the horizontal axis is."""
+    gap: StripGap | None = None
 
     @property
     def x_ticks(self) -> list[float]:
@@ -134,6 +144,7 @@ class StripChart:
             "dots": [plain(dot) for dot in self.dots if math.isfinite(dot.y)],
             "marks": [plain(mark) for mark in self.marks],
             "band": None if band is None else plain(band),
+            **({} if self.gap is None else {"gap": asdict(self.gap)}),
             "value": self.value,
             "note": self.note,
         }

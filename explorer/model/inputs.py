@@ -64,6 +64,9 @@ INFLOW_MENUS = {
 }
 """Inputs that choose the inflow: name → title of each choice."""
 
+MODEL_INPUTS = (*INFLOW_MENUS, *SWITCHES, "bending")
+"""Inputs that are fields of `rotor.design.design.Models`."""
+
 
 @dataclass(frozen=True)
 class Inputs:
@@ -112,6 +115,8 @@ class Inputs:
     swirl: bool = True
     fuselage: bool = True
     download: bool = True
+    bending: bool = False
+    """Whether blades bend in flap and lag."""
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
     found: TwistLaw | None = None
@@ -149,7 +154,7 @@ class Inputs:
             mass_kg=None if self.aircraft.isolated else 1e3 * self.mass_t,
             altitude_m=self.altitude_m,
             climb_m_s=self.climb_m_s if self.climbs else 0.0,
-            models=replace(models, **{name: getattr(self, name) for name in (*INFLOW_MENUS, *SWITCHES)}),
+            models=replace(models, **{name: getattr(self, name) for name in MODEL_INPUTS}),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
             pitch_per_rev=self.pitch_per_rev,
@@ -279,7 +284,7 @@ def inputs_of(design: Design) -> Inputs:
         pitch_per_rev=design.pitch_per_rev,
         twist_per_rev=() if active is None else active.harmonics,
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
-        **{name: getattr(design.models, name) for name in (*INFLOW_MENUS, *SWITCHES)},
+        **{name: getattr(design.models, name) for name in MODEL_INPUTS},
     )
     twist, airfoils = design.twist, _own_airfoils(design)
     if not airfoils and twist == design.rotor.builtin_twist:

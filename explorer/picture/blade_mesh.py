@@ -117,23 +117,29 @@ def section_ring(rotor: Rotor, r: float, points: int) -> Array:
     return float(rotor.blade.chord(r)) * ((1.0 - weight) * one + weight * two)
 
 
-def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
+def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0, bent: Array | None = None) -> Array:
     """The twisted blade's vertices, shape (n, 3); only these change when the twist does.
 
-    `exaggeration` multiplies the twist relative to that at 0.75 R.
+    `exaggeration` multiplies the twist relative to that at 0.75 R; `bent`: how far each ring is moved, (rings, 3).
     """
-    return _with_ends(_turned(shape, shape.pitch(twist, exaggeration)))
+    rings = _turned(shape, shape.pitch(twist, exaggeration))
+    return _with_ends(rings if bent is None else rings + bent[:, None])
 
 
-def ghost_vertices(shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
-    """The blade with twist `ghost`, shown only where it differs from `twist`; shape (n, 3).
+def ghost_vertices(
+    shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float, bent: Array | None = None
+) -> Array:
+    """The straight blade with twist `ghost`, shown only where it differs from one with `twist`, and `bent` where given.
 
-    Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one and a half:
-    two surfaces in one place would flicker.
+    Shape (n, 3). Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one
+    and a half: two surfaces in one place would flicker.
     """
     rings = _turned(shape, shape.pitch(ghost, exaggeration))
     apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0))
     whole = np.clip(apart / least - 0.5, 0.0, 1.0)[:, None, None]
+    if bent is not None:  # Whole where the blade is bent away by half of its thickness.
+        thick = np.ptp(shape.rings[:, :, 1], axis=1)
+        whole = np.maximum(whole, np.clip(2.0 * np.linalg.norm(bent, axis=1) / thick - 0.5, 0.0, 1.0)[:, None, None])
     axis = np.stack((shape.outward, np.zeros_like(shape.r), np.zeros_like(shape.r)), axis=1)[:, None]
     return _with_ends(axis + whole * (rings - axis))
 

@@ -17,6 +17,7 @@ from explorer.picture.poses import (
     Pose,
     airframe_pose,
     blade_pose,
+    drawn_bending,
     flown_twist,
     follows_azimuth,
     rotor_pose,
@@ -81,21 +82,27 @@ def disk_drop(rotor: Rotor) -> float:
     return DISK_DROP * size(rotor.radius)
 
 
-def turned_blades(solution: Solution, view: ViewState, each: bool = True) -> Blades:
-    """The blades with the reference blade at the view's azimuth; `each`: with a shape for each, where they differ."""
+def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Blades:
+    """The blades with the reference blade at the view's azimuth; `each`: with a shape for each, where they differ.
+
+    `bent`: whether bending is drawn."""
     rotor = solution.design.rotor
     first, step = math.radians(view.azimuth_deg), 2.0 * math.pi / rotor.blades
     azimuths = tuple(first + k * step for k in range(rotor.blades))
     hinge = rotor.blade.flap_hinge * rotor.radius
-    shape = blade_shape(rotor)
     differ = each and follows_azimuth(solution)
     return Blades(
         azimuth=first,
         poses=tuple(blade_pose(solution.controls, psi, hinge, solution.design) for psi in azimuths),
-        shapes=tuple(
-            blade_vertices(shape, flown_twist(solution, psi), view.exaggeration) for psi in azimuths if differ
-        ),
+        shapes=tuple(flown_vertices(solution, view, psi, bent) for psi in azimuths if differ),
     )
+
+
+def flown_vertices(solution: Solution, view: ViewState, psi: float, bent: bool = True) -> Array:
+    """Vertices of a blade in flight at ψ [rad], shape (n, 3); its twist, and where `bent` its bending, enlarged."""
+    shape = blade_shape(solution.design.rotor)
+    bending = drawn_bending(solution, shape.r, psi) if bent else None
+    return blade_vertices(shape, flown_twist(solution, psi), view.exaggeration, bending)
 
 
 def make_picture(
@@ -104,10 +111,12 @@ def make_picture(
     colour_range: tuple[float, float],
     field: Field | None = None,
     pixels: int = disk_image.AT_REST,
+    bent: bool = True,
 ) -> Picture:
     """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
 
     `pixels`: along each edge of the disk's picture; the small one of a moving page bends the reference blade alone.
+    `bent`: whether bending is drawn.
     """
     rotor, controls = solution.design.rotor, solution.controls
     shape = blade_shape(rotor)
@@ -115,8 +124,8 @@ def make_picture(
         rotor=rotor_pose(controls),
         airframe=airframe_pose(controls),
         disk=tip_path_pose(controls, disk_drop(rotor)),
-        blades=turned_blades(solution, view, each=pixels != disk_image.MOVING),
-        blade_vertices=blade_vertices(shape, flown_twist(solution, math.radians(view.azimuth_deg)), view.exaggeration),
+        blades=turned_blades(solution, view, pixels != disk_image.MOVING, bent),
+        blade_vertices=flown_vertices(solution, view, math.radians(view.azimuth_deg), bent),
         blade_faces=shape.faces,
         png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels),
         png_size=pixels,

@@ -12,7 +12,11 @@ from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.trim.hub_loads import deflections
 from rotor.trim.solution import Solution
+
+BENDING_SHOWN = 10.0
+"""Times its bending that a blade is drawn with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +78,15 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
     return series
 
 
+def root_pitch(controls: TrimState, psi: float, design: Design | None = None) -> float:
+    """Root pitch of a blade at ψ [rad]."""
+    mean, *waves = pitch_series(controls, design)
+    return mean + sum(
+        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
+        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
+    )
+
+
 def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:
     """A blade at azimuth ψ [rad] in the shaft frame: flapped about its hinge at `hinge` [m], then pitched.
 
@@ -81,11 +94,7 @@ def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | N
     """
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
-    mean, *waves = pitch_series(controls, design)
-    pitch = mean + sum(
-        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
-        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
-    )
+    pitch = root_pitch(controls, psi, design)
     return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
 
 
@@ -150,6 +159,19 @@ def at_azimuth(solution: Solution, values: Array, psi: float) -> Array:
 
 
 def follows_azimuth(solution: Solution) -> bool:
-    """Whether the twist of a blade in flight changes on its way around the disk."""
-    design = solution.design
-    return not design.hovering and (design.active_twist is not None or solution.disk.elastic_twist is not None)
+    """Whether the shape of a blade in flight changes on its way around the disk."""
+    design, disk = solution.design, solution.disk
+    changes = design.active_twist is not None or disk.elastic_twist is not None or deflections(solution) is not None
+    return not design.hovering and changes
+
+
+def drawn_bending(solution: Solution, r: ArrayLike, psi: float) -> Array | None:
+    """How far the axis of a blade at ψ [rad] is drawn off the straight one at r/R, `BENDING_SHOWN` times as far as it
+    bends, in the blade's own axes [m], (stations, 3); None where blades do not bend."""
+    bent = deflections(solution)
+    if bent is None:
+        return None
+    up, forward = (BENDING_SHOWN * own for own in bent.at(np.asarray(r, dtype=float), psi))
+    pitch = root_pitch(solution.controls, psi, solution.design)  # The blade's own axes are pitched.
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    return np.stack([np.zeros_like(up), cos * forward + sin * up, cos * up - sin * forward], axis=1)

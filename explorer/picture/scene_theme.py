@@ -50,6 +50,9 @@ class SceneTheme:
     vortex_end: Rgb
     """Where it fades, close to the background."""
     inflow: Rgb
+    hub_force: Rgb
+    """Of lines over the hub, unlit, as the next."""
+    hub_moment: Rgb
     lights: tuple[Light, ...]
     sky: float
     """Intensity of the hemisphere light."""
@@ -84,6 +87,8 @@ LIGHT = SceneTheme(
     vortex=(8, 44, 128),
     vortex_end=(196, 208, 224),
     inflow=(20, 60, 130),
+    hub_force=(24, 33, 47),
+    hub_moment=(0, 118, 150),
     lights=_lights(2.3, 0.7, 0.7),
     sky=1.1,
     environment=0.26,
@@ -103,6 +108,8 @@ DARK = SceneTheme(
     vortex=(40, 96, 190),
     vortex_end=(14, 18, 25),
     inflow=(64, 120, 220),
+    hub_force=(240, 244, 250),
+    hub_moment=(64, 205, 235),
     lights=_lights(1.9, 0.55, 1.3),
     sky=0.55,
     environment=0.20,

@@ -15,7 +15,7 @@ from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_ran
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.camera import FittedCamera
-from explorer.scene.overlays import AirLines, Ghost, OtherBlade
+from explorer.scene.overlays import AirLines, Ghost, HubLoadLines, OtherBlade
 from explorer.scene.page_scene import PageScene
 from explorer.scene.scene import Scene
 from rotor.design.blade import Rotor
@@ -62,6 +62,7 @@ class SceneController:
         self.scene = Scene(client.scene, rotor, theme)
         self._ghost = Ghost(client.scene, rotor, theme)
         self._air = AirLines(client.scene)
+        self.hub_loads = HubLoadLines(client.scene)
         self._page = PageScene(client)
         self.camera: FittedCamera | None = None
         """Follows the shaft tilt, once the page has one."""

@@ -13,16 +13,18 @@ from numpy.typing import NDArray
 from explorer.model.inputs import ViewState
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.poses import flown_twist, with_elastic_twist
+from explorer.picture.hub_drawing import HubLines, hub_lines
+from explorer.picture.poses import drawn_bending, flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
-from rotor.trim.solution import Solution
+from rotor.trim.solution import HubLoads, Solution
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 _LEAST = math.radians(0.25)
@@ -90,21 +92,27 @@ class Ghost:
         """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown."""
         psi, exaggeration = math.radians(view.azimuth_deg), view.exaggeration
         ghost = ghost_twist(solution, other.twist, psi)
+        bent = drawn_bending(solution, blade_shape(other.rotor).r, psi)
+        if bent is not None and ghost is None:
+            ghost = flown_twist(solution, psi)
         # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
-        self._surface.visible = ghost is not None and other.twist != solution.design.twist
-        self._lines.visible = ghost is not None and at_rest
+        self._surface.visible = ghost is not None and (bent is not None or other.twist != solution.design.twist)
+        self._lines.visible = ghost is not None and (at_rest or bent is not None)
         if ghost is None:
             return
         twist = flown_twist(solution, psi)
         differs = other.twist != solution.design.twist
-        if differs:
+        if not differs and bent is not None:
+            ghost = twist  # The straight blade as flown tells bending apart; its jig shape would hide it.
+        if differs or bent is not None:
             shape = blade_shape(other.rotor)
-            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST)
+            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST, bent)
             set_mesh(self._surface, Mesh(vertices, shape.faces))
         colour = other.colour if other.colour is not None and differs else self._theme.ghost
         self._surface.color = colour
-        if at_rest:
-            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, _LEAST).astype(np.float32)
+        if at_rest or bent is not None:  # Of the straight blade beside the bent one all edges.
+            least = _LEAST if bent is None else -1.0
+            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, least).astype(np.float32)
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
@@ -139,6 +147,41 @@ class AirLines:
     def hide_vortices(self) -> None:
         """They belong to blades that have moved on."""
         self._vortices.visible = False
+
+
+class HubLoadLines:
+    """Vibratory loads over the hub: a path of the in-plane force, a bar of the vertical force, a path of the moment."""
+
+    def __init__(self, api: viser.SceneApi) -> None:
+        nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
+        self._lines = {
+            name: api.add_line_segments(
+                f"{ROTOR}/hub_{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
+            )
+            for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8), ("now", 2.0))
+        }
+        self._drawn: tuple[HubLoads, SceneTheme] | None = None
+
+    def show(self, loads: HubLoads, design: Design, psi: float, theme: SceneTheme) -> HubLines:
+        """Draw them with the reference blade at ψ [rad]; where only that has changed, only the vectors now."""
+        lines, force, moment = hub_lines(loads, design, psi), theme.hub_force, theme.hub_moment
+        drawn = {"now": (lines.now, np.stack([_even(force, 1)[0], _even(moment, 1)[0]]))}
+        if self._drawn != (loads, theme):
+            self._drawn = loads, theme
+            for name, colour in (("stem", force), ("force", force), ("bar", force), ("moment", moment)):
+                segments: Array = getattr(lines, name)
+                drawn[name] = segments, _even(colour, len(segments))
+        for name, (segments, shades) in drawn.items():
+            handle = self._lines[name]
+            handle.points, handle.colors, handle.visible = segments.astype(np.float32), shades, True
+        return lines
+
+    def hide(self) -> None:
+        """There are none."""
+        self._drawn = None
+        for handle in self._lines.values():
+            if handle.visible:
+                handle.visible = False
 
 
 class Strip:

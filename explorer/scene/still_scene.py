@@ -105,9 +105,10 @@ def still_page(
         server.initial_camera.look_at = np.add(camera.look_at, aside)
         server.initial_camera.fov = FIELD_OF_VIEW
         scene = Scene(server.scene, solution.design.rotor, scene_theme(view.dark))
-        picture = make_picture(solution, view, colour_range, pixels=_PIXELS)
+        # Nothing in the file could say that bending is drawn larger.
+        picture = make_picture(solution, view, colour_range, pixels=_PIXELS, bent=False)
         # A file should be small: elastic twist alone is drawn with one shape for all, that of the reference blade.
-        blades = turned_blades(solution, view, each=solution.design.active_twist is not None)
+        blades = turned_blades(solution, view, solution.design.active_twist is not None, bent=False)
         scene.show(replace(picture, blades=blades))
         if edges is not None:
             colours = np.full(edges.shape, 60, dtype=np.uint8)

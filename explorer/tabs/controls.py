@@ -104,6 +104,10 @@ class DesignControls:
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
                 self._inputs[name] = self._watched(box)
                 self._costs[name] = gui.add_html("")
+            self._inputs["bending"] = self._watched(
+                gui.add_checkbox("Blade bending", start.bending, hint=hint("bending"))
+            )
+            self._bending_words = gui.add_html("")
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         by_hand(preset, self._preset_chosen)
@@ -209,6 +213,12 @@ class DesignControls:
         for name, handle in self._costs.items():
             words = costs.get(name, "")
             handle.content = f'<div class="rxp-cost" data-explorer="cost">{words}</div>' if words else ""
+
+    def show_bending(self, words: str) -> None:
+        """What bending costs, or why there is none, beside its switch."""
+        content = f'<div class="rxp-cost" data-explorer="bending">{words}</div>' if words else ""
+        if self._bending_words.content != content:
+            self._bending_words.content = content
 
     def _change_units(self, units: Units) -> None:
         """Weight, altitude and climb in other units; the inputs stay what they are."""

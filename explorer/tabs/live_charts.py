@@ -119,6 +119,8 @@ class Chart:
 
 _BESIDE_STARTS = ("power", "lift")
 _ORDER = ("power", "alpha", "lift", "worth")
+_VIBRATION = "vibration"
+"""Takes the place of the lift where blades bend."""
 _MEASURED = "measured"
 """Takes the place of power over µ on a test stand, for a rotor that was measured."""
 
@@ -213,6 +215,19 @@ class ChartStrip:
         self._charts["power"] = chart
         self._send()
 
+    def show_vibration(self, chart: StripChart | None) -> None:
+        """The vibration index over µ; None where there is none."""
+        if chart is None and _VIBRATION not in self._charts:
+            return
+        self._charts.pop(_VIBRATION, None)
+        if chart is not None:
+            self._charts[_VIBRATION] = chart
+        self._send()
+
+    def vibration_range(self) -> Range | None:
+        """The axis of that chart, to be held."""
+        return self._held(_VIBRATION)
+
     def show_starts(self, chart: dict[str, Any] | None) -> None:
         """The starts of a search in place of the charts along the blade; None: those again."""
         if chart is not None or self._starts is not None:
@@ -230,6 +245,8 @@ class ChartStrip:
 
     def _names(self) -> tuple[str, ...]:
         names = _ORDER if self._starts is None else _BESIDE_STARTS
+        if _VIBRATION in self._charts:
+            names = ("power", _VIBRATION, *(name for name in names[1:] if name != "lift"))
         return (_MEASURED, *names[1:]) if _MEASURED in self._charts else names
 
     def _send(self) -> None:

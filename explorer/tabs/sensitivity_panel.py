@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
-from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.picture.poses import drawn_bending, flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS, colour_map
+from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
 from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
 from rotor.trim.solution import Solution
@@ -48,11 +49,11 @@ def _of_pinned(solution: Solution) -> PitchGradient:
 
 
 def strip(
-    shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot
+    shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot, bent: Array | None = None
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """Points just above the reference blade, in blade axes, (n, 3), and their colours: rust costs power, blue saves."""
     count, around = shape.rings.shape[:2]
-    rings = blade_vertices(shape, twist, exaggeration)[: count * around].reshape(count, around, 3)[6:]
+    rings = blade_vertices(shape, twist, exaggeration, bent)[: count * around].reshape(count, around, 3)[6:]
     upper = rings[:, : around // 2 + 1]  # From the trailing edge over the upper side to the nose.
     r = np.linspace(float(shape.r[6]), 1.0, _ALONG)
     columns = np.linspace(1, upper.shape[1] - 2, _ACROSS).astype(int)
@@ -130,8 +131,9 @@ class SensitivityPanel(Tab):
         self._words.content = explanation(plot)
         if paint:
             shape = blade_shape(solution.design.rotor)
-            twist = flown_twist(solution, math.radians(state.view.azimuth_deg))
-            self._strip.show(*strip(shape, twist, exaggeration, plot))
+            psi = math.radians(state.view.azimuth_deg)
+            bent = drawn_bending(solution, shape.r, psi)
+            self._strip.show(*strip(shape, flown_twist(solution, psi), exaggeration, plot, bent))
         else:
             self._strip.hide()
         self._shown = wanted

@@ -162,6 +162,7 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
     off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
+    off += ", blades bend" if inputs.bending else ""
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
     if inputs.climbs and inputs.climb_m_s:

@@ -116,6 +116,8 @@ def _model_causes(a: Design, b: Design) -> list[str]:
         for name, switch in SWITCHES.items()
         if getattr(a.models, name) != getattr(b.models, name)
     ]
+    if a.models.bending != b.models.bending:
+        causes.append("with blade bending" if b.models.bending else "without blade bending")
     if a.models.inflow != b.models.inflow:
         causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
     if a.models.hover_inflow != b.models.hover_inflow:

@@ -29,6 +29,19 @@
     if (now.problem) RX.say(now.problem);
   });
 
+  // Vibration of blades that bend, a row of its own below the power, whose card is filled anew each time.
+  function vibration(now) {
+    const card = part('power'), html = document.documentElement;
+    html.toggleAttribute('data-vibration', Boolean(now));
+    card.querySelector('.rxf-vibration')?.remove();
+    if (!now) return;
+    const numbers = now.sentence ? `<span class="rxf-dim">${text(now.sentence)}</span>` : `<span class="rxf-num"><b data-explorer="index">${text(now.index)}</b> ${text(now.unit)}</span><span class="rxf-dim rxf-num" data-explorer="index-band">${text(now.band)}</span>
+      ${now.change ? `<span class="rxf-num ${now.kind ? `rxf-${now.kind}` : ''}" data-explorer="index-change">${text(now.change)}</span>` : ''}<span class="rxf-dim rxf-push rxf-scale">${text(now.scale)}</span>`;
+    card.insertAdjacentHTML('beforeend', `<div class="rxf-vibration" data-explorer="vibration" role="group" tabindex="0" aria-label="Vibration: ${text(now.sentence || `${now.index} ${now.unit}, ${now.band}${now.change ? `, ${now.change}` : ''}. ${now.title}`)}" title="${text(now.title)}"><b>Vibration${now.at ? ` ${text(now.at)}` : ''}</b>${numbers}</div>`);
+  }
+  RX.also('vibration', vibration);
+  RX.also('power', () => vibration(RX.state.vibration));
+
   const REGIONS = {
     stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
     reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],

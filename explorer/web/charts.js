@@ -35,7 +35,7 @@
     return `${fill}<path d="${path}" fill="none" stroke="${stroke}" stroke-width="${line.width ?? WIDTHS[kind] ?? 2}" stroke-linejoin="round" ${DASHES[kind] ? `stroke-dasharray="${DASHES[kind]}"` : ''}/>`;
   }
   // Where a chart is so narrow that its heading would be cut.
-  const SHORT = {starts: 'Starts', power: 'Power', alpha: 'α', worth: 'Pitch'};
+  const SHORT = {starts: 'Starts', power: 'Power', vibration: 'Vibration', alpha: 'α', worth: 'Pitch'};
   let clips = 0;
   function chart(element, one) {
     const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 7 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;
@@ -48,13 +48,16 @@
     }).join('');
     const edge = ys => ys.map((y, k) => `${place.X(one.band.x[k]).toFixed(1)} ${place.Y(y).toFixed(1)}`);
     const band = one.band ? `<path d="M${[...edge(one.band.low), ...edge(one.band.high).reverse()].join('L')}Z" fill="${COLOURS.saving}" opacity=".16" data-band/>` : '';
+    // Where there is nothing to draw, and why.
+    const gap = one.gap ? `<rect x="${place.X(one.gap.low).toFixed(1)}" y="${place.top}" width="${(place.X(one.gap.high) - place.X(one.gap.low)).toFixed(1)}" height="${place.base - place.top}" fill="var(--rx-field)" data-gap/>
+      <text x="${place.X((one.gap.low + one.gap.high) / 2).toFixed(1)}" y="${((place.top + place.base) / 2 + 4).toFixed(1)}" text-anchor="middle" style="fill:var(--rx-dim)">${text(one.gap.words)}</text>` : '';
     const key = (one.key ?? []).map(([name, shade]) => `<span class="rxf-legend-line" style="--c:${shade}"><i></i>${text(name)}</span>`).join('');
     element.title = one.note ?? '';
     element.toggleAttribute('data-faded', Boolean(one.faded));
     const tight = element.toggleAttribute('data-tight', width < 260), title = tight && SHORT[one.name] || one.title, unit = tight ? one.unit.replace(/ over designs tried|^both /, '') : one.unit;
     element.innerHTML = `<div class="rxf-head"><b>${text(title)}</b><span class="rxf-dim">${text(unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 1}" width="${place.right - place.left + 2}" height="${place.base - place.top + 2}"/></clipPath>
-      ${axes(one, place, height)}<g clip-path="url(#${clip})">${band}${one.lines.map(line => curve(line, place, one)).join('')}</g>${dots}<g clip-path="url(#${clip})">${marks}</g></svg>`;
+      ${axes(one, place, height)}${gap}<g clip-path="url(#${clip})">${band}${one.lines.map(line => curve(line, place, one)).join('')}</g>${dots}<g clip-path="url(#${clip})">${marks}</g></svg>`;
   }
   RX.paint('strip', all => {
     const strip = part('strip');

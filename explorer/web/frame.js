@@ -229,31 +229,45 @@
       const wide = ['.rxf-inset', '.rxf-field'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
       const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
-      const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
+      const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
       const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;
       RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
     }, 120);
   }
+  RX.also('vibration', tellCover);
   for (const name of ['.rxf-inset', '.rxf-field', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['cut_labels', 'probe_label', 'beside_labels'];
+  const LABELS = ['cut_labels', 'probe_label', 'beside_labels', 'hub_labels'];
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);
     const all = part('labels');  // They stay where they are, and new ones are unseen, until they are placed.
     while (all.children.length > labels.length) all.lastChild.remove();
     while (all.children.length < labels.length) all.insertAdjacentHTML('beforeend', '<span class="rxf-label rxf-num" style="visibility:hidden"></span>');
-    labels.forEach((one, k) => { all.children[k].textContent = one.text; });
+    labels.forEach((one, k) => {
+      Object.assign(all.children[k], {textContent: one.text, title: one.title ?? ''});
+      all.children[k].dataset.kind = one.kind ?? '';
+    });
   });
   function placeLabels(client, box) {
+    const taken = [];
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
-      if (!node?.visible || !client.camera) { label.style.visibility = 'hidden'; return; }
+      let seen = Boolean(node);
+      for (let one = node; one; one = one.parent) seen &&= one.visible;
+      if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
-      const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
+      let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
+      if (one.aside) {  // Beside its point, away from what it belongs to, and below a label that is there already.
+        const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
+        left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);
+        top += label.offsetHeight / 2;
+        for (const [x, y, wide, high] of taken) if (left < x + wide && x < left + label.offsetWidth && top < y + high && y < top + high) top = y + high + 2;
+      }
+      taken.push([left, top, label.offsetWidth, label.offsetHeight]);
       label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';
       label.style.transform = `translate(${Math.max(4, Math.min(left, box.width - label.offsetWidth - 4)).toFixed(1)}px, ${Math.max(4, top).toFixed(1)}px)`;
     });

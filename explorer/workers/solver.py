@@ -20,6 +20,7 @@ def compile_all() -> None:
     """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
     warm()
     power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
+    power_gradient(solve(make_design(mu=0.2, bending=True)))
 
 
 @dataclass

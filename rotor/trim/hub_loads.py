@@ -10,7 +10,8 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load
 from rotor.design.design import Design
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
-from rotor.engine.waves import wave_grid
+from rotor.engine.waves import wave_grid, waves_at
 from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
@@ -184,6 +185,49 @@ def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tu
     slopes = (b.precone + b.along[1].T @ around) ** 2 + (b.along[4].T @ around) ** 2
     u = -0.5 * (b.r[1] - b.r[0]) * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
     return u, v, w
+
+
+@dataclass(frozen=True, eq=False)
+class Deflections:
+    """How far a blade is bent off the straight blade that flaps as the trim says, by coning and first harmonic."""
+
+    r: Array
+    """Stations over R, (stations,), from the hinge, or where the blade is held, to the tip."""
+    up: Array
+    """w less flapping [m] in the waves 1, cos ψ, sin ψ, cos 2ψ, …, (stations, waves)."""
+    forward: Array
+    """v from the steadily lagged blade [m], in the same waves."""
+
+    def at(self, r: Array, psi: float) -> tuple[Array, Array]:
+        """Up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) both; 0 inboard of the root."""
+        waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
+        up, forward = (np.interp(r, self.r, own @ waves, left=0.0) for own in (self.up, self.forward))
+        return up, forward
+
+
+@lru_cache(maxsize=4)
+def deflections(solution: Solution) -> Deflections | None:
+    """Of a converged solution; None where its blades do not bend. Deflections are small and to first order.
+
+    Raises RuntimeError with the solution's sentence when it is not converged.
+    """
+    solution.require()
+    if not solution.design.models.bending or not can_bend(solution.design.rotor):
+        return None
+    adjoint = Adjoint(solution)
+    b = adjoint.problem.bending
+    if b is None:
+        return None
+    q, _ = coordinates_of(b, adjoint.point.system.structure, adjoint.point.z)
+    q, controls = q.copy(), solution.controls
+    q[b.first, 0] -= b.precone
+    up = b.along[0].T @ q
+    up[:, 0] += b.precone * (b.r - b.r[0])
+    flapping = np.array([controls.coning, controls.flap_1c, controls.flap_1s])
+    steps = slice(None, None, 20)
+    up[:, : min(3, up.shape[1])] -= np.outer(b.r - b.r[0], flapping)[:, : up.shape[1]]
+    radius = solution.design.rotor.radius
+    return Deflections(b.r[steps], radius * up[steps], radius * (b.along[3].T @ q)[steps])
 
 
 def _rates(field: Array) -> tuple[Array, Array]:

@@ -72,6 +72,7 @@ def random_inputs(chance: random.Random) -> Inputs:
         tip_loss=chance.random() < 0.8,
         elastic_twist=chance.random() < 0.8,
         fuselage=chance.random() < 0.8,
+        bending=chance.random() < 0.3,
     )
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)

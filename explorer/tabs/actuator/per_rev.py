@@ -2,6 +2,7 @@
 
 import math
 from functools import partial
+from html import escape
 from typing import Any
 
 import viser
@@ -32,6 +33,7 @@ class PerRevControls:
         """What was shown last of each input."""
         with gui.add_folder("Pitch and twist at n/rev"):
             self._words = gui.add_html("")
+            self._vibration = gui.add_html("", visible=False)
             for name, (title, lowest) in _WAVES.items():
                 orders = tuple(f"{n}/rev" for n in range(lowest, HIGHEST + 1))
                 self._orders[name] = gui.add_dropdown(
@@ -62,6 +64,12 @@ class PerRevControls:
         self._words.content = (
             f'<div class="rx rx-dim rx-small" data-explorer="per-rev">{words[:1].upper()}{words[1:]}.{shaped}</div>'
         )
+
+    def show_vibration(self, words: str) -> None:
+        """The vibration index beside the harmonics that move it; empty: blades do not bend."""
+        content = f'<div class="rx rx-small" data-explorer="per-rev-vibration">{escape(words)}</div>' if words else ""
+        if self._vibration.content != content:
+            self._vibration.visible, self._vibration.content = bool(words), content
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""

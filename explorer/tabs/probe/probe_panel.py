@@ -14,7 +14,7 @@ from explorer.model.units import number
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT
-from explorer.picture.poses import about, flown_twist
+from explorer.picture.poses import about, drawn_bending, flown_twist
 from explorer.scene.controller import SceneController
 from explorer.scene.page_scene import tie
 from explorer.tabs.context import Tab, TabContext
@@ -58,8 +58,9 @@ class Cursor:
             handle.visible = False
         self._drawn: tuple[object, ...] | None = None
 
-    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, tied: bool) -> None:
+    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, tied: bool, bent: Array | None = None) -> None:
         """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there.
+        `bent`: where bending moves the section to, as drawn [m], (1, 3).
 
         `tied`: the page turns it with the blade, which is ahead of or behind what the server knows.
         """
@@ -73,14 +74,16 @@ class Cursor:
         self._at.position = np.array([probe.radius, 0.0, 0.0])
         words = f"α {number(math.degrees(probe.alpha), 1)}°"
         self._bridge.set(probe_label=[{"text": words, "node": f"{_DISK}/at", "at": [0.0, 0.0, 0.4]}])
-        wanted = None if pitch is None else (rotor, probe.r, pitch)
+        shift = None if bent is None else tuple(bent[0].tolist())
+        wanted = None if pitch is None else (rotor, probe.r, pitch, shift)
         if wanted == self._drawn:
             return
         self._drawn = wanted
         for handle in self._section:
             handle.visible = pitch is not None
         if pitch is not None:
-            _draw(self._section, section_loop(rotor, probe, pitch))
+            loop = section_loop(rotor, probe, pitch)
+            _draw(self._section, loop if bent is None else loop + bent)
 
     def hide(self) -> None:
         self._turned.visible, self._drawn = False, None
@@ -199,7 +202,8 @@ class ProbePanel(Tab):
         self._panel.content = self._html
         with self._context.client.atomic():
             if place.shown:
-                self._cursor.show(solution.design.rotor, here, pitch, rides)
+                bent = drawn_bending(solution, [here.r], math.radians(state.view.azimuth_deg))
+                self._cursor.show(solution.design.rotor, here, pitch, rides, bent)
             else:
                 self._cursor.hide()
 

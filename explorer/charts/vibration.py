@@ -1,0 +1,265 @@
+"""Charts of blades that bend: the vibration index over speed, and the fan plot, blade frequencies over rotor speed.
+
+Both are computed while the page rests, given up for newer input, and taken up again where they were left.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from html import escape
+from itertools import pairwise
+
+import numpy as np
+
+from explorer.charts.plots import SWEEP, Range, held_range
+from explorer.charts.strip import StripChart, StripDot, StripGap, StripLine
+from explorer.charts.svg import line, text
+from explorer.model.units import number
+from rotor.aero.bending import BladeFrequencies, blade_frequencies
+from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
+from rotor.trim.hub_loads import SLOWEST, hub_loads, why_no_hub_loads
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+SPEEDS = tuple(mu for mu in SWEEP if mu >= SLOWEST)
+"""Advance ratios of the index over speed."""
+_KEPT = 50
+"""Curves and fan plots remembered per session."""
+
+Superseded = Callable[[], bool]
+
+
+def stopping(superseded: Superseded) -> Callable[[Design, Solution | Guess | None], Solution]:
+    """`rotor.trim.solve.solve` that ends without a trim once newer input waits."""
+    options = replace(DEFAULT_OPTIONS, stop=superseded)
+    return lambda design, start: solve(design, start, options)
+
+
+def with_bending(design: Design) -> Design:
+    """The same design with blades that bend."""
+    return replace(design, models=replace(design.models, bending=True))
+
+
+class IndexCurves:
+    """Those of one session; a curve belongs to a design at any speed."""
+
+    def __init__(self) -> None:
+        self._curves: dict[Design, dict[float, float]] = {}
+        """Index [%] by advance ratio as far as it is known; NaN without a trim."""
+
+    def known(self, design: Design) -> Array:
+        """Index [%] at `SPEEDS`; NaN where it is not known."""
+        known = self._curves.get(_family(design), {})
+        return np.array([known.get(mu, math.nan) for mu in SPEEDS])
+
+    def left(self, design: Design) -> int:
+        """How many speeds are still to be computed."""
+        return len(SPEEDS) - len(self._curves.get(_family(design), {})) if _has_curve(design) else 0
+
+    def sweep(self, design: Design, superseded: Superseded, shown: Callable[[], None]) -> None:
+        """Compute what is missing of a design's curve, unless newer input comes; `shown`: there is more to draw."""
+        if not self.left(design):
+            return
+        if len(self._curves) >= _KEPT:
+            self._curves.clear()
+        family = _family(design)
+        known, start = self._curves.setdefault(family, {}), None
+        for mu in SPEEDS:
+            if mu in known:
+                continue
+            point = stopping(superseded)(family.at(mu=mu), start)
+            if superseded():
+                return
+            loads = hub_loads(point, stopping(superseded), band=False) if point.converged else None
+            known[mu] = math.nan if loads is None else loads.index
+            if loads is None:  # Faster flight does not trim either, and each failed trim takes long.
+                known.update(dict.fromkeys([later for later in SPEEDS if later > mu], math.nan))
+                break
+            start = replace(point.start, factors=None)
+            shown()
+        shown()
+
+
+def _family(design: Design) -> Design:
+    return with_bending(design.at(mu=SLOWEST))
+
+
+def _has_curve(design: Design) -> bool:
+    return why_no_hub_loads(_family(design)) is None
+
+
+def index_chart(
+    curves: IndexCurves, solution: Solution, reference: Solution, index: float | None, held: Range | None = None
+) -> StripChart | None:
+    """Vibration index over µ of a design and its reference; None where no speed has one.
+
+    index: at the present condition [%], None where there is none.
+    """
+    if not _has_curve(solution.design):
+        return None
+    own, other = curves.known(solution.design), curves.known(reference.design)
+    seen = [value for value in (*own, *other, math.nan if index is None else index) if math.isfinite(value)]
+    same = reference.design == solution.design
+    left = curves.left(solution.design) + (0 if same else curves.left(reference.design))
+    mus = np.array(SPEEDS)
+    now = () if index is None else (StripDot(solution.design.condition.advance_ratio, index, ""),)
+    return StripChart(
+        title="Vibration over µ",
+        unit=f"index, {index_unit(solution.design)}",
+        x_range=(0.0, SWEEP[-1]),
+        y_range=held_range(held, 0.0, max(seen, default=math.nan)),
+        lines=(*([] if same else [StripLine(mus, other, "reference")]), StripLine(mus, own, "saving")),
+        dots=now,
+        value=f"{left} speeds to go" if left else "" if index is None else f"{number(index, 1)} %",
+        note=f"Vibration index at the hub. None below µ {SLOWEST:g}: there it is that of the wake model.",
+        x_name="µ",
+        gap=StripGap(0.0, SLOWEST, f"none below µ {SLOWEST:g}"),
+    )
+
+
+def index_unit(design: Design) -> str:
+    """What the index is a part of: a rotor on a test stand carries no weight."""
+    return "% of weight" if design.condition.stand is None else "% of thrust"
+
+
+FAN_SPEEDS = (0.03, *(round(0.1 * k, 1) for k in range(1, 13)))
+"""Rotor speeds of the fan plot over the rated one."""
+_TOP = 9.0
+"""Highest frequency of the plot over the rated speed."""
+_WIDTH, _HEIGHT = 312.0, 258.0
+_LEFT, _RIGHT, _CEILING, _FLOOR = 24.0, 272.0, 10.0, 222.0
+_KINDS = {
+    "flap": ("var(--rx-induced)", ""),
+    "lag": ("var(--rx-profile)", ""),
+    "torsion": ("var(--rx-tail)", "5 3"),
+}
+"""Colour and dashes."""
+
+
+@dataclass(frozen=True)
+class FanKey:
+    """What the frequencies depend on."""
+
+    rotor: Rotor
+    twist: TwistLaw
+    collective_deg: int
+    """Pitch at 0.75 R to the degree: by less the frequencies hardly change."""
+
+    @classmethod
+    def of(cls, solution: Solution) -> "FanKey":
+        design = solution.design
+        return cls(design.rotor, design.twist, round(math.degrees(solution.controls.collective)))
+
+    def at(self, speed: float) -> BladeFrequencies | None:
+        """At a rotor speed over the rated one [per rev of the rated one]."""
+        rotor = replace(self.rotor, angular_speed=speed * self.rotor.angular_speed)
+        found = blade_frequencies(rotor, self.twist, math.radians(self.collective_deg))
+        if found is None:
+            return None
+        parts = (found.flap, found.lag, found.torsion)
+        return BladeFrequencies(*(tuple(speed * own for own in part) for part in parts))
+
+
+class FanPlots:
+    """Those of one session."""
+
+    def __init__(self) -> None:
+        self._found: dict[FanKey, dict[float, BladeFrequencies]] = {}
+
+    def known(self, key: FanKey) -> dict[float, BladeFrequencies]:
+        """By rotor speed over the rated one, as far as they are known."""
+        return self._found.get(key, {})
+
+    def solve(self, key: FanKey, superseded: Superseded) -> bool:
+        """Compute what is missing, unless newer input comes; whether all is known."""
+        if len(self._found) >= _KEPT and key not in self._found:
+            self._found.clear()
+        known = self._found.setdefault(key, {})
+        for speed in FAN_SPEEDS:
+            if speed not in known:
+                if superseded():
+                    return False
+                found = key.at(speed)
+                if found is None:
+                    return False
+                known[speed] = found
+        return True
+
+
+def fan_plot(known: dict[float, BladeFrequencies], collective_deg: int) -> str:
+    """Coupled flap-lag and torsion frequencies over rotor speed as HTML, with the rays of n/rev."""
+    drawn = [_rays(), line((_x(1.0), _CEILING), (_x(1.0), _FLOOR), "currentColor", 1.2, 'stroke-dasharray="2 3"')]
+    speeds = sorted(known)
+    for before, after in pairwise(speeds):
+        for (_, one), (kind, two) in zip(_sorted(known[before]), _sorted(known[after]), strict=False):
+            drawn.append(_piece(before, one, after, two, kind))
+    rated = known[1.0]
+    drawn += [
+        f'<circle cx="{_x(1.0):.1f}" cy="{_y(own):.1f}" r="3.2" fill="{_KINDS[kind][0]}"/>'
+        for kind, own in _sorted(rated)
+        if own <= _TOP
+    ]
+    values = {
+        kind: ", ".join(number(own, 2) for own in getattr(rated, kind) if own <= _TOP) or "above 9" for kind in _KINDS
+    }
+    spoken = "; ".join(f"{kind} {own}" for kind, own in values.items())
+    key = "".join(
+        f'<div><svg width="20" height="8" aria-hidden="true">'
+        f"{line((0, 4), (20, 4), colour, 2.4, _dashed(dashes))}</svg> {kind} {escape(values[kind])}</div>"
+        for kind, (colour, dashes) in _KINDS.items()
+    )
+    axes = [text(_LEFT - 5.0, _y(n) + 4.0, f"{n}", 12.0, anchor="end") for n in range(0, int(_TOP) + 1, 2)] + [
+        text(_x(own), _FLOOR + 16.0, f"{100 * own:.0f}", 12.0, anchor="middle") for own in (0.0, 0.25, 0.5, 0.75, 1.0)
+    ]
+    axes.append(text(_x(0.5), _HEIGHT - 4.0, "rotor speed [% of rated]", 12.0, anchor="middle"))
+    return (
+        f'<div class="rx rx-fan" data-explorer="fan-plot"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
+        f'role="img" aria-label="Blade frequencies over rotor speed. At rated speed, per rev: {escape(spoken)}.">'
+        f"{''.join([*drawn, *axes])}</svg>"
+        f'<div class="rx-small">{key}</div><div class="rx-dim rx-small">Per rev of the rated speed, at the '
+        f"dashed line; modes couple flap and lag and are named by what moves most. Pitch {collective_deg}° at 0.75 R."
+        "</div></div>"
+    )
+
+
+def _sorted(found: BladeFrequencies) -> list[tuple[str, float]]:
+    """Bending in ascending order, with its kind, then torsion."""
+    bending = sorted([(own, "flap") for own in found.flap] + [(own, "lag") for own in found.lag])
+    return [(kind, own) for own, kind in bending] + [("torsion", own) for own in found.torsion]
+
+
+def _piece(before: float, one: float, after: float, two: float, kind: str) -> str:
+    """A line between two rotor speeds, up to the top of the plot."""
+    if min(one, two) >= _TOP:
+        return ""
+    if two > _TOP:
+        after, two = before + (after - before) * (_TOP - one) / (two - one), _TOP
+    colour, dashes = _KINDS[kind]
+    return line((_x(before), _y(one)), (_x(after), _y(two)), colour, 2.0, _dashed(dashes) + ' stroke-linecap="round"')
+
+
+def _rays() -> str:
+    drawn = list[str]()
+    for n in range(1, int(_TOP) + 1):
+        end = min(FAN_SPEEDS[-1], _TOP / n)
+        drawn.append(line((_x(0.0), _y(0.0)), (_x(end), _y(n * end)), "currentColor", 0.8, 'opacity=".28"'))
+        if end == FAN_SPEEDS[-1]:
+            drawn.append(text(_x(end) + 4.0, _y(n * end) + 4.0, f"{n}/rev", 12.0))
+    base = line((_LEFT, _FLOOR), (_RIGHT, _FLOOR), "currentColor", 1.0, 'opacity=".5"')
+    return "".join([base, *drawn])
+
+
+def _dashed(dashes: str) -> str:
+    return f'stroke-dasharray="{dashes}"' if dashes else ""
+
+
+def _x(speed: float) -> float:
+    return _LEFT + (_RIGHT - _LEFT) * speed / FAN_SPEEDS[-1]
+
+
+def _y(frequency: float) -> float:
+    return _FLOOR - (_FLOOR - _CEILING) * frequency / _TOP

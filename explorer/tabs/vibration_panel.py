@@ -1,0 +1,272 @@
+"""Vibration of blades that bend: the row of the power card, lines over the hub, index over speed, and the fan plot.
+
+The index of a solution is a few milliseconds of work and follows every step of a drag, after its frame. Its band over
+wakes, curves over speed and frequencies are computed while the page rests.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from explorer.charts.vibration import (
+    FAN_SPEEDS,
+    FanKey,
+    FanPlots,
+    IndexCurves,
+    fan_plot,
+    index_chart,
+    index_unit,
+    stopping,
+)
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS, number
+from explorer.picture.hub_drawing import hub_words, scale_words
+from explorer.picture.poses import BENDING_SHOWN
+from explorer.picture.scene_theme import scene_theme
+from explorer.scene.controller import SceneController
+from explorer.scene.scene import ROTOR
+from explorer.tabs.context import TabContext
+from explorer.tabs.live_charts import ChartStrip
+from explorer.text.readout import faded
+from rotor.aero.bending import can_bend
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.trim.hub_loads import BAND, deflections, hub_loads, why_no_hub_loads
+from rotor.trim.solution import HubLoads, Solution
+from rotor.trim.solve import solve
+
+_NOTICEABLE = 0.5
+"""Changes of the index below this [% of itself] have no colour."""
+_NO_FAN = '<div class="rx rx-dim rx-small">{}</div>'
+
+
+class VibrationPanel:
+    """One session's."""
+
+    def __init__(self, context: TabContext, scene: SceneController, strip: ChartStrip) -> None:
+        """Its widgets, the fan plot, go where the context stands."""
+        self._context, self._scene, self._strip = context, scene, strip
+        self._state: SessionState | None = None
+        self._curves, self._fans = IndexCurves(), FanPlots()
+        self._loads: dict[Solution, HubLoads | None] = {}
+        """Of the present solution and of its reference."""
+        self._rigid: tuple[Solution, Solution] | None = None
+        """A solution, and that of the same design without bending."""
+        self._heading = context.gui.add_html("", visible=False)
+        self._fan = context.gui.add_html("", visible=False)
+        self._content = ""
+
+    def show(self, state: SessionState) -> None:
+        """Follow a converged state."""
+        self._state = state
+        on = state.solution.design.models.bending
+        self._say_at_switch(state)
+        if self._fan.visible != on:
+            self._fan.visible = self._heading.visible = on
+        if not on:
+            self._clear()
+            return
+        known = self._loads
+        self._loads = {one: known[one] for one in (state.solution, state.reference) if one in known}
+        for one in (state.solution, state.reference):
+            if one not in self._loads and one.converged and one.design.models.bending:
+                self._loads[one] = hub_loads(one, solve, band=False)
+        self._draw()
+        self._show_fan()
+
+    def turn(self, state: SessionState) -> None:
+        """The reference blade is elsewhere."""
+        self._state = state
+        self._draw_lines()
+
+    def solve_deferred(self, superseded: Callable[[], bool]) -> None:
+        """The page rests: compute what can wait, until newer input comes."""
+        state = self._state
+        if state is None or not state.solution.design.models.bending:
+            return
+        solution, reference = state.solution, state.reference
+        steps: tuple[Callable[[], None], ...] = (
+            lambda: self._solve_loads(reference, False, superseded),
+            lambda: self._solve_loads(solution, True, superseded),
+            lambda: self._solve_cost(state),
+            lambda: self._solve_fan(superseded),
+            lambda: self._curves.sweep(solution.design, superseded, self._draw_chart),
+            lambda: self._curves.sweep(reference.design, superseded, self._draw_chart),
+        )
+        for step in steps:
+            if superseded():
+                return
+            step()
+
+    def problem(self) -> None:
+        """The inputs have no answer: what stands here is of the last one."""
+        self._scene.hub_loads.hide()
+        self._context.bridge.set(hub_labels=[])
+        if self._content:
+            self._fan.content = faded(self._content)
+
+    @property
+    def words(self) -> str:
+        """The index in a line, for those who move pitch or twist at n/rev; empty without bending."""
+        card = None if self._state is None else self._card(self._state)
+        if card is None:
+            return ""
+        change = f", {card['change']}" if card["change"] else ""
+        return card["sentence"] or f"Vibration index {card['index']} {card['unit']}{change}."
+
+    def _solve_loads(self, solution: Solution, band: bool, superseded: Callable[[], bool]) -> None:
+        known = self._loads.get(solution)
+        if not solution.converged or (known is not None and (known.band is not None or not band)):
+            return
+        found = hub_loads(solution, stopping(superseded), band=band)
+        if not superseded():
+            self._loads[solution] = found
+            self._draw()
+
+    def _solve_cost(self, state: SessionState) -> None:
+        """What bending adds to the power: one more trim."""
+        solution = state.solution
+        if self._rigid is None or self._rigid[0] is not solution:
+            rigid = replace(solution.design, models=replace(solution.design.models, bending=False))
+            self._rigid = solution, solve(rigid)
+        self._say_at_switch(state)
+
+    def _say_at_switch(self, state: SessionState) -> None:
+        """Beside the switch: what bending costs, or why this blade does not bend."""
+        solution, words = state.solution, ""
+        if not can_bend(solution.design.rotor):
+            reason = why_no_hub_loads(solution.design)
+            words = "" if reason is None else reason.sentence.removeprefix("No hub loads: ")
+        elif solution.design.models.bending and self._rigid is not None and self._rigid[0] is solution:
+            rigid = self._rigid[1]
+            if rigid.converged:
+                added = solution.power.total - rigid.power.total
+                words = f"{UNITS[state.view.units].watts(added, 1, sign=True)} here"
+        self._context.controls.show_bending(words[:1].upper() + words[1:])
+
+    def _clear(self) -> None:
+        self._loads = {}
+        self._scene.hub_loads.hide()
+        self._context.bridge.set(vibration=None, hub_labels=[])
+        self._strip.show_vibration(None)
+
+    def _draw(self) -> None:
+        if self._state is not None:
+            self._context.bridge.set(vibration=self._card(self._state))
+            self._draw_lines()
+            self._draw_chart()
+
+    def _draw_chart(self) -> None:
+        state = self._state
+        if state is not None:
+            loads = self._loads.get(state.solution)
+            index = None if loads is None else loads.index
+            held = self._strip.vibration_range()
+            self._strip.show_vibration(index_chart(self._curves, state.solution, state.reference, index, held))
+
+    def _draw_lines(self) -> None:
+        """Lines over the hub, and the words in the scene."""
+        state = self._state
+        if state is None or not state.solution.design.models.bending:
+            return
+        design, labels = state.solution.design, list[dict[str, Any]]()
+        beside = state.view.beside and state.pinned is not None
+        if deflections(state.solution) is not None:
+            tip = [1.04 * (1.0 - design.rotor.blade.flap_hinge) * design.rotor.radius, 0.0, 0.0]
+            labels.append(
+                {
+                    "text": f"bending × {BENDING_SHOWN:g}",
+                    "node": f"{ROTOR}/blade_0",
+                    "at": tip,
+                    "title": "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large.",
+                }
+            )
+        loads = self._loads.get(state.solution)
+        if loads is None or beside:
+            self._scene.hub_loads.hide()
+        else:
+            psi, theme = math.radians(state.view.azimuth_deg), scene_theme(state.view.dark)
+            lines = self._scene.hub_loads.show(loads, design, psi, theme)
+            labels += [
+                {
+                    "text": words,
+                    "title": sentence,
+                    "node": ROTOR,
+                    "at": lines.places[name],
+                    "kind": name,
+                    **({} if name == "bar" else {"aside": lines.centre}),
+                }
+                for name, (words, sentence) in hub_words(loads, design).items()
+            ]
+        self._context.bridge.set(hub_labels=labels)
+
+    def _card(self, state: SessionState) -> dict[str, Any] | None:
+        """The row of the power card; None without bending."""
+        design = state.solution.design
+        if not design.models.bending:
+            return None
+        reason, loads = why_no_hub_loads(design), self._loads.get(state.solution)
+        if reason is not None or loads is None:
+            sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
+            return {"index": "", "sentence": sentence, "change": "", "title": sentence}
+        band = "band over wakes: computing"
+        if loads.band is not None:
+            band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over wakes"
+        change, kind = self._change(state, loads)
+        return {
+            "index": number(loads.index, 1),
+            "unit": index_unit(design),
+            "at": f"at {loads.per_rev}/rev",
+            "scale": scale_words(design),
+            "sentence": "",
+            "band": band,
+            "change": change,
+            "kind": kind,
+            "title": _title(loads),
+        }
+
+    def _change(self, state: SessionState, loads: HubLoads) -> tuple[str, str]:
+        """Against A, or the blade as built; and its class."""
+        reference = self._loads.get(state.reference)
+        if reference is None or state.reference.design == state.solution.design:
+            return "", ""
+        percent = 100.0 * (loads.index / reference.index - 1.0)
+        kind = "" if abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad"
+        against = "A" if state.pinned is not None else "as built"
+        return f"{number(percent, 0, sign=True)} % vs. {against} ({number(reference.index, 1)})", kind
+
+    def _solve_fan(self, superseded: Callable[[], bool]) -> None:
+        state = self._state
+        if state is not None and self._context.layout.drawer == "probe" and can_bend(state.solution.design.rotor):
+            self._fans.solve(FanKey.of(state.solution), superseded)
+            self._show_fan()
+
+    def _show_fan(self) -> None:
+        state = self._state
+        if state is None or self._context.layout.drawer != "probe":
+            return
+        self._heading.content = '<div class="rxp-head" data-ruled>FAN PLOT</div>'
+        design, key = state.solution.design, FanKey.of(state.solution)
+        known = self._fans.known(key)
+        if not can_bend(design.rotor):
+            reason = why_no_hub_loads(design)
+            content = _NO_FAN.format("" if reason is None else reason.sentence.replace("hub loads", "fan plot"))
+        elif len(known) < len(FAN_SPEEDS):
+            content = faded(self._content) if self._content else _NO_FAN.format("Computing …")
+        else:
+            content = self._content = fan_plot(known, key.collective_deg)
+        self._fan.content = content
+
+
+def _title(loads: HubLoads) -> str:
+    """What the index is, its parts and its limits."""
+    values = ", ".join(
+        f"{name[0].upper()}{name[1]} {number(value / 1e3, 2)} {'kN' if name[0] == 'f' else 'kN m'}"
+        for name, value in loads.amplitudes.items()
+    )
+    wakes = ", ".join(INFLOW_MODELS[name].title for name in BAND)
+    return (
+        f"Vibration index: √((0.5 Fx)² + (0.67 Fy)² + Fz²)/W + √(Mx² + My²)/(R W), amplitudes on the hub at "
+        f"{loads.per_rev}/rev: {values}. Weights of the forces: 0.5 aft, 0.67 to starboard, 1 vertical. "
+        f"Band: least and largest with {wakes}. For comparing designs; the level itself is not reliable."
+    )

@@ -1,0 +1,337 @@
+"""Blades that bend on the page: drawn shape, loads over the hub, index over speed, fan plot, and their words."""
+
+import math
+import re
+from contextlib import nullcontext
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import viser
+from numpy.testing import assert_allclose
+
+from explorer.charts import vibration
+from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart
+from explorer.model.inputs import Inputs, ViewState, inputs_of, with_rotor
+from explorer.model.session_state import SessionState
+from explorer.picture.blade_mesh import PAGE, blade_shape
+from explorer.picture.hub_drawing import hub_lines, hub_words, load_scale
+from explorer.picture.picture import flown_vertices, make_picture, turned_blades
+from explorer.picture.poses import BENDING_SHOWN, blade_pose, drawn_bending, follows_azimuth, rotate
+from explorer.picture.scene_theme import scene_theme
+from explorer.scene.overlays import HubLoadLines
+from explorer.sharing.share import code_of, inputs_from
+from explorer.tabs import vibration_panel
+from explorer.tabs.vibration_panel import VibrationPanel
+from explorer.text.design_words import flight_name
+from explorer.text.why import why
+from rotor.arrays import Array
+from rotor.columns.bending import coordinates_of
+from rotor.files.design_file import parse_design
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.hub_loads import deflections, displacements, hub_loads
+from rotor.trim.solution import HubLoads, Solution
+from rotor.trim.solve import solve
+
+FAST = Inputs(law="builtin", advance_ratio=0.3, bending=True)
+VIEW = ViewState(exaggeration=1.0)
+
+
+@pytest.fixture(scope="module")
+def bent() -> Solution:
+    return solve(FAST.design()).require()
+
+
+@pytest.fixture(scope="module")
+def straight() -> Solution:
+    return solve(replace(FAST, bending=False).design()).require()
+
+
+@pytest.fixture(scope="module")
+def loads(bent: Solution) -> HubLoads:
+    found = hub_loads(bent, solve, band=False)
+    assert found is not None
+    return found
+
+
+class TestInputs:
+    def test_links_and_files_hold_it_and_older_ones_open_without(self):
+        design = FAST.design()
+        assert design.models.bending
+        assert inputs_of(design) == FAST
+        assert inputs_from(code_of(design)) == FAST
+        assert not inputs_from("1;uh60a;mu=0.3").bending
+        assert inputs_from("1;uh60a;mu=0.3;bending=true") == inputs_from(code_of(make_design(mu=0.3, bending=True)))
+        without = '{"format": "rotor-explorer design", "version": 1, "twist": "linear:-8"}'
+        assert not inputs_of(parse_design(without.encode(), "of the test")).bending
+        assert "bending" not in code_of(replace(FAST, bending=False).design())
+
+    def test_names_and_reasons_say_it(self, bent: Solution, straight: Solution):
+        assert flight_name(FAST).endswith(", blades bend")
+        assert why(straight, bent).startswith("With blade bending")
+
+
+def on_disk(solution: Solution, psi: float, points: Array) -> Array:
+    """Points of a blade in the axes of the shaft, turned back to ψ = 0: outward, forward, up."""
+    hinge = solution.design.rotor.blade.flap_hinge * solution.design.rotor.radius
+    pose = blade_pose(solution.controls, psi, hinge, solution.design)
+    at = rotate(pose.wxyz, points)
+    cos, sin = math.cos(psi), math.sin(psi)
+    return np.stack([at[:, 0] * cos + at[:, 1] * sin, at[:, 1] * cos - at[:, 0] * sin, at[:, 2]], axis=1)
+
+
+class TestDrawnBlade:
+    @pytest.mark.parametrize("psi", [0.4, 2.0, 5.1])
+    def test_it_is_moved_by_ten_times_what_the_trim_says(self, bent: Solution, psi: float):
+        """Against displacements that the hub loads are made of, less flapping; a flapped blade is 4° steep: 1 %."""
+        adjoint = Adjoint(bent)
+        b = adjoint.problem.bending
+        assert b is not None
+        q, _ = coordinates_of(b, adjoint.point.system.structure, adjoint.point.z)
+        count = 360
+        k = round(math.degrees(psi))
+        psi = math.radians(k)
+        _, v, w = (own[:, k] for own in displacements(b, q, 0.0, count))
+        c, radius = bent.controls, bent.design.rotor.radius
+        flap = c.coning + c.flap_1c * math.cos(psi) + c.flap_1s * math.sin(psi)
+        shape = blade_shape(bent.design.rotor)
+        expected = [
+            np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))
+        ]  # fmt: skip
+        moved = flown_vertices(bent, VIEW, psi) - flown_vertices(bent, VIEW, psi, bent=False)
+        rings = moved[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
+        assert np.ptp(rings, axis=1).max() < 1e-12  # Each section as a whole.
+        seen = on_disk(bent, psi, rings[:, 0]) / BENDING_SHOWN
+        largest = float(np.abs(expected).max())
+        assert largest > 0.02
+        assert_allclose(seen[:, 1:].T, expected, atol=0.01 * largest)
+
+    def test_every_blade_is_bent_at_its_own_azimuth_while_the_rotor_turns(self, bent: Solution):
+        assert follows_azimuth(bent)
+        shapes = turned_blades(bent, VIEW).shapes
+        for k, shape in enumerate(shapes):
+            psi = math.radians(VIEW.azimuth_deg) + 0.5 * math.pi * k
+            assert_allclose(shape, flown_vertices(bent, VIEW, psi), atol=1e-9)
+        assert np.abs(shapes[0] - shapes[1]).max() > 0.1
+
+    def test_nothing_moves_with_bending_off(self, straight: Solution):
+        assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
+        assert_allclose(flown_vertices(straight, VIEW, 1.0), flown_vertices(straight, VIEW, 1.0, bent=False), atol=0.0)
+
+    def test_a_rigid_blade_of_another_rotor_stays_straight(self):
+        r22 = solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require()
+        assert deflections(r22) is None
+
+    def test_files_show_it_straight(self, bent: Solution):
+        """Nothing in them could say that it is drawn larger."""
+        picture = make_picture(bent, VIEW, (-4.0, 10.0), pixels=96, bent=False)
+        psi = math.radians(VIEW.azimuth_deg)
+        assert_allclose(picture.blade_vertices, flown_vertices(bent, VIEW, psi, bent=False), atol=0.0)
+
+
+class TestHubLines:
+    def test_paths_are_the_loads_on_the_stated_scale(self, bent: Solution, loads: HubLoads):
+        scale = load_scale(bent.design)
+        lines = hub_lines(loads, bent.design, 0.3)
+        for path, names in ((lines.force, ("fx", "fy")), (lines.moment, ("mx", "my"))):
+            off = (path - lines.centre).reshape(-1, 3) * scale
+            assert_allclose(np.abs(off).max(axis=0), [*(loads.amplitudes[name] for name in names), 0.0], rtol=2e-3)
+        assert_allclose(np.ptp(lines.bar[0, :, 2]) * scale, 2.0 * loads.amplitudes["fz"])
+        assert f"{scale:.0e}"[0] in "125"
+        for name, (_, sentence) in hub_words(loads, bent.design).items():
+            unit = "kN m" if name == "moment" else "kN"
+            assert f"drawn 1 m for {scale / 1e3:g} {unit}." in sentence
+
+    def test_the_force_now_is_that_of_all_blades_on_their_roots(self, bent: Solution, loads: HubLoads):
+        """Root forces of four blades in the axes of the shaft: their part at 4/rev, to what small angles leave."""
+        out, forward, _ = loads.root_force
+        count = out.shape[0]
+        psi = 2.0 * math.pi * np.arange(count) / count
+        x, y = out * np.cos(psi) - forward * np.sin(psi), out * np.sin(psi) + forward * np.cos(psi)
+        for k in (0, 7, 19):
+            turned = [4.0 * 2.0 / count * np.real(np.exp(4j * psi[k]) * (np.exp(-4j * psi) @ own)) for own in (x, y)]
+            vector = hub_lines(loads, bent.design, float(psi[k])).now[0]
+            assert_allclose((vector[1] - vector[0])[:2] * load_scale(bent.design), turned, atol=150.0)
+
+    def test_only_the_vectors_follow_the_azimuth(self, bent: Solution, loads: HubLoads, server: viser.ViserServer):
+        drawn = HubLoadLines(server.scene)
+        first = drawn.show(loads, bent.design, 0.0, scene_theme(False))
+        drawn._lines["force"].visible = False
+        second = drawn.show(loads, bent.design, 0.4, scene_theme(False))
+        assert not drawn._lines["force"].visible
+        assert first.places == second.places
+        assert np.abs(first.now - second.now).max() > 0.1
+        drawn.hide()
+        assert not any(line.visible for line in drawn._lines.values())
+
+
+class TestIndexOverSpeed:
+    def test_it_is_the_index_of_each_trim_and_none_below_two_tenths(self, bent: Solution, straight: Solution):
+        curves = IndexCurves()
+        told: list[int] = []
+        curves.sweep(bent.design, lambda: False, lambda: told.append(curves.left(bent.design)))
+        known = curves.known(bent.design)
+        assert SPEEDS[0] == 0.2
+        assert told[0] == len(SPEEDS) - 1
+        assert told[-1] == 0
+        at = make_design(case=bent.design, mu=SPEEDS[6])
+        alone = hub_loads(solve(at).require(), solve, band=False)
+        assert alone is not None
+        assert known[6] == pytest.approx(alone.index, rel=1e-3)
+        chart = index_chart(curves, bent, bent, known[4])
+        assert chart is not None
+        assert chart.gap is not None
+        assert (chart.gap.low, chart.gap.high) == (0.0, 0.2)
+        assert chart.as_dict["gap"]["words"] == "none below µ 0.2"
+        assert min(float(line.x[0]) for line in chart.lines) == 0.2
+        # A without bending is compared as if it had it.
+        assert_allclose(curves.known(straight.design), known)
+
+    def test_newer_input_interrupts_it_and_it_goes_on_from_there(self, bent: Solution):
+        curves = IndexCurves()
+        curves.sweep(bent.design, lambda: curves.left(bent.design) == len(SPEEDS) - 3, lambda: None)
+        assert curves.left(bent.design) == len(SPEEDS) - 3
+        curves.sweep(bent.design, lambda: False, lambda: None)
+        assert curves.left(bent.design) == 0
+
+    def test_a_rotor_without_stiffness_has_no_chart(self):
+        r22 = solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.25).design()).require()
+        assert index_chart(IndexCurves(), r22, r22, None) is None
+
+
+class TestFanPlot:
+    def test_at_rated_speed_it_has_the_frequencies_of_the_blade(self, bent: Solution):
+        key = FanKey.of(bent)
+        plots = FanPlots()
+        assert plots.solve(key, lambda: False)
+        known = plots.known(key)
+        assert tuple(sorted(known)) == FAN_SPEEDS
+        # Published for the UH-60A: flap 1.035 and 2.81 per rev.
+        assert known[1.0].flap[:2] == pytest.approx((1.035, 2.81), rel=0.02)
+        svg = fan_plot(known, key.collective_deg)
+        assert "flap 1.04, 2.85" in svg
+        assert "torsion 4.97" in svg
+        # A rigid blade on hinges: its frequencies are proportional to rotor speed.
+        for speed in FAN_SPEEDS:
+            assert known[speed].flap[0] / speed == pytest.approx(known[1.0].flap[0], rel=0.01)
+            assert known[speed].lag[0] / speed == pytest.approx(known[1.0].lag[0], rel=0.01)
+        # Southwell: the square of a frequency grows with the square of rotor speed, nearly in a straight line.
+        speeds = np.array(FAN_SPEEDS)
+        squares = np.array([sorted((*known[own].flap, *known[own].lag))[2] ** 2 for own in FAN_SPEEDS])
+        line = np.polynomial.Polynomial.fit(speeds**2, squares, 1)
+        assert_allclose(line(speeds**2), squares, rtol=0.06)
+
+    def test_what_was_computed_is_kept(self, bent: Solution, monkeypatch: pytest.MonkeyPatch):
+        key, plots = FanKey.of(bent), FanPlots()
+        assert not plots.solve(key, lambda: len(plots.known(key)) > 3)
+        assert len(plots.known(key)) == 4
+        assert plots.solve(key, lambda: False)
+        monkeypatch.setattr(vibration, "blade_frequencies", lambda *_: pytest.fail("computed again"))
+        assert plots.solve(key, lambda: False)
+
+
+class Page:
+    """A panel without a browser, and what it told the page."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.shown: dict[str, Any] = {}
+        self.charts: list[Any] = []
+        self.switch = ""
+        self.drawer = ""
+        strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: None)
+        scene: Any = SimpleNamespace(hub_loads=HubLoadLines(server.scene), atomic=nullcontext)
+        context: Any = SimpleNamespace(
+            gui=server.gui, bridge=SimpleNamespace(set=self.shown.update), layout=self,
+            controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
+        )  # fmt: skip
+        self.panel = VibrationPanel(context, scene, strip)
+
+    def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:
+        self.panel.show(SessionState(FAST, ViewState(), solution, reference or solution, pinned))
+
+
+@pytest.fixture
+def page(server: viser.ViserServer) -> Page:
+    return Page(server)
+
+
+class TestPanel:
+    def test_the_index_comes_at_once_and_its_band_at_rest(self, page: Page, bent: Solution, loads: HubLoads):
+        page.show(bent)
+        row = page.shown["vibration"]
+        assert row["index"] == f"{loads.index:.1f}"
+        assert row["band"] == "band over wakes: computing"
+        assert "0.5 aft, 0.67 to starboard, 1 vertical" in row["title"]
+        assert row["at"] == "at 4/rev"
+        assert row["scale"] == "1 m drawn: 2 kN, 2 kN m"
+        page.panel.solve_deferred(lambda: False)
+        low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"]["band"]))
+        assert low <= float(row["index"]) <= high
+        assert low < high
+        assert re.fullmatch(r"[+−]\d+\.\d kW here", page.switch)
+        assert page.charts[-1].value == f"{loads.index:.1f} %"
+        assert page.shown["hub_labels"][0]["text"] == "bending × 10"
+
+    def test_newer_input_leaves_the_band_for_later(self, page: Page, bent: Solution):
+        page.show(bent)
+        asked = iter([False, False] + [True] * 10_000)
+        page.panel.solve_deferred(lambda: next(asked))
+        assert page.shown["vibration"]["band"] == "band over wakes: computing"
+
+    def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: Page, bent: Solution, straight: Solution):
+        """3/rev twist against the same blade without; A's index is that of the same blade with bending."""
+        twisted = solve(inputs_from("1;uh60a;mu=0.3;bending=true;twist_per_rev=3:1:60").design()).require()
+        page.show(twisted, pinned=straight)
+        assert page.shown["vibration"]["change"] == ""
+        page.panel.solve_deferred(lambda: False)
+        row, of_a = page.shown["vibration"], hub_loads(bent, solve, band=False)
+        assert of_a is not None
+        assert row["change"].endswith(f"% vs. A ({of_a.index:.1f})")
+        percent = float(row["change"].split()[0].replace("−", "-"))
+        assert percent == pytest.approx(100.0 * (float(row["index"]) / of_a.index - 1.0), abs=2.0)
+        assert row["kind"] == ("good" if percent < 0.0 else "bad")
+        assert page.panel.words == f"Vibration index {row['index']} % of weight, {row['change']}."
+
+    def test_slow_flight_and_unknown_blades_have_a_sentence(self, page: Page):
+        slow = solve(replace(FAST, advance_ratio=0.15).design()).require()
+        page.show(slow)
+        assert page.shown["vibration"]["sentence"].startswith("No hub loads below µ 0.2")
+        assert page.shown["vibration"]["index"] == ""
+        assert [one["text"] for one in page.shown["hub_labels"]] == ["bending × 10"]
+        page.show(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require())
+        assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"]["sentence"]
+        assert page.shown["hub_labels"] == []
+        assert page.charts[-1] is None
+        assert page.switch.startswith("The stiffness of the Robinson R22 blade")
+
+    def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: Page):
+        hart = solve(replace(with_rotor(FAST, "hart2"), advance_ratio=0.3).design()).require()
+        page.show(hart)
+        assert page.shown["vibration"]["unit"] == "% of thrust"
+        assert re.fullmatch(r"in-plane 0\.\d\d × 0\.\d\d kN", page.shown["hub_labels"][1]["text"])
+
+    def test_without_bending_nothing_is_computed(self, page: Page, straight: Solution, monkeypatch: pytest.MonkeyPatch):
+        def never(*_: Any, **__: Any) -> None:
+            raise AssertionError("computed without bending")
+
+        for module, names in ((vibration_panel, ("hub_loads", "solve", "deflections")), (vibration, ("solve",))):
+            for name in names:
+                monkeypatch.setattr(module, name, never)
+        page.drawer = "probe"
+        page.show(straight)
+        page.panel.solve_deferred(lambda: False)
+        assert page.shown["vibration"] is None
+        assert page.panel.words == ""
+        assert not page.panel._fan.visible
+
+    def test_no_words_claim_more_than_is_known(self, page: Page, bent: Solution):
+        page.show(bent)
+        page.drawer = "probe"
+        page.panel.solve_deferred(lambda: False)
+        told = f"{page.shown} {page.panel._fan.content} {page.switch}"
+        assert "fan-plot" in told
+        assert "validated" not in told.lower()
+        assert "not reliable" in page.shown["vibration"]["title"]
