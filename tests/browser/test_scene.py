@@ -24,7 +24,7 @@ ON_SCREEN = """r => {
     return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
 }"""
 """Pixel of a point of the reference blade, so far from its hinge [m]."""
-_PASSIVE = "Unable to preventDefault inside passive event listener"
+PASSIVE = "Unable to preventDefault inside passive event listener"
 """What the browser says of viser's own listener when a node is dragged."""
 VORTEX = """() => {
     let first = null;
@@ -47,7 +47,7 @@ def watched(shared: Watched) -> Iterator[Watched]:
     assert [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
-    assert [said for said in shared.complaints if _PASSIVE not in said] == []
+    assert [said for said in shared.complaints if PASSIVE not in said] == []
 
 
 def value(watched: Watched, label: str) -> float:
