@@ -161,6 +161,10 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     )
     limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
+        "--index-percent", type=finite, metavar="P",
+        help="largest vibration index on every condition, per cent of the weight; with --bending, from mu 0.2 on",
+    )  # fmt: skip
+    limits.add_argument(
         "--change-deg", type=finite, metavar="DEG",
         help="largest change from the design's own twist, root to tip, linear along the blade",
     )  # fmt: skip
@@ -194,6 +198,7 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         rate=rate,
         stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
         change=_change(args, design),
+        index=args.index_percent,
     )
 
 

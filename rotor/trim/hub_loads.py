@@ -140,12 +140,23 @@ def hub_load_gradient(solution: Solution) -> PitchGradient:
     if not solution.design.models.bending:
         raise RuntimeError("The blades do not bend in this solution: solve the design with bending first.")
     adjoint = Adjoint(solution)
-    problem, point, design = adjoint.problem, adjoint.point, solution.design
+    return PitchGradient(adjoint.problem.disk.r, adjoint.problem.disk.dr, index_along(adjoint)[1])
+
+
+def hub_index(adjoint: Adjoint) -> float:
+    """The index [%] of a trim that has hub loads, with blades that bend."""
+    problem, point = adjoint.problem, adjoint.point
+    return 100.0 * _index(problem.design, _scaled(problem, _terms(problem, point).value(point.z, point.q)))[0]
+
+
+def index_along(adjoint: Adjoint) -> tuple[float, Array]:
+    """The index [%], and its slope by each element's pitch [%/rad], (elements,)."""
+    problem, point = adjoint.problem, adjoint.point
     terms = _terms(problem, point)
-    slopes = _index(design, _scaled(problem, terms.value(point.z, point.q)))[1]
+    index, slopes = _index(problem.design, _scaled(problem, terms.value(point.z, point.q)))
     weights = 100.0 * _scaled(problem, np.ones(2 * len(LOADS))) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
-    return PitchGradient(problem.disk.r, problem.disk.dr, adjoint.by_pitch(Weights(terms=summed)))
+    return 100.0 * index, adjoint.by_pitch(Weights(terms=summed))
 
 
 def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:

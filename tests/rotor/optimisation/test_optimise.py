@@ -238,12 +238,12 @@ def test_stalled_area_limit_is_kept():
     design = small(0.36)
     free = run_search(Search(design, CONCEPTS["two-segment"], starts=2, band=False))
     assert free.best is not None
-    counted = measure(at_condition(design), free.design, stall=True).stalled[0]
+    counted = measure(at_condition(design), free.design, limits=Limits(stalled=1.0)).limited[0] / 100.0
     limit = 0.9 * counted
     held = run_search(Search(design, CONCEPTS["two-segment"], limits=Limits(stalled=limit), starts=3, band=False))
     assert held.best is not None
     assert "stalled area" in held.best.active
-    assert measure(at_condition(design), held.design, stall=True).stalled[0] <= limit + 2e-5
+    assert measure(at_condition(design), held.design, limits=Limits(stalled=1.0)).limited[0] / 100.0 <= limit + 2e-5
     assert held.best.power > free.best.power
 
 
