@@ -298,11 +298,11 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     else:
         weights = Weights(terms=adjoint.power_terms)
     if objective == "total":
-        gain = _tail_gain(adjoint.solution)
+        gain = tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 
 
-def _tail_gain(solution: Solution) -> float:
+def tail_gain(solution: Solution) -> float:
     """Total power per watt at the shaft, the tail rotor included; 1 on a stand."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]
