@@ -24,7 +24,7 @@ from rotor.aero.problem import given_torsion
 from rotor.aero.section import RATE, TH
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.columns.bending import LOADS, torque_terms
+from rotor.columns.bending import LOADS
 from rotor.design.active_twist import Harmonic, PerRev, linear_active_twist, read_harmonics
 from rotor.design.design import Design, require_design
 from rotor.engine.linearise import jacobian
@@ -154,10 +154,7 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
     problem, point = adjoint.problem, adjoint.point
     structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
     loads = load_terms(problem, point)
-    power = adjoint.power_terms
-    if solution.design.condition.stand is not None:
-        power = Terms.of([(0, measure, i, j, share) for share, i, j, measure in torque_terms(structure)], 1)
-    both = _stacked(loads, power)
+    both = _stacked(loads, adjoint.total_terms)
     with one_blas_thread():
         matrix, by_state = jacobian(point, both)
         by_measure = both.slopes(point.z, point.q, structure.first_state)[0]

@@ -60,8 +60,8 @@ def run_sweep(args: argparse.Namespace) -> int:
     columns = (*COLUMNS, *VIBRATION) if bends else COLUMNS
     shown = [*range(len(widths)), *range(len(COLUMNS), len(columns))]
     widths += (*(len(columns[k]) + 2 for k in shown[len(widths) :]), 0)
+    print("".join(f"{columns[k]:<{width}}" for k, width in zip(shown, widths, strict=False)).rstrip())
     shown.append(len(COLUMNS) - 1)  # The message comes last, of any length.
-    print("".join(f"{columns[k]:<{width}}" for k, width in zip(shown, widths, strict=True)).rstrip())
     for design in designs[:: len(advance_ratios)]:
         table = sweep(design, advance_ratios)
         converged = converged and all(solution.converged for solution in table)

@@ -23,7 +23,8 @@ from rotor.trim.solve import solve
 from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
-QUANTITIES: tuple[Quantity, ...] = ("total", "induced", "vibration")
+POWERS: tuple[PowerKind, ...] = ("total", "induced")
+QUANTITIES: tuple[Quantity, ...] = (*POWERS, "vibration")
 """What a search can make small; the last is the index of `rotor.trim.hub_loads`."""
 
 
