@@ -20,10 +20,10 @@ import rotor
 # Static twist, at three speeds. At speed every degree of it costs: the strongly twisted blade saves power in hover and
 # pays at the other end.
 #
-# The shaded band is what the same design has with other models of the wake, from uniform inflow to the lifting line: the
-# band over wakes, which belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though not by
-# how much. At µ 0.2 the lifting line has its least near −12°, where power has it too, and linear inflow does not. Below
-# that the wake decides, and a sentence stands in place of the index.
+# The shaded band is what the same design has with other models of the wake, from uniform inflow to the lifting line:
+# the band over wakes, which belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though
+# not by how much. At µ 0.2 the lifting line has its least near −12°, where power has it too, and linear inflow does
+# not. Below that the wake decides, and a sentence stands in place of the index.
 
 rates = [0, -4, -8, -12, -16, -20]
 for mu in (0.2, 0.3, 0.35):
