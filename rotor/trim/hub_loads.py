@@ -1,8 +1,10 @@
 """Vibratory loads on the hub, what they are summed up to, and their gradient by the pitch along the blade.
 
-The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do: 0.5, 0.67 and 1 for aft, side
-and vertical force, moments over the radius. The weights of the forces are those of the intrusion index (S. Crews,
-Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987). Both are recalled, not looked up.
+The index weighs the amplitudes at N_b per revolution: 0.5, 0.67 and 1 for aft, side and vertical force, moments over
+the radius. Studies of lift-offset rotors call such a sum the vibration index (Int. J. Aerospace Engineering, 2019,
+9589415, whose abstract states its reductions by 2/rev and 3/rev pitch). The weights of the forces are taken for those
+of the intrusion index (S. Crews, Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987; US Army
+ADS-27A-SP, 2006). No text that prints the weights could be looked up: they are recalled.
 
 Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
 frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
