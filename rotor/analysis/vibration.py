@@ -34,7 +34,7 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, WeightedCondition, check_index
-from rotor.optimisation.results import Minimum, Optimum
+from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.hub_loads import BAND, hub_index, index_of, load_terms, scaled_loads
@@ -344,7 +344,7 @@ def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
         limits += [] if limit is None else [{"type": "ineq", "fun": room, "jac": room_slopes}]
         options = {"maxiter": 200, "ftol": 1e-9}
         found = [_minimize(cost, u, jac=True, method="SLSQP", constraints=limits, options=options) for u in starts]
-        ends = [np.asarray(one.x, dtype=np.float64) for one in found]
+        ends = [*(np.asarray(one.x, dtype=np.float64) for one in found), *starts]
         return min((u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0])
 
     sides = [np.zeros(size), *(0.7 * np.eye(size)), *(-0.7 * np.eye(size))]
@@ -364,15 +364,18 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
     least = run_search(replace(plain, limits=Limits(index=_ANY)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
-    found, trimmed = [_best(least)], TrimmedBlades()
-    high, low = (_best(one).index or 0.0 for one in (least, calm))
+    searches, trimmed = [least, calm], TrimmedBlades()
+    found, (high, low) = [_best(least)], (_best(one).index or 0.0 for one in searches)
     for limit in np.linspace(high, low, points)[1:-1].tolist():
         guesses = found[-1].parameters, _best(calm).parameters
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
-        found.append(_best(run_search(held, trimmed=trimmed)))
-    found.append(_best(calm))
-    trims = [solve(family.apply(design, one.parameters)) for one in found]
-    return _over_wakes(VibrationFront(start, tuple(map(_trimmed, trims)), f"Static twist, {family.title.lower()}."))
+        searches.append(run_search(held, trimmed=trimmed))
+        found.append(_best(searches[-1]))
+    trims = [solve(family.apply(design, one.parameters)) for one in (*found, _best(calm))]
+    lost = sum(one.status is not SearchStatus.CONVERGED for one in searches)
+    words = f"Static twist, {family.title.lower()}."
+    words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""
+    return _over_wakes(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 
 _ANY = 1e3

@@ -181,6 +181,8 @@ def test_front_command(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     assert len(path.read_text(encoding="utf-8").splitlines()) == 5
     assert main(flags) == 0
     assert "largest error of the preview" in capsys.readouterr().out
+    assert main([*flags, "--mass-kg", "16000", "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["status"] == "not-converged"
     assert main(["front", "--mu", "0.3", "--bending", "--harmonics", "two"]) == 2
     assert "write for example 2,3" in capsys.readouterr().err
 
