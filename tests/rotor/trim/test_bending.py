@@ -367,7 +367,7 @@ def test_twice_the_grid_of_the_lifting_line(finer: dict[str, int], monkeypatch: 
 
 @pytest.mark.slow
 def test_warm_trims_take_at_most_twice_the_time() -> None:
-    """Of a blade that does not bend. Cold ones miss that target: three times, see `bench`."""
+    """Of a blade that does not bend. Cold ones miss that target: three to four times, see `bench`."""
     warm = dict[bool, float]()
     for bends in (False, True):
         near, there = (rotor.make_design(mu=0.3, twist=f"linear:{rate}", bending=bends) for rate in (-10.0, -10.5))
