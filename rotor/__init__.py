@@ -24,6 +24,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from rotor.aero.elements import TrimState
 from rotor.analysis.series import SweepTable, plot_power, sweep
+from rotor.analysis.vibration import t_matrix, vibration_front
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
@@ -66,6 +67,8 @@ __all__ = (
     "plot_power",
     "solve",
     "sweep",
+    "t_matrix",
+    "vibration_front",
 )
 
 

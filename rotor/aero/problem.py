@@ -165,7 +165,7 @@ def build_problem(design: Design) -> Problem:
         torsion=torsion,
         bending=bending,
         wave_rates=(rates[0], rates[1]),
-        given_torsion=np.zeros(0) if torsion is None else _given_torsion(torsion, twist, waves, rates[1]),
+        given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
 
 
@@ -200,7 +200,7 @@ def _unloaded(design: Design, disk: Disk) -> Booleans | None:
     return disk.r[:, None] + design.condition.advance_ratio * disk.sin < 0.0
 
 
-def _given_torsion(torsion: BladeTorsion, twist: Array, waves: Array, acceleration: Array) -> Array:
+def given_torsion(torsion: BladeTorsion, twist: Array, waves: Array, acceleration: Array) -> Array:
     """Tension on the built-in and the active twist, and the inertia of what follows the azimuth, (modes, functions)."""
     found = np.zeros((len(torsion.gain), torsion.functions))
     found[:, 0] = torsion.tension @ twist

@@ -10,8 +10,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
+from rotor.columns.bending import LOADS
 from rotor.design.design import Design, require_design
 from rotor.plots import plot_lines
+from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -21,6 +23,12 @@ COLUMNS = (
     "parasite_kw", "climb_kw", "tail_kw", "message",
 )  # fmt: skip
 """The unit is the end of the name; without one a column is a text or a ratio."""
+VIBRATION = (
+    "index_percent", "least_index_percent", "largest_index_percent", *(f"hub_{name}_n" for name in LOADS[:3]),
+    *(f"hub_{name}_nm" for name in LOADS[3:]), "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev",
+)  # fmt: skip
+"""Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
+amplitudes, and frequencies of the blade."""
 POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
 
 
@@ -50,16 +58,22 @@ class SweepTable:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns, with the unit at the end of the name."""
-        return COLUMNS
+        return (*COLUMNS, *VIBRATION) if self._bends else COLUMNS
+
+    @property
+    def _bends(self) -> bool:
+        return any(solution.design.models.bending for solution in self.solutions)
 
     @property
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
         """One row per solution; None where a solution that did not converge has no power."""
-        return tuple(_row(solution) for solution in self.solutions)
+        bends = self._bends
+        return tuple(_row(solution) + (_vibration(solution) if bends else ()) for solution in self.solutions)
 
     def to_dict(self) -> dict[str, list[float | str | None]]:
         """The columns by name: what `pandas.DataFrame`, `polars.DataFrame` and `pyarrow.table` read as it is."""
-        return {name: [row[k] for row in self.rows] for k, name in enumerate(COLUMNS)}
+        rows = self.rows
+        return {name: [row[k] for row in rows] for k, name in enumerate(self.columns)}
 
     def to_dataframe(self) -> Any:
         """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""
@@ -67,7 +81,7 @@ class SweepTable:
             pandas: Any = importlib.import_module("pandas")
         except ModuleNotFoundError:
             raise ImportError("pandas is not installed: pip install pandas, or use .columns and .rows") from None
-        return pandas.DataFrame(list(self.rows), columns=list(COLUMNS))
+        return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
 def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) -> SweepTable:
@@ -128,6 +142,7 @@ def _kilowatts(table: SweepTable, part: str) -> list[float]:
 
 def _row(solution: Solution) -> tuple[float | str | None, ...]:
     design = solution.design
+    reason = why_no_hub_loads(design) if design.models.bending else None
     powers = [getattr(solution.power, part) / 1e3 if solution.converged else None for part in POWERS]
     return (
         design.twist.spec(),
@@ -136,8 +151,17 @@ def _row(solution: Solution) -> tuple[float | str | None, ...]:
         design.condition.climb_speed,
         solution.status.value,
         *powers,
-        solution.message,
+        solution.message if reason is None else f"{solution.message} {reason.sentence}",
     )
+
+
+def _vibration(solution: Solution) -> tuple[float | None, ...]:
+    """`VIBRATION`; None for what there is not."""
+    loads, frequencies = solution.hub_loads if solution.converged else None, solution.blade_frequencies
+    modes = (None,) * 3 if frequencies is None else (frequencies.flap[1], frequencies.lag[0], frequencies.torsion[0])
+    if loads is None:
+        return (*(None for _ in range(3 + len(LOADS))), *modes)
+    return (loads.index, *(loads.band or (None, None)), *loads.amplitudes.values(), *modes)
 
 
 PARTS = ("induced", "profile", "parasite", "climb", "tail")

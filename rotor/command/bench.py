@@ -87,6 +87,8 @@ def _points_per_second(call: Callable[[], Any]) -> float:
 TARGETS_MS = {
     "evaluation": 0.25,
     "rigid blade, warm": 4.0,
+    "bending blade, cold": 40.0,
+    "bending blade, warm": 6.0,
     "cold": 40.0,
     "warm": 4.0,
     "gradient": 2.0,
@@ -165,7 +167,13 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     """Figures [ms] by name, other codes, and notes on what could not be measured."""
     linear, rigid, default = _cases("pitt-peters"), _cases("lifting-line"), _cases("lifting-line", elastic=True)
     figures: dict[str, float] = {}
-    for beside, cases in (("", default), ("linear inflow, ", linear), ("rigid blade, ", rigid)):
+    bent = _cases("lifting-line", elastic=True, bending=True)
+    for beside, cases in (
+        ("", default),
+        ("linear inflow, ", linear),
+        ("rigid blade, ", rigid),
+        ("bending blade, ", bent),
+    ):
         problems = [build_problem(design) for design in cases.designs]
         points = [newton(problem, first_guess(problem)).linear.point for problem in problems]
         systems = [point.system for point in points]
@@ -208,10 +216,10 @@ class _Cases:
     solutions: list[Solution]
 
 
-def _cases(inflow: str, *, elastic: bool = False) -> _Cases:
+def _cases(inflow: str, *, elastic: bool = False, bending: bool = False) -> _Cases:
     def at(mu: float, twist: str) -> Design:
         design = make_design(preset="flight", twist=twist, mu=mu)
-        return replace(design, models=replace(design.models, inflow=inflow, elastic_twist=elastic))
+        return replace(design, models=replace(design.models, inflow=inflow, elastic_twist=elastic, bending=bending))
 
     designs = [at(mu, "linear:-16") for mu in _ADVANCE_RATIOS]
     nearby = [at(mu + 0.002, "linear:-15.5") for mu in _ADVANCE_RATIOS]

@@ -22,6 +22,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.active_twist import Harmonic
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
 from rotor.design.stand import Flapping
 from rotor.files.design_file import load_design
@@ -161,6 +162,10 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     )
     limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
+        "--index-percent", type=finite, metavar="P",
+        help="largest vibration index on every condition, per cent of the weight; with --bending, from mu 0.2 on",
+    )  # fmt: skip
+    limits.add_argument(
         "--change-deg", type=finite, metavar="DEG",
         help="largest change from the design's own twist, root to tip, linear along the blade",
     )  # fmt: skip
@@ -194,6 +199,7 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         rate=rate,
         stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
         change=_change(args, design),
+        index=args.index_percent,
     )
 
 
@@ -209,6 +215,14 @@ def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
     placement = default_placement(2 if args.plies is None else args.plies)
     installed = install(find_actuator(args.actuator), placement, Host(), design.rotor)
     return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
+
+
+def waves_text(harmonics: tuple[Harmonic, ...]) -> str:
+    """Harmonics of active twist or root pitch for a reader."""
+    return "; ".join(
+        f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
+        for wave in harmonics
+    )
 
 
 def concept_help() -> str:

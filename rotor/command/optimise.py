@@ -1,8 +1,9 @@
-"""`optimise`: the twist of least power for one flight condition, or for several at once."""
+"""`optimise`: the twist of least power or vibration for one flight condition, or for several at once."""
 
 import argparse
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -24,6 +25,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
 from rotor.optimisation.objective import (
     MISSION_COLUMNS,
+    QUANTITIES,
     Objective,
     at_condition,
     hover_and_cruise,
@@ -31,18 +33,19 @@ from rotor.optimisation.objective import (
     read_mission,
 )
 from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
+from rotor.trim.solution import Solution
 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "optimise", "twist of least power, width of the optimum, saving")
+    parser = add_command(commands, "optimise", "twist of least power or vibration, width of the optimum, saving")
     parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     parser.add_argument(
         "--objective",
         default="total",
         metavar="NAME",
-        help="total (default) | induced | hover-cruise: hover and the given speed",
+        help="total (default) | induced | hover-cruise: hover and the given speed | vibration: index of the hub loads",
     )
     parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
     parser.add_argument(
@@ -79,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
     print(
         json.dumps(record(optimum, concept, beside), indent=2, allow_nan=False)
         if args.json
-        else report(optimum, concept, beside)
+        else report(optimum, concept, beside, vibration=objective.quantity == "vibration")
     )
     return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
 
@@ -90,8 +93,10 @@ class _Beside:
 
     caveats: tuple[str, ...] = ()
     """Of the best design."""
+    index_band: tuple[float, float] | None = None
+    """Least and largest mean index of the best design over wakes [%]; None where it is not asked for."""
     same_airfoils: float | None = None
-    """Objective of the starting twist on the airfoils of the best design [W]; None where the airfoils are the same."""
+    """Power of the starting twist on the airfoils of the best design [W]; None where the airfoils are the same."""
 
 
 def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
@@ -101,7 +106,17 @@ def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
     caveats = dict.fromkeys(caveat.sentence for solution in solutions for caveat in solution.caveats)
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
-    return _Beside(tuple(caveats), measure(objective, start, gradient=False).power if changed else None)
+    power = measure(objective, start, gradient=False).power if changed else None
+    return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
+
+
+def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
+    """Least and largest mean index of some trims over wakes [%]."""
+    ends = [loads.band for one in solutions if (loads := one.hub_loads) is not None and loads.band is not None]
+    if len(ends) < len(solutions):
+        return None
+    low, high = (sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True)) for k in (0, 1))
+    return low, high
 
 
 def _objective(args: argparse.Namespace, design: Design) -> Objective:
@@ -113,14 +128,15 @@ def _objective(args: argparse.Namespace, design: Design) -> Objective:
         )
     if args.hover_share is not None:
         raise ValueError(f"hover share {args.hover_share:g} without its objective: add --objective hover-cruise")
-    if args.objective not in ("total", "induced"):
-        raise ValueError(f"objective {args.objective!r} is not known: use total, induced or hover-cruise")
+    if args.objective not in QUANTITIES:
+        raise ValueError(f"objective {args.objective!r} is not known: use {', '.join(QUANTITIES)} or hover-cruise")
     objective = at_condition(design, args.objective)
     return replace(objective, conditions=read_mission(args.mission, design)) if args.mission else objective
 
 
 def _words(progress: Progress) -> str:
     best = "" if progress.best_power is None else f", best {progress.best_power / 1e3:.2f} kW"
+    best += "" if progress.best_index is None else f", index {progress.best_index:.2f} %"
     return f"{progress.phase} {progress.start + 1}/{progress.starts}{best}"
 
 
@@ -144,6 +160,7 @@ def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any
         "power_w": None if best is None else best.power,
         "baseline_power_w": optimum.baseline_power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
+        **({} if best is None or best.index is None else _index(optimum, best, beside)),
         "band": {
             by_name[band.parameter].label: [
                 round(by_name[band.parameter].shown(band.low), 6),
@@ -164,11 +181,20 @@ def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any
     }
 
 
+def _index(optimum: Optimum, best: Minimum, beside: _Beside) -> dict[str, Any]:
+    return {
+        "index_percent": best.index,
+        "index_band_percent": beside.index_band and list(beside.index_band),
+        "baseline_index_percent": optimum.baseline_index,
+    }
+
+
 def _minimum(one: Minimum, concept: Concept) -> dict[str, Any]:
     return {
         "parameters": named(concept, one.parameters),
         "twist": one.twist,
         "power_w": one.power,
+        **({} if one.index is None else {"index_percent": one.index}),
         "starts": list(one.starts),
         "active": list(one.active),
     }
@@ -179,12 +205,13 @@ def digits_of_band(width: float) -> int:
     return min(max(math.ceil(1.0 - math.log10(width)), 0), 3) if width > 0.0 else 3
 
 
-def report(optimum: Optimum, concept: Concept, beside: _Beside) -> str:
+def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bool) -> str:
     """The same as text."""
     best = optimum.best
     lines = [f"{concept.title}: {optimum.status.value}. {optimum.message}"]
     if best is None:
         return "\n".join(lines)
+    least = "index" if vibration else "power"
     bands = {band.parameter: band for band in optimum.band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
         band = bands.get(parameter.name)
@@ -192,7 +219,7 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside) -> str:
         digits = digits_of_band(high - low)
         line = f"{parameter.title:<20}{parameter.shown(value):9.{digits}f} {parameter.shown_unit}"
         if band:
-            line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the power"
+            line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the {least}"
         lines.append(line)
     lines.append(f"twist {best.twist}")
     airfoils = airfoils_spec(optimum.design.rotor)
@@ -203,6 +230,13 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside) -> str:
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
         lines.append(f"starting design {optimum.baseline_power / 1e3:.2f} kW, saving {100 * optimum.saving:.2f} %")
+    if best.index is not None:
+        low, high = beside.index_band or (best.index, best.index)
+        before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
+        lines.append(
+            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over wakes: trade-offs, not a level"
+            f"{before}"
+        )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
         lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.2f} kW, saving {saving:.2f} %")

@@ -23,6 +23,7 @@ def build_parser() -> argparse.ArgumentParser:
     for add in (
         solve.add_parser,
         tables.add_sweep,
+        tables.add_front,
         tables.add_waterfall,
         optimise.add_parser,
         schedule.add_parser,

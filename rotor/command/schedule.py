@@ -23,7 +23,7 @@ from rotor.command.common import (
 )
 from rotor.command.optimise import named
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
-from rotor.optimisation.objective import MISSION_COLUMNS, QUANTITIES, WeightedCondition, read_mission
+from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Optimum
 from rotor.user_input import check_writable, parse_range
@@ -45,7 +45,7 @@ def add_parser(commands: Any) -> None:
         "--mu", dest="range", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})"
     )
     where.add_argument("--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}")
-    parser.add_argument("--objective", default="total", choices=QUANTITIES, help="power to minimise (default total)")
+    parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
     add_design_arguments(parser)
     add_search_arguments(parser, 4)
     parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")

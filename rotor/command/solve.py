@@ -6,8 +6,7 @@ import math
 from typing import Any
 
 from rotor.analysis.series import between_drag_areas
-from rotor.command.common import add_command, add_design_arguments, design_from
-from rotor.design.active_twist import Harmonic
+from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
 from rotor.trim.hub_loads import why_no_hub_loads
@@ -71,13 +70,6 @@ def _load(design: Design) -> str:
     return f"{design.models.trim}: {condition.stand}"
 
 
-def _waves(harmonics: tuple[Harmonic, ...]) -> str:
-    return "; ".join(
-        f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
-        for wave in harmonics
-    )
-
-
 def report(solution: Solution) -> str:
     """The same as text."""
     design, controls = solution.design, solution.controls
@@ -88,9 +80,9 @@ def report(solution: Solution) -> str:
         f"{solution.status.value}: {solution.message}",
     ]
     if design.pitch_per_rev:
-        lines.insert(1, f"root pitch {_waves(design.pitch_per_rev)}")
+        lines.insert(1, f"root pitch {waves_text(design.pitch_per_rev)}")
     if design.active_twist is not None:
-        lines.insert(1, f"active twist {_waves(design.active_twist.harmonics)}")
+        lines.insert(1, f"active twist {waves_text(design.active_twist.harmonics)}")
     if solution.converged:
         power = solution.power
         degrees = {

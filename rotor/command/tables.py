@@ -1,7 +1,8 @@
-"""Commands that print a table: `sweep`, `waterfall` and `ideal`.
+"""Commands that print a table: `sweep`, `front`, `waterfall` and `ideal`.
 
-`sweep`: one or more twists over advance ratio. `waterfall`: power of each physical effect, switched on one after
-another. `ideal`: the least induced power over all circulations and over all steady twists.
+`sweep`: one or more twists over advance ratio. `front`: compromises of power and vibration. `waterfall`: power of each
+physical effect, switched on one after another. `ideal`: the least induced power over all circulations and over all
+steady twists.
 """
 
 import argparse
@@ -13,10 +14,20 @@ from typing import Any
 from tqdm import tqdm
 
 from rotor.analysis.ideal_bound import Bound, find_bound
-from rotor.analysis.series import COLUMNS as SWEEP_COLUMNS
-from rotor.analysis.series import PARTS, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.analysis.series import COLUMNS, PARTS, VIBRATION, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.analysis.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.assets import SHIPPED_ROTORS
-from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, write_table
+from rotor.command.common import (
+    add_command,
+    add_design_arguments,
+    add_rotor_argument,
+    concept_help,
+    design_from,
+    finite,
+    waves_text,
+    write_table,
+)
+from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
@@ -45,16 +56,21 @@ def run_sweep(args: argparse.Namespace) -> int:
     converged = True
     longest = max(len(design.twist.spec()) for design in designs)
     widths = (max(22, longest + 2), 7, 10, 11, 14, 10, 15, 12, 12, 13, 10, 8)
-    print("".join(f"{name:<{width}}" for name, width in zip(SWEEP_COLUMNS, widths, strict=False)))
+    bends = any(design.models.bending for design in designs)
+    columns = (*COLUMNS, *VIBRATION) if bends else COLUMNS
+    shown = [*range(len(widths)), *range(len(COLUMNS), len(columns))]
+    widths += (*(len(columns[k]) + 2 for k in shown[len(widths) :]), 0)
+    print("".join(f"{columns[k]:<{width}}" for k, width in zip(shown, widths, strict=False)).rstrip())
+    shown.append(len(COLUMNS) - 1)  # The message comes last, of any length.
     for design in designs[:: len(advance_ratios)]:
         table = sweep(design, advance_ratios)
         converged = converged and all(solution.converged for solution in table)
         for cells in table.rows:
-            row = tuple(_text(name, cell) for name, cell in zip(SWEEP_COLUMNS, cells, strict=True))
+            row = tuple(_text(name, cell) for name, cell in zip(columns, cells, strict=True))
             rows.append(row)
-            print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
+            print("".join(f"{row[k]:<{width}}" for k, width in zip(shown, widths, strict=True)).rstrip())
     if args.csv:
-        write_table(args.csv, [SWEEP_COLUMNS, *rows])
+        write_table(args.csv, [columns, *rows])
     return 0 if converged else 1
 
 
@@ -63,6 +79,99 @@ def _text(name: str, cell: float | str | None) -> str:
     if cell is None or isinstance(cell, str):
         return cell or ""
     return f"{cell:.4g}" if name in ("mu", "climb_m_s") else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"
+
+
+FRONT_COLUMNS = (
+    "twist_per_rev", "twist", "power_kw", "power_change_percent", "index_percent", "index_change_percent",
+    "least_index_percent", "largest_index_percent", "least_change_percent", "largest_change_percent",
+    "preview_power_kw", "preview_index_percent",
+)  # fmt: skip
+"""The least and the largest are those over wakes."""
+
+
+def add_front(commands: Any) -> None:
+    """Register `front`."""
+    parser = add_command(commands, "front", "least power for less and less vibration, by active or static twist")
+    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {concept_help()}; else active twist")
+    parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
+    parser.add_argument(
+        "--reach-deg", type=finite, default=1.0, metavar="DEG", help="largest amplitude of each harmonic (default 1)"
+    )
+    parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
+    add_design_arguments(parser, speed=True)
+    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run_front)
+
+
+def run_front(args: argparse.Namespace) -> int:
+    """0 when start and points trim, 1 when a point does not."""
+    try:
+        harmonics = [int(item) for item in args.harmonics.split(",")]
+    except ValueError:
+        raise ValueError(f"harmonics {args.harmonics!r} are not understood: write for example 2,3") from None
+    design = design_from(args)
+    if args.csv:
+        check_writable(args.csv)
+    try:
+        found = vibration_front(design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points)
+    except RuntimeError as error:
+        print(json.dumps({"status": "not-converged", "message": str(error)}, indent=2) if args.json else str(error))
+        return 1
+    rows = [front_row(one, found.start) for one in (found.start, *found.points)]
+    if args.csv:
+        write_table(args.csv, [FRONT_COLUMNS, *([_text(name, row[name]) for name in FRONT_COLUMNS] for row in rows)])
+    print(
+        json.dumps(front_record(design, found, rows), indent=2, allow_nan=False) if args.json else _front(found, rows)
+    )
+    return 0 if len(found.points) == args.points else 1
+
+
+def front_row(one: FrontPoint, start: FrontPoint) -> dict[str, float | str | None]:
+    """A point by `FRONT_COLUMNS`; None for what it does not have."""
+    active, preview, none = one.design.active_twist, one.preview, (None, None)
+    values = (
+        None if active is None else harmonics_text(active.harmonics), one.design.twist.spec(), one.power / 1e3,
+        100.0 * (one.power / start.power - 1.0), one.index, 100.0 * (one.index / start.index - 1.0),
+        *(one.band or none), *(one.over_wakes or none), preview and preview[0] / 1e3, preview and preview[1],
+    )  # fmt: skip
+    return dict(zip(FRONT_COLUMNS, values, strict=True))
+
+
+def front_record(design: Design, found: VibrationFront, rows: list[dict[str, float | str | None]]) -> dict[str, Any]:
+    """The JSON."""
+    return {
+        "status": "converged",
+        "message": found.message,
+        "mu": design.condition.advance_ratio,
+        "preset": design.preset,
+        "inflow": design.models.inflow,
+        "start": rows[0],
+        "points": rows[1:],
+        "preview_error_percent": found.preview_error and list(found.preview_error),
+    }
+
+
+def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> str:
+    """The same as text."""
+    lines = [
+        found.message,
+        f"{'power':>12}{'change':>10}{'index':>10}{'over wakes':>14}{'change':>9}{'over wakes':>16}   twist",
+    ]
+    for one, row in zip((found.start, *found.points), rows, strict=True):
+        wakes = "" if one.over_wakes is None else "{:+.0f} … {:+.0f} %".format(*one.over_wakes)
+        band = "" if one.band is None else "{:.1f} … {:.1f} %".format(*one.band)
+        active = () if one.design.active_twist is None else one.design.active_twist.harmonics
+        lines.append(
+            f"{one.power / 1e3:9.1f} kW{row['power_change_percent']:+8.2f} %{one.index:8.2f} %{band:>14}"
+            f"{row['index_change_percent']:+7.0f} %{wakes:>16}   {waves_text(active) or one.design.twist.spec()}"
+        )
+    if found.preview_error is not None:
+        lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*found.preview_error))
+    lines.append(
+        "index: per cent of the weight, force weights 0.5, 0.67 and 1 (aft, side, up): trade-offs, not a level"
+    )
+    return "\n".join(lines)
 
 
 def add_waterfall(commands: Any) -> None:

@@ -302,6 +302,24 @@ def _sparse_times(one: Array, other: Array) -> Array:
     return np.asarray(csr_matrix(one) @ other) if one.size > _MANY_ENTRIES else one @ other
 
 
+def response(point: Point, fields: Mapping[int, Array], given: Array) -> tuple[Array, Array]:
+    """∂R and ∂ of the measures where channels have fields added, at the same states; `point` has slopes.
+
+    fields: by channel, (elements, azimuths). given: what the same does to R directly, (equations without nodes,).
+    Returns (equations,) and (measures,), the first of which is that of 1.
+    """
+    structure, psi, waves, nodes = point.system.structure, point.system.shapes.psi, point.grid.waves, point.system.nodes
+    forces = np.zeros_like(point.forces)
+    for slope, (force, channel) in zip(point.slopes, structure.pairs, strict=True):
+        if channel in fields:
+            forces[force] += slope * fields[channel]
+    along, q = np.zeros((len(psi), waves.azimuths)), np.zeros(len(point.q))
+    _along_blade(psi, structure.first_weight, forces, along)
+    q[1:] = (along @ waves.mean).ravel()[structure.measure_places]
+    residual = given + structure.residual.slopes(point.z, point.q, structure.first_state)[0] @ q
+    return residual if nodes is None else np.concatenate([residual, -forces[nodes.force].ravel()]), q
+
+
 def _force_slope(point: Point, force: int, channel: int) -> Array:
     """∂f/∂c of one force by one channel, (elements, azimuths); 0 where the force has none."""
     pairs = point.system.structure.pairs

@@ -1,13 +1,14 @@
 """From one start to one local minimum, and how flat the minimum is.
 
-Power is a smooth function of the pitch of every blade element, close to quadratic, and each trim gives its exact
-gradient. So each trim is of use for all blades, whatever their concept. The second derivatives by pitch are the least
-squares of the changes of gradient between the trims known. With value and gradient at one trim they make a model of
-power, in which a law bends as it does where a break passes an element. A descent goes to the least of the model within
-a region of trust, evaluates there, and begins again with the better model (Conn, Gould, Toint 2000).
+The objective, power or vibration index, is a smooth function of the pitch of every blade element, power close to
+quadratic, and each trim gives its exact gradient. So each trim is of use for all blades, whatever their concept. The
+second derivatives by pitch are the least squares of the changes of gradient between the trims known. With value and
+gradient at one trim they make a model, in which a law bends as it does where a break passes an element. A descent goes
+to the least of the model within a region of trust, evaluates there, and begins again with the better model (Conn,
+Gould, Toint 2000).
 
-The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the others re-optimised: the ends of the model,
-evaluated, and corrected with the model at that evaluation.
+The band of a parameter is how far it can go with the objective ≤ (1 + BAND) of the least, the others re-optimised:
+the ends of the model, evaluated, and corrected with the model at that evaluation.
 """
 
 import math
@@ -20,15 +21,14 @@ from scipy import optimize
 
 from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
-from rotor.optimisation.limits import PERCENT
-from rotor.optimisation.objective import Measured
+from rotor.optimisation.objective import Measured, Quantity
 from rotor.optimisation.results import Band
 
 _minimize = cast(Callable[..., Any], optimize.minimize)
 
 
 BAND = 1e-3
-"""Relative rise of power that defines the band of each parameter."""
+"""Relative rise of the objective that defines the band of each parameter."""
 _NEAR = 0.02
 """Distance [rad], about 10°/R of a straight blade, within which trims have full weight for the second derivatives."""
 _SAME = 1e-6
@@ -36,7 +36,7 @@ _SAME = 1e-6
 _PRIOR = 1e-3
 """Weight of the mean curvature in directions without trims, beside 1 of a trim."""
 _FIRST_CURVATURE = 200.0
-"""Curvature [1/rad²] over power, while there is one trim only: some per cent over half the range of a rate."""
+"""Curvature [1/rad²] over the objective, while there is one trim only: some per cent over half the range of a rate."""
 _FLATTEST = 2e-3
 """Least curvature over the largest; flatter directions are left to the descent."""
 
@@ -74,32 +74,32 @@ class Quadratic:
 
 
 def _known(made: Measured) -> tuple[float, Array]:
-    """Power [W] and its slope by pitch [W/rad] of a blade that trims."""
-    assert made.power is not None
+    """The objective and its slope by pitch [1/rad] of a blade that trims."""
+    assert made.value is not None
     assert made.by_pitch is not None
-    return made.power, made.by_pitch
+    return made.value, made.by_pitch
 
 
 _Measure = Callable[[Array], tuple[Any, Array]]
 """Value or values at x, and slopes by x."""
 _MODEL_ITERATIONS = 40
 _MODEL_TOLERANCE = 1e-6
-"""Of the least of the model, in units of 2 BAND of the power."""
+"""Of the least of the model, in units of 2 BAND of the objective."""
 
 
 class Model:
-    """Power and stall margins as quadratics around one trim, limits and bounds as they are."""
+    """The objective and what limits hold as quadratics around one trim, limits and bounds as they are."""
 
     def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
         """others: trims that the second derivatives are made of; those of other rotors are left out."""
         self.evaluate = evaluate
         made = centre.made
-        power, by_pitch = _known(made)
+        value, by_pitch = _known(made)
         metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
         pairs = [
             (one.made, step, length)
             for one in others
-            if one.rotor == centre.rotor and _known(one.made)[0] < 1.5 * power
+            if one.rotor == centre.rotor and _known(one.made)[0] < 1.5 * value
             for step in [(one.pitch - centre.pitch) * metric]
             if (length := float(np.linalg.norm(step))) > _SAME
         ]
@@ -110,64 +110,63 @@ class Model:
             changes = np.array([(other - slope) / metric for other in slopes]).reshape(steps.shape)
             return second_derivatives(steps, changes, weights, elsewhere)
 
-        first = _FIRST_CURVATURE * power
+        first = _FIRST_CURVATURE * value
         size, axes = np.linalg.eigh(fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first))
         size = np.maximum(size, _FLATTEST * max(size[-1], first))
-        self.power = Quadratic(centre.pitch, power, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric)
-        self.stall: list[Quadratic] = []
-        if made.stalled_by_pitch is not None:
-            for k, slope in enumerate(made.stalled_by_pitch):
-                slopes = [other.stalled_by_pitch[k] for other, _, _ in pairs if other.stalled_by_pitch is not None]
+        self.objective = Quadratic(centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric)
+        self.limited: list[Quadratic] = []
+        if made.limited_by_pitch is not None:
+            for k, slope in enumerate(made.limited_by_pitch):
+                slopes = [other.limited_by_pitch[k] for other, _, _ in pairs if other.limited_by_pitch is not None]
                 second = metric[:, None] * fit(slope, slopes, 0.0) * metric
-                self.stall.append(Quadratic(centre.pitch, made.stalled[k], slope, second))
+                self.limited.append(Quadratic(centre.pitch, made.limited[k], slope, second))
 
-    def watts(self, x: Array) -> float:
-        """[W]"""
-        return self._power(x)[0]
+    def cost(self, x: Array) -> float:
+        """The objective."""
+        return self._cost(x)[0]
 
-    def _power(self, x: Array) -> tuple[float, Array]:
-        """[W], and its slope by x."""
-        watts, slope = self.power.at(self.evaluate.pitch(x))
-        return watts, self.evaluate.pitch_slopes(x) @ slope
+    def _cost(self, x: Array) -> tuple[float, Array]:
+        """The same, and its slope by x."""
+        cost, slope = self.objective.at(self.evaluate.pitch(x))
+        return cost, self.evaluate.pitch_slopes(x) @ slope
 
     def stretch(self, x: Array) -> Array:
-        """Columns are steps of x that raise the power by BAND from a minimum, (parameters, parameters)."""
+        """Columns are steps of x that raise the objective by BAND from a minimum, (parameters, parameters)."""
         by = self.evaluate.pitch_slopes(x)
-        size, axes = np.linalg.eigh(by @ self.power.second @ by.T)
+        size, axes = np.linalg.eigh(by @ self.objective.second @ by.T)
         size = np.maximum(size, _FLATTEST * size[-1])
-        return axes * np.sqrt(2.0 * BAND * self.power.value / size)
+        return axes * np.sqrt(2.0 * BAND * self.objective.value / size)
 
     def margins(self, x: Array) -> tuple[Array, Array]:
         """Margins of all limits, positive inside, and slopes by x."""
         margins, slopes = self.evaluate.cheap_margins(x)
-        pitch, by, limit = self.evaluate.pitch(x), self.evaluate.pitch_slopes(x), self.evaluate.limits.stalled
-        for one in self.stall:
-            assert limit is not None
-            stalled, slope = one.at(pitch)
-            margins = np.append(margins, (limit - stalled) / PERCENT)
-            slopes = np.vstack([slopes, -by @ slope / PERCENT])
+        pitch, by = self.evaluate.pitch(x), self.evaluate.pitch_slopes(x)
+        for one, largest in zip(self.limited, self.evaluate.largest, strict=True):
+            found, slope = one.at(pitch)
+            margins = np.append(margins, largest - found)
+            slopes = np.vstack([slopes, -by @ slope])
         return margins, slopes
 
     def least(self, x: Array, reach: float = 1.0) -> Array:
         """Where the model is least within the limits and `reach` of x, in parts of the ranges."""
-        unit = 2.0 * BAND * self.power.value
+        unit = 2.0 * BAND * self.objective.value
 
         def value(x: Array) -> tuple[float, Array]:
-            watts, slope = self._power(x)
-            return watts / unit, slope / unit
+            cost, slope = self._cost(x)
+            return cost / unit, slope / unit
 
         return self._descend(x, reach, self.stretch(x), x, value, ())
 
     def farthest(self, x: Array, k: int, side: float, edge: float) -> Array:
-        """Where parameter k is largest (side 1) or smallest (−1) with the power at most `edge`, begun beside x."""
-        stretch, scale = self.stretch(x), BAND * self.power.value
+        """Where parameter k is largest (side 1) or smallest (−1) with the objective at most `edge`, begun beside x."""
+        stretch, scale = self.stretch(x), BAND * self.objective.value
         along = side * stretch[k]
         size = float(np.linalg.norm(along))
         direction = side * np.eye(len(x))[k] / size
 
         def room(x: Array) -> tuple[Array, Array]:
-            watts, slope = self._power(x)
-            return np.array([(edge - watts) / scale]), -slope[None] / scale
+            cost, slope = self._cost(x)
+            return np.array([(edge - cost) / scale]), -slope[None] / scale
 
         start = np.clip(x + stretch @ along / size, 0.0, 1.0)
         return self._descend(x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,))
@@ -175,7 +174,7 @@ class Model:
     def _descend(
         self, centre: Array, reach: float, stretch: Array, start: Array, value: _Measure, more: Sequence[_Measure]
     ) -> Array:
-        """SLSQP in coordinates in which the power is round, within `reach` of a centre."""
+        """SLSQP in coordinates in which the objective is round, within `reach` of a centre."""
         low, high = np.maximum(centre - reach, 0.0), np.minimum(centre + reach, 1.0)
         length = np.linalg.norm(stretch, axis=1)
         walls = np.vstack([np.diag(1.0 / length), np.diag(-1.0 / length)])
@@ -208,13 +207,13 @@ class Model:
         return np.asarray(np.clip(centre + stretch @ end.x, low, high), dtype=np.float64)
 
 
-TOLERANCE = 1e-7
-"""Fall of power foreseen, as a part of it, at which a descent ends."""
+TOLERANCE: dict[Quantity, float] = {"total": 1e-7, "induced": 1e-7, "vibration": 1e-5}
+"""Fall of the objective foreseen, as a part of it, at which a descent ends: the index is bent more than power is."""
 _ITERATIONS = 60
 _FIRST_REACH = 0.4
 """How far from its trim the model is trusted at first, in parts of the ranges."""
 _LEAST_REACH = 1e-4
-"""Step at which a descent ends where the power does not fall as foreseen."""
+"""Step at which a descent ends where the objective does not fall as foreseen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,8 +232,8 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
     for _ in range(_ITERATIONS):
         model = Model(evaluate, centre.blade, evaluate.trimmed.all)
         x = model.least(centre.x, reach)
-        foreseen = centre.watts - model.watts(x)
-        if centre.feasible and foreseen <= TOLERANCE * centre.watts:
+        foreseen = centre.cost - model.cost(x)
+        if centre.feasible and foreseen <= TOLERANCE[evaluate.objective.quantity] * centre.cost:
             return Descent(centre, converged=True)
         if known(x):
             return Descent(None, converged=True)
@@ -242,7 +241,7 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
         if length < _LEAST_REACH:
             break
         trial = evaluate(x)
-        share = (centre.watts - trial.watts) / foreseen if trial.feasible and centre.feasible else 0.0
+        share = (centre.cost - trial.cost) / foreseen if trial.feasible and centre.feasible else 0.0
         if trial.rank >= centre.rank or share < 0.1:
             reach = 0.3 * length
         elif share > 0.5:
@@ -259,7 +258,7 @@ _BAND_EVALUATIONS = 3
 
 def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[Band, ...]:
     """The band of every parameter, SI."""
-    edge = best.watts * (1.0 + BAND)
+    edge = best.cost * (1.0 + BAND)
     found: list[Band] = []
     for k, parameter in enumerate(evaluate.concept.parameters):
         low, high = (_side(evaluate, best, edge, k, side) for side in (-1.0, 1.0))
@@ -280,5 +279,5 @@ def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: floa
         x = Model(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
         if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
             break
-    inside = [one.x for one in evaluate.records if one.feasible and one.watts <= edge]
+    inside = [one.x for one in evaluate.records if one.feasible and one.cost <= edge]
     return side * max(side * float(one[k]) for one in (*inside, x))

@@ -13,7 +13,7 @@ from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
-from rotor.optimisation.limits import Limits, cheap_margins, stall_margins
+from rotor.optimisation.limits import Limits, cheap_margins
 from rotor.optimisation.objective import Measured, Objective, measure
 from rotor.optimisation.results import Phase, Progress
 from rotor.trim.solution import Solution
@@ -79,19 +79,20 @@ class Evaluation:
     @property
     def feasible(self) -> bool:
         """Whether it trims and meets all limits."""
-        return self.power is not None and bool((self.margins >= -FEASIBLE).all())
+        return self.blade.made.value is not None and bool((self.margins >= -FEASIBLE).all())
 
     @property
-    def watts(self) -> float:
-        """Power, infinite where it does not trim, for comparing."""
-        return math.inf if self.power is None else self.power
+    def cost(self) -> float:
+        """The objective, infinite where it does not trim, for comparing."""
+        value = self.blade.made.value
+        return math.inf if value is None else value
 
     @property
     def rank(self) -> tuple[float, float]:
-        """The lesser, the better: by power within the limits, by the violation outside."""
+        """The lesser, the better: by the objective within the limits, by the violation outside."""
         if self.power is None:
             return math.inf, math.inf
-        return (0.0, self.power) if self.feasible else (-float(self.margins.min()), self.power)
+        return (0.0, self.cost) if self.feasible else (-float(self.margins.min()), self.cost)
 
 
 class SearchStopped(Exception):
@@ -116,6 +117,8 @@ class Evaluator:
         self.design, self.concept, self.objective, self.limits = design, concept, objective, limits
         self.low, self.high = np.array(limits.bounds_of(concept)).T
         self.span = self.high - self.low
+        self.largest = limits.largest(len(objective.conditions))
+        """Of what the limits hold beside, [%]."""
         self.phase: Phase = "baseline"
         self.start, self.starts = 0, starts
         self.count = 0
@@ -152,10 +155,10 @@ class Evaluator:
         margins, slopes = cheap_margins(self.limits, self.concept, self.values(x), self.design.rotor.blade.root_cutout)
         return margins, slopes * self.span
 
-    def baseline(self) -> float | None:
-        """Power of the design as given [W]; its trim is where the first start begins."""
+    def baseline(self) -> Measured:
+        """Of the design as given; its trim is where the first start begins."""
         self._check()
-        return self._trim(self.design).made.power
+        return self._trim(self.design).made
 
     def __call__(self, x: Array) -> Evaluation:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
@@ -165,10 +168,10 @@ class Evaluator:
         blade = self._trim(self.concept.apply(self.design, values))
         margins = self.cheap_margins(x)[0]
         if blade.made.power is not None:
-            margins = np.concatenate([margins, stall_margins(self.limits, blade.made.stalled)])
+            margins = np.concatenate([margins, self.largest - np.asarray(blade.made.limited)])
         record = Evaluation(x, blade, margins)
         self.records.append(record)
-        if record.feasible and (self.best is None or record.watts < self.best.watts):
+        if record.feasible and (self.best is None or record.cost < self.best.cost):
             self.best = record
         self._report(record, values)
         return record
@@ -179,9 +182,8 @@ class Evaluator:
         known = self.trimmed.known(design.rotor, pitch)
         if known is not None:
             return known
-        stall = self.limits.stalled is not None
         self.count += 1
-        made = measure(self.objective, design, self.trimmed.starts(pitch, self.r), stall=stall)
+        made = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
         return self.trimmed.add(design.rotor, pitch, made)
 
     def _check(self) -> None:
@@ -204,5 +206,6 @@ class Evaluator:
                 best_parameters=None if self.best is None else self.values(self.best.x),
                 best_power=None if self.best is None else self.best.power,
                 elapsed=self.elapsed,
+                best_index=None if self.best is None else self.best.blade.made.index,
             )
         )

@@ -6,7 +6,6 @@ measure becomes that count.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,6 +58,8 @@ class Limits:
     stalled: float | None = None
     """Largest stalled share of the disk on every condition (0…1), as `rotor.optimisation.limits` measures it."""
     change: ChangeLimit | None = None
+    index: float | None = None
+    """Largest vibration index on every condition [%], see `rotor.trim.hub_loads`; of blades that bend."""
 
     def __post_init__(self) -> None:
         if self.rate is not None and not self.rate[0] < self.rate[1]:
@@ -66,6 +67,15 @@ class Limits:
             raise ValueError(f"rate limits {low:g}…{high:g}°/R are empty: give the steepest first, e.g. -20,0")
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
             raise ValueError(f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside")
+        if self.index is not None and not 0.0 < self.index < math.inf:
+            raise ValueError(f"limit {self.index:g} % of the vibration index: give more than 0")
+
+    def largest(self, conditions: int) -> Array:
+        """Of what `Measured.limited` has [%]."""
+        found: Array = np.zeros(0)
+        for own in (None if self.stalled is None else self.stalled / PERCENT, self.index):
+            found = found if own is None else np.append(found, np.full(conditions, own))
+        return found
 
     def bounds_of(self, concept: Concept) -> tuple[tuple[float, float], ...]:
         """Low and high of each parameter; ValueError for a name the concept lacks or a range that is empty."""
@@ -104,11 +114,6 @@ def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float)
         margins += [(largest - change)[1:], (largest + change)[1:]]
         slopes += [-by, by]
     return np.concatenate(margins) / _DEGREE, np.concatenate(slopes) / _DEGREE
-
-
-def stall_margins(limits: Limits, stalled: Sequence[float]) -> Array:
-    """What is left of the stalled-area limit on every condition [per cent]; none without the limit."""
-    return np.zeros(0) if limits.stalled is None else (limits.stalled - np.asarray(stalled)) / PERCENT
 
 
 WIDTH = math.radians(0.5)

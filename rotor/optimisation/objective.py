@@ -1,4 +1,5 @@
-"""The objective of a search: power at one flight condition or its mean over several, and its gradient by pitch."""
+"""The objective of a search: power or the vibration index at one flight condition or their mean over several, and the
+gradient by pitch."""
 
 import csv
 import math
@@ -12,15 +13,19 @@ import numpy as np
 from rotor.arrays import Array
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.optimisation.limits import stalled_share
+from rotor.optimisation.limits import PERCENT, Limits, stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
+from rotor.trim.adjoint import Objective as PowerKind
+from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.user_input import read_text, refusing
 
-Quantity = Literal["total", "induced"]
-QUANTITIES: tuple[Quantity, ...] = ("total", "induced")
+Quantity = Literal["total", "induced", "vibration"]
+POWERS: tuple[PowerKind, ...] = ("total", "induced")
+QUANTITIES: tuple[Quantity, ...] = (*POWERS, "vibration")
+"""What a search can make small; the last is the index of `rotor.trim.hub_loads`."""
 
 
 @dataclass(frozen=True)
@@ -37,14 +42,14 @@ class WeightedCondition:
 
 @dataclass(frozen=True)
 class Objective:
-    """Mean power over the conditions, by their hours [W]."""
+    """Mean power [W], or mean index [%], over the conditions by their hours."""
 
     quantity: Quantity
     conditions: tuple[WeightedCondition, ...]
 
     def __post_init__(self) -> None:
         if self.quantity not in QUANTITIES:
-            raise ValueError(f"objective {self.quantity!r} is not known: use {' or '.join(QUANTITIES)}")
+            raise ValueError(f"objective {self.quantity!r} is not known: use {', '.join(QUANTITIES)}")
         if not self.conditions:
             raise ValueError("an objective needs a flight condition: give at least one")
 
@@ -83,15 +88,19 @@ class Measured:
     """An objective evaluated for a design."""
 
     power: float | None
-    """Mean power [W]; None when a condition did not trim."""
-    by_pitch: Array | None
-    """∂power/∂θ of each element's pitch [W/rad], (elements,)."""
-    stalled: tuple[float, ...]
-    """Smooth stalled share of the disk (0…1), one per condition; empty unless requested."""
-    stalled_by_pitch: Array | None
-    """[1/rad], (conditions, elements)"""
+    """Mean power [W], the total for the objective `vibration`; None when a condition did not trim."""
     solutions: tuple[Solution, ...]
     """One per condition, as far as they were solved."""
+    value: float | None = None
+    """The objective: the power [W] or the mean index [%]."""
+    by_pitch: Array | None = None
+    """∂value/∂θ of each element's pitch [1/rad], (elements,)."""
+    index: float | None = None
+    """Mean index [%] where objective or limits ask for it."""
+    limited: tuple[float, ...] = ()
+    """What the limits hold [%]: the smooth stalled area on every condition, then the index on every condition."""
+    limited_by_pitch: Array | None = None
+    """[1/rad], (limited, elements)"""
 
     @property
     def message(self) -> str:
@@ -99,9 +108,27 @@ class Measured:
         return self.solutions[-1].message
 
 
+def _power(quantity: Quantity) -> PowerKind:
+    """The power beside an objective; the total where that is none."""
+    return "induced" if quantity == "induced" else "total"
+
+
 def power_of(solution: Solution, quantity: Quantity) -> float:
-    """[W]"""
-    return solution.power.total if quantity == "total" else solution.power.induced
+    """[W]; the total where the objective is no power."""
+    return solution.power.induced if quantity == "induced" else solution.power.total
+
+
+def check_index(design: Design, objective: Objective, limits: Limits) -> None:
+    """Raise ValueError, with one sentence, where the index is asked for and a condition has none."""
+    if objective.quantity != "vibration" and limits.index is None:
+        return
+    for condition in objective.conditions:
+        reason = why_no_hub_loads(replace(design, condition=condition.flight))
+        if reason is not None:
+            where = f"advance ratio {condition.flight.advance_ratio:g}"
+            raise ValueError(f"the vibration index is asked for at {where}, where there is none. {reason.sentence}")
+    if not design.models.bending:
+        raise ValueError("the vibration index needs blades that bend: add --bending, or bending=True in Python")
 
 
 def measure(
@@ -110,34 +137,47 @@ def measure(
     starts: Sequence[Solution] = (),
     *,
     gradient: bool = True,
-    stall: bool = False,
+    limits: Limits | None = None,
     options: SolverOptions = DEFAULT_OPTIONS,
 ) -> Measured:
-    """Trim the design on every condition; power, and its exact gradient by pitch along the blade.
+    """Trim the design on every condition; the objective and what limits hold, with exact gradients by the pitch along
+    the blade.
 
     `starts`: earlier solutions of the same conditions to begin from. Stops at the first condition that does not trim.
     """
-    solutions: list[Solution] = []
-    power = 0.0
-    by_pitch: Array | None = None
-    stalled: list[float] = []
-    stalled_by_pitch: list[Array] = []
+    limits = limits or Limits()
+    vibration, indexed = objective.quantity == "vibration", limits.index is not None
+    solutions, stalled, indices = list[Solution](), list[tuple[float, Array]](), list[tuple[float, Array]]()
+    power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
         solution = solve(replace(design, condition=condition.flight), start, options)
         solutions.append(solution)
         if not solution.converged:
-            return Measured(None, None, (), None, tuple(solutions))
+            return Measured(None, tuple(solutions))
         power += share * power_of(solution, objective.quantity)
-        if gradient or stall:
-            adjoint = Adjoint(solution)
-            part = share * power_along(adjoint, objective.quantity).by_element
-            by_pitch = part if by_pitch is None else by_pitch + part
-            if stall:
-                area, slope = stalled_share(adjoint)
-                stalled.append(area)
-                stalled_by_pitch.append(slope)
-    return Measured(power, by_pitch, tuple(stalled), np.array(stalled_by_pitch) if stall else None, tuple(solutions))
+        if not gradient:
+            index += share * hub_index(Adjoint(solution)) if vibration or indexed else 0.0
+            continue
+        adjoint = Adjoint(solution)
+        if vibration or indexed:
+            indices.append(index_along(adjoint))
+            index += share * indices[-1][0]
+        own = indices[-1][1] if vibration else power_along(adjoint, _power(objective.quantity)).by_element
+        slopes.append(share * own)
+        if limits.stalled is not None:
+            area, slope = stalled_share(adjoint)
+            stalled.append((area / PERCENT, slope / PERCENT))
+    limited = [*stalled, *(indices if indexed else [])]
+    return Measured(
+        power=power,
+        solutions=tuple(solutions),
+        value=index if vibration else power,
+        by_pitch=sum(slopes[1:], start=slopes[0]) if gradient else None,
+        index=index if vibration or indexed else None,
+        limited=tuple(value for value, _ in limited),
+        limited_by_pitch=np.array([slope for _, slope in limited]) if limited else None,
+    )
 
 
 MISSION_COLUMNS = ("mu", "mass_kg", "altitude_m", "climb_m_s", "hours")

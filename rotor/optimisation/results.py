@@ -42,6 +42,8 @@ class Progress:
     """Least power of a feasible design so far [W]; None before the first."""
     elapsed: float
     """[s]"""
+    best_index: float | None = None
+    """Vibration index of the best design so far [%] where objective or limits ask for it."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +59,13 @@ class Minimum:
     """The starts that lead here; none where only the gradients at other points did."""
     active: tuple[str, ...]
     """Active bounds and limits, for example `division high` or `stalled area`."""
+    index: float | None = None
+    """Vibration index [%], the mean over the conditions, where objective or limits ask for it."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """Range of one parameter, the others re-optimised, within BAND of the least power."""
+    """Range of one parameter, the others re-optimised, within BAND of the least power or index."""
 
     parameter: str
     low: float
@@ -82,7 +86,7 @@ class Optimum:
     minima: tuple[Minimum, ...]
     """All local minima found, the best first."""
     band: tuple[Band, ...]
-    """One per parameter, within 0.1 % of the least power; empty when not requested, or not found."""
+    """One per parameter, within 0.1 % of the least power or index; empty when not requested, or not found."""
     baseline_power: float | None
     """Of the design given, by the same objective [W]; None when it does not trim."""
     evaluations: int
@@ -90,13 +94,16 @@ class Optimum:
     seed: int
     elapsed: float
     """[s]"""
+    baseline_index: float | None = None
+    """Vibration index of the design given [%] where objective or limits ask for it."""
 
     def __repr__(self) -> str:
         head = f"Optimum({self.concept}, {self.status.value}"
         if self.best is None:
             return f"{head}: {self.message})"
         saving = "" if self.saving_percent is None else f", saves {self.saving_percent:.2f} %"
-        return f"{head}, twist {self.best.twist}, {self.best.power / 1e3:.1f} kW{saving})"
+        index = "" if self.best.index is None else f", index {self.best.index:.2f} %"
+        return f"{head}, twist {self.best.twist}, {self.best.power / 1e3:.1f} kW{saving}{index})"
 
     @property
     def twist(self) -> TwistLaw:

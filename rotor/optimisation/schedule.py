@@ -16,7 +16,7 @@ from typing import Any, cast
 from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.evaluator import TrimmedBlades
-from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
+from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
 from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
 from rotor.user_input import read_text
@@ -44,6 +44,9 @@ class Plan:
     def __post_init__(self) -> None:
         if not self.conditions or not self.concepts:
             raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
+        if self.quantity == "vibration":
+            raise ValueError("a schedule weighs powers: use the objective total or induced, with a limit on the index")
+        check_index(self.design, Objective(self.quantity, self.conditions), self.limits)
 
     def design_at(self, condition: int | None) -> Design:
         """The current design at a condition; None: at its own condition."""
@@ -304,10 +307,11 @@ def _record(cell: Cell) -> dict[str, Any]:
         "status": one.status.value,
         "message": one.message,
         "minima": [
-            [list(m.parameters), m.power, list(m.starts), list(m.active)]
+            [list(m.parameters), m.power, list(m.starts), list(m.active), m.index]
             for m in (one.minima or ((one.best,) if one.best is not None else ()))
         ],
         "baseline_power": one.baseline_power,
+        "baseline_index": one.baseline_index,
         "evaluations": one.evaluations,
         "starts": one.starts,
         "seed": one.seed,
@@ -318,8 +322,8 @@ def _record(cell: Cell) -> dict[str, Any]:
 def _cell(entry: dict[str, Any], plan: Plan) -> Cell:
     concept = next(one for one in plan.concepts if one.name == entry["concept"])
     minima = tuple(
-        Minimum(tuple(values), power, concept.twist(values).spec(), tuple(starts), tuple(active))
-        for values, power, starts, active in entry["minima"]
+        Minimum(tuple(values), power, concept.twist(values).spec(), tuple(starts), tuple(active), index)
+        for values, power, starts, active, index in entry["minima"]
     )
     design = plan.design_at(entry["condition"])
     best = minima[0] if minima else None
@@ -336,5 +340,6 @@ def _cell(entry: dict[str, Any], plan: Plan) -> Cell:
         starts=entry["starts"],
         seed=entry["seed"],
         elapsed=entry["elapsed"],
+        baseline_index=entry["baseline_index"],
     )
     return Cell(entry["condition"], concept.name, optimum)

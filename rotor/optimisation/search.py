@@ -1,4 +1,5 @@
-"""The twist of least power: a global search from many starts, with every local minimum and the flatness of the best.
+"""The twist of least power or vibration: a global search from many starts, with every local minimum and the flatness of
+the best.
 
 The thesis uses fmincon with GlobalSearch (§2.7). Here descents on the exact gradient begin at a seeded low-discrepancy
 set of starting points (Halton). One whose next step leads to a minimum known already ends there. Minima are grouped,
@@ -28,7 +29,7 @@ from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, Search
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
 from rotor.optimisation.limits import even_change_limit as even_change_limit
-from rotor.optimisation.objective import Objective, Quantity, at_condition
+from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index
 from rotor.optimisation.results import Band as Band
 from rotor.optimisation.results import Minimum as Minimum
 from rotor.optimisation.results import Optimum as Optimum
@@ -40,11 +41,11 @@ STARTS = 6
 _SAME_PLACE = 0.05
 """Ends whose parameters agree within this fraction of their ranges are one minimum."""
 _BESIDE = 1e-4
-"""Rise of power above a minimum within which a descent is taken to end in it."""
+"""Relative rise above a minimum within which a descent is taken to end in it."""
 _PLACES = 12
-"""Points from which the model of power is searched for further minima."""
+"""Points from which the model is searched for further minima."""
 _RISE = 1e-6
-"""Relative rise of power allowed half-way between two ends of one minimum."""
+"""Relative rise allowed half-way between two ends of one minimum."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,7 @@ class Search:
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
         self.limits.bounds_of(self.concept)
+        check_index(self.design, self.objective or at_condition(self.design), self.limits)
 
 
 @one_blas_thread()
@@ -81,7 +83,7 @@ def run_search(
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
-    trimmed: blades of earlier searches with the same objective, for the model of power; those of this one are added.
+    trimmed: blades of earlier searches with the same objective and limits, for the model; those of this one are added.
     Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
@@ -92,7 +94,7 @@ def run_search(
     run = _Run(search, evaluate)
     try:
         run.baseline = evaluate.baseline()
-        if objective.quantity == "total" and run.baseline is not None and run.baseline <= 0.0:
+        if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
             return run.refused(
                 "The air drives the rotor at this rate of descent, so total power is below zero and a saving says "
                 "nothing: descend more slowly, or use the objective induced."
@@ -116,7 +118,7 @@ class _Run:
 
     def __init__(self, search: Search, evaluate: Evaluator) -> None:
         self.search, self.evaluate = search, evaluate
-        self.baseline: float | None = None
+        self.baseline = Measured(None, ())
         self.groups: list[tuple[Evaluation, list[int]]] = []
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
@@ -125,7 +127,7 @@ class _Run:
     @property
     def best(self) -> Evaluation | None:
         """The best end of a descent."""
-        return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
+        return min((end for end, _ in self.groups), key=lambda end: end.cost, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:
         """Descend from one start, as long as it does not lead to a minimum known.
@@ -155,18 +157,18 @@ class _Run:
             self._gather(start, descent.end)
 
     def look_elsewhere(self) -> None:
-        """Descend where the model of power foresees less than the best: laws with movable breaks have many minima."""
+        """Descend where the model foresees less than the best: laws with movable breaks have many minima."""
         places = qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_PLACES)
         for _ in range(_PLACES):
             if self.best is None:
                 return
             model = Model(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
-            x = min((model.least(place) for place in places), key=model.watts)
-            if model.watts(x) >= self.best.watts * (1.0 - TOLERANCE):
+            x = min((model.least(place) for place in places), key=model.cost)
+            if model.cost(x) >= self.best.cost * (1.0 - TOLERANCE[self.evaluate.objective.quantity]):
                 return
             first = self.evaluate(x)
             end = descend(self.evaluate, first, lambda _: False).end if first.power is not None else None
-            if end is None or end.watts >= self.best.watts:
+            if end is None or end.cost >= self.best.cost:
                 return
             self.groups.append((end, []))
 
@@ -175,25 +177,25 @@ class _Run:
         if np.abs(lead.x - x).max() < _SAME_PLACE:
             return True
         model = Model(self.evaluate, lead.blade, self.evaluate.trimmed.all)
-        return model.watts(x) <= lead.watts * (1.0 + _BESIDE)
+        return model.cost(x) <= lead.cost * (1.0 + _BESIDE)
 
     def _gather(self, start: int, end: Evaluation) -> None:
         """Add an end to its minimum, or begin a new one."""
         for k, (lead, members) in enumerate(self.groups):
             if self._same(lead, end):
-                self.groups[k] = (min(lead, end, key=lambda one: one.watts), [*members, start])
+                self.groups[k] = (min(lead, end, key=lambda one: one.cost), [*members, start])
                 return
         self.groups.append((end, [start]))
 
     def _same(self, a: Evaluation, b: Evaluation) -> bool:
         """Whether two ends are one minimum: near each other, or without a rise half-way."""
-        higher = max(a.watts, b.watts)
-        if abs(a.watts - b.watts) > BAND * higher:
+        higher = max(a.cost, b.cost)
+        if abs(a.cost - b.cost) > BAND * higher:
             return False
         if np.abs(a.x - b.x).max() < _SAME_PLACE:
             return True
         half = self.evaluate(0.5 * (a.x + b.x))
-        return half.feasible and half.watts <= higher * (1.0 + _RISE)
+        return half.feasible and half.cost <= higher * (1.0 + _RISE)
 
     def _fallback(self) -> Array:
         known = self.evaluate.best
@@ -203,18 +205,18 @@ class _Run:
         """A search that is not made."""
         search, evaluate = self.search, self.evaluate
         return Optimum(
-            SearchStatus.NOT_CONVERGED, message, search.concept.name, search.design, None, (), (), self.baseline,
+            SearchStatus.NOT_CONVERGED, message, search.concept.name, search.design, None, (), (), self.baseline.power,
             evaluate.count, evaluate.starts, search.seed, evaluate.elapsed,
         )  # fmt: skip
 
     def result(self, *, stopped: bool) -> Optimum:
         """What has been found so far."""
         search, evaluate = self.search, self.evaluate
-        groups = sorted(self.groups, key=lambda group: group[0].watts)
+        groups = sorted(self.groups, key=lambda group: group[0].cost)
         minima = tuple(_minimum(evaluate, lead, members) for lead, members in groups)
         best = minima[0] if minima else None
         seen = evaluate.best
-        if seen is not None and (best is None or seen.watts < best.power * (1.0 - 1e-7)):
+        if seen is not None and (best is None or seen.cost < groups[0][0].cost * (1.0 - 1e-7)):
             best = _minimum(evaluate, seen, ())
         if stopped:
             status = SearchStatus.STOPPED
@@ -251,7 +253,8 @@ class _Run:
             best=best,
             minima=minima,
             band=self.band,
-            baseline_power=self.baseline,
+            baseline_power=self.baseline.power,
+            baseline_index=self.baseline.index,
             evaluations=evaluate.count,
             starts=evaluate.starts,
             seed=search.seed,
@@ -279,14 +282,19 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
     limits = evaluate.limits
     tight = record.margins < 10.0 * FEASIBLE
     rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0
-    changes = len(record.margins) - rates - (len(evaluate.objective.conditions) if limits.stalled is not None else 0)
+    changes, conditions = len(record.margins) - rates - len(evaluate.largest), len(evaluate.objective.conditions)
     if tight[:rates].any():
         active.append("rate")
     if tight[rates : rates + changes].any():
         active.append("change")
-    if tight[rates + changes :].any():
+    trimmed = tight[rates + changes :]
+    if limits.stalled is not None and trimmed[:conditions].any():
         active.append("stalled area")
-    return Minimum(values, record.watts, evaluate.concept.twist(values).spec(), tuple(starts), tuple(active))
+    if limits.index is not None and trimmed[-conditions:].any():
+        active.append("vibration index")
+    made, twist = record.blade.made, evaluate.concept.twist(values).spec()
+    assert made.power is not None
+    return Minimum(values, made.power, twist, tuple(starts), tuple(active), made.index)
 
 
 def optimise(
@@ -299,12 +307,14 @@ def optimise(
     starts: int = STARTS,
     seed: int = 0,
 ) -> Optimum:
-    """The twist of a concept with the least power at the design's own flight condition.
+    """The twist of a concept with the least power, or vibration, at the design's own flight condition.
 
     concept: `linear`, `quadratic`, `two-segment`, `three-segment`, `free-form` or another name in `CONCEPTS`.
     division: r/R where the segments meet, for the concepts that hold it fixed.
-    quantity: the power to make small, `total` or `induced`.
-    limits: bounds on twist rates, on the change of twist and on the stalled area; by default the concept's own bounds.
+    quantity: what to make small: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
+    N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
+    limits: bounds on twist rates, on the change of twist, on the stalled area and on the vibration index; by default
+    the concept's own bounds.
     starts, seed: number of descents, and the seed of their starting points.
 
     The design's own twist is the baseline of `saving_percent`. A search always returns; its `status` and `message` say

@@ -31,7 +31,8 @@ from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
 from rotor.study.quantities import PLAIN, Value, concept_with_breaks
-from rotor.study.study import OptimumSettings, Study
+from rotor.study.study import FREQUENCIES, OptimumSettings, Study
+from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -160,7 +161,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = war
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = preset_models(preset)
-    changed: dict[str, Any] = {name: values[name] for name in ("inflow", *SWITCHES) if name in values}
+    changed: dict[str, Any] = {name: values[name] for name in ("inflow", "bending", *SWITCHES) if name in values}
     if "inflow" in changed:
         changed["inflow"] = current_model("inflow", str(changed["inflow"]), tell)
         inflow_model(changed["inflow"])
@@ -218,6 +219,8 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
         row["twist"] = values.get("twist") or solution.design.twist.spec()
         if solution.converged:
             row |= _answer(solution)
+            if solution.design.models.bending:
+                row |= _vibration(solution, row["caveats"])
             warm.keep(values, solution)
     except ValueError as error:
         row |= {"status": "bad-input", "message": str(error)}
@@ -266,7 +269,7 @@ def _search(design: Design, values: Values, searching: OptimumSettings, warm: Wa
         design=design,
         concept=concept,
         objective=objective,
-        limits=Limits(rate=searching.rate, stalled=searching.stalled),
+        limits=Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index),
         starts=searching.starts,
         seed=searching.seed,
         guesses=(near,) if near else (),
@@ -345,3 +348,18 @@ def _answer(solution: Solution) -> Row:
         "caveats": ", ".join(caveat.name for caveat in solution.caveats),
         "passes": solution.passes,
     }
+
+
+def _vibration(solution: Solution, caveats: str) -> Row:
+    """Blade frequencies, and hub loads, or among the caveats that there are none."""
+    row: Row = {}
+    if (frequencies := solution.blade_frequencies) is not None:
+        for name in FREQUENCIES:
+            kind, _, number = name.rpartition("_")
+            row[f"{name}_per_rev"] = getattr(frequencies, kind)[int(number) - 1]
+    if (reason := why_no_hub_loads(solution.design)) is not None:
+        return row | {"caveats": ", ".join(name for name in (caveats, reason.name) if name)}
+    loads = hub_loads(solution, solve, band=False)
+    assert loads is not None
+    amplitudes = {f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}": size for name, size in loads.amplitudes.items()}
+    return row | {"index_percent": loads.index, **amplitudes}

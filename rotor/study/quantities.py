@@ -58,6 +58,7 @@ def _all() -> dict[str, Quantity]:
         Quantity("preset", "text", "", "models"),
         Quantity("inflow", "text", "", "models"),
         *(Quantity(name, "flag", "", "models") for name in SWITCHES),
+        Quantity("bending", "flag", "", "models"),
         Quantity("elements", "number", "", "models", whole=True),
         Quantity("azimuths", "number", "", "models", whole=True),
     ]

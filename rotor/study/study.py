@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from rotor.arrays import Array
+from rotor.columns.bending import LOADS
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.optimisation.objective import Quantity as Objective
@@ -147,6 +148,8 @@ class OptimumSettings:
     """Steepest and flattest twist rate [rad/R]."""
     stalled: float | None = None
     """Largest stalled share of the disk (0…1)."""
+    index: float | None = None
+    """Largest vibration index [%]."""
 
 
 @dataclass(frozen=True)
@@ -250,6 +253,8 @@ def default_chunk(count: int, *, search: bool) -> int:
 
 
 Kind = Literal["number", "count", "text"]
+FREQUENCIES = ("flap_1", "flap_2", "lag_1", "lag_2", "torsion_1")
+"""Modes of the rotating blade whose frequencies are in the table."""
 
 
 @dataclass(frozen=True)
@@ -298,6 +303,13 @@ _ANSWER = (
     Column("passes", "count"),
     Column("elapsed_ms", "number", "ms"),
 )
+_VIBRATION = (
+    Column("index_percent", "number", "%"),
+    *(Column(f"hub_{name}_n", "number", "N") for name in LOADS[:3]),
+    *(Column(f"hub_{name}_nm", "number", "N m") for name in LOADS[3:]),
+    *(Column(f"{mode}_per_rev", "number", "/rev") for mode in FREQUENCIES),
+)
+"""Of a study with `bending`: amplitudes at N_b/rev, without the band over wakes, which takes three more trims."""
 _SEARCH = (
     Column("mean_power_w", "number", "W"),
     Column("hover_power_w", "number", "W"),
@@ -318,7 +330,8 @@ def columns_of(study: Study) -> tuple[Column, ...]:
         for name in dict.fromkeys((*study.names, *_found(study)))
         if name not in known and QUANTITIES[name].kind != "flag"
     )
-    return (*_HEAD, *_CONDITION, *own, *_ANSWER, *(_SEARCH if study.optimum is not None else ()))
+    vibration = _VIBRATION if dict(study.given).get("bending") else ()
+    return (*_HEAD, *_CONDITION, *own, *_ANSWER, *vibration, *(_SEARCH if study.optimum is not None else ()))
 
 
 def _found(study: Study) -> tuple[str, ...]:

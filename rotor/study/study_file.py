@@ -18,6 +18,7 @@ from rotor.design.retired import current_model
 from rotor.design.twist import inline_spec
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
+from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import (
@@ -39,7 +40,7 @@ SECTIONS: dict[str, tuple[str, ...]] = {
     "fixed": (),
     "models": (),
     "sample": ("method", "count", "seed"),
-    "optimum": ("starts", "seed", "objective", "rate_deg", "stalled_percent"),
+    "optimum": ("starts", "seed", "objective", "rate_deg", "stalled_percent", "index_percent"),
     "show": ("least", "uncertain"),
 }
 """Sections and their keys; empty: names of quantities."""
@@ -252,8 +253,8 @@ class Reader:
             return None
         record, plain = self._file.section("optimum"), OptimumSettings()
         objective = record.get("objective", "total")
-        if objective not in ("total", "induced"):
-            raise self._file.wrong("optimum", "objective", f"objective is {objective!r}: use total or induced")
+        if objective not in OBJECTIVES:
+            raise self._file.wrong("optimum", "objective", f"objective is {objective!r}: use {', '.join(OBJECTIVES)}")
         rate, stalled = record.get("rate_deg"), record.get("stalled_percent")
         if rate is not None:
             pair = cast(list[Any], rate) if isinstance(rate, list) else []
@@ -262,12 +263,16 @@ class Reader:
             rate = math.radians(pair[0]), math.radians(pair[1])
         if stalled is not None and not (_finite(stalled) and 0.0 <= stalled <= 100.0):
             raise self._file.wrong("optimum", "stalled_percent", f"stalled_percent is {stalled!r}: give 0 to 100")
+        index = record.get("index_percent")
+        if index is not None and not (_finite(index) and index > 0.0):
+            raise self._file.wrong("optimum", "index_percent", f"index_percent is {index!r}: give more than 0")
         return OptimumSettings(
             starts=int(self._whole("optimum", "starts", record.get("starts", plain.starts), 1, 1000)),
             seed=int(self._whole("optimum", "seed", record.get("seed", 0), 0, 2**31)),
             objective=objective,
             rate=rate,
             stalled=None if stalled is None else stalled / 100.0,
+            index=index,
         )
 
     def _aims(self, study: Study) -> ShowSettings:

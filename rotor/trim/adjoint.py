@@ -133,6 +133,12 @@ class Adjoint:
         """Induced and profile power in terms of the trim's equations."""
         return self._own.power_terms
 
+    @property
+    def total_terms(self) -> Terms:
+        """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
+        on_stand = self.problem.design.condition.stand is not None
+        return _stand_terms(self.point.system.structure) if on_stand else self.power_terms
+
 
 def _linearised(solution: Solution) -> LinearisedTrim:
     """The equations at a solution that came without them, from another process."""
@@ -254,6 +260,14 @@ def _power_terms(s: Structure) -> Terms:
     return Terms.of(rows, 1)
 
 
+@lru_cache(maxsize=64)
+def _stand_terms(s: Structure) -> Terms:
+    """Induced, profile and propulsive power over ρA(ΩR)³."""
+    work = bending_work(s) if bends(s) else []
+    rows = torque_terms(s) + [(-share, i, j, measure) for share, i, j, measure in work]
+    return Terms.of([(0, measure, i, j, share) for share, i, j, measure in rows], 1)
+
+
 def _on(field: Array | float, shape: tuple[int, int]) -> Array:
     return np.broadcast_to(np.asarray(field, dtype=float), shape)
 
@@ -280,7 +294,6 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     """
     problem = adjoint.problem
     cell = problem.disk.dr[:, None] / len(problem.disk.psi)
-    on_stand = problem.design.condition.stand is not None
     if problem.design.models.trim == "free-rotor" and objective == "total":
         raise RuntimeError(
             "A free rotor takes no power from its shaft, so shaft power has no gradient: use the objective induced, or "
@@ -293,16 +306,14 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
             swirl=cell * elements.fx,
         )  # fmt: skip
-    elif on_stand:  # The shaft's.
-        weights = Weights(fx=cell * problem.disk.r[:, None])
     else:
-        weights = Weights(terms=adjoint.power_terms)
+        weights = Weights(terms=adjoint.total_terms)
     if objective == "total":
-        gain = _tail_gain(adjoint.solution)
+        gain = tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 
 
-def _tail_gain(solution: Solution) -> float:
+def tail_gain(solution: Solution) -> float:
     """Total power per watt at the shaft, the tail rotor included; 1 on a stand."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]

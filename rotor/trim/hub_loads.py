@@ -1,8 +1,10 @@
 """Vibratory loads on the hub, what they are summed up to, and their gradient by the pitch along the blade.
 
-The index weighs the amplitudes at N_b per revolution as studies of lift-offset rotors do: 0.5, 0.67 and 1 for aft, side
-and vertical force, moments over the radius. The weights of the forces are those of the intrusion index (S. Crews,
-Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987). Both are recalled, not looked up.
+The index weighs the amplitudes at N_b per revolution: 0.5, 0.67 and 1 for aft, side and vertical force, moments over
+the radius. Studies of lift-offset rotors call such a sum the vibration index (Int. J. Aerospace Engineering, 2019,
+9589415, whose abstract states its reductions by 2/rev and 3/rev pitch). The weights of the forces are taken for those
+of the intrusion index (S. Crews, Rotorcraft Vibration Criteria, a New Perspective, AHS Forum 43, 1987; US Army
+ADS-27A-SP, 2006). No text that prints the weights could be looked up: they are recalled.
 
 Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
 frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
@@ -78,8 +80,8 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
             return None
     adjoint = Adjoint(solution)
     problem, point = adjoint.problem, adjoint.point
-    values = _scaled(problem, _terms(problem, point).value(point.z, point.q))
-    index = 100.0 * _index(design, values)[0]
+    values = scaled_loads(problem, load_terms(problem, point).value(point.z, point.q))
+    index = 100.0 * index_of(design, values)[0]
     others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
     force, moment = root_loads(problem, point)
@@ -105,19 +107,19 @@ def _indices(design: Design, solve: Solve) -> list[float]:
     return found
 
 
-def _terms(problem: Problem, point: Point) -> Terms:
+def load_terms(problem: Problem, point: Point) -> Terms:
     assert problem.bending is not None
     return hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
 
 
-def _scaled(problem: Problem, values: Array) -> Array:
-    """N and N m, cosine and sine of each load, (loads, 2)."""
+def scaled_loads(problem: Problem, values: Array) -> Array:
+    """N and N m from units of the equations: cosine and sine of each load in turn → (loads, 2)."""
     design = problem.design
     lengths = np.array([1.0] * 3 + [design.rotor.radius] * 2)
     return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
 
 
-def _index(design: Design, values: Array) -> tuple[float, Array]:
+def index_of(design: Design, values: Array) -> tuple[float, Array]:
     """The index, a fraction, and its slopes by the loads, (loads, 2)."""
     condition, radius = design.condition, design.rotor.radius
     weight = condition.weight if condition.stand is None else design.weight_coefficient * design.thrust_unit
@@ -141,12 +143,25 @@ def hub_load_gradient(solution: Solution) -> PitchGradient:
     if not solution.design.models.bending:
         raise RuntimeError("The blades do not bend in this solution: solve the design with bending first.")
     adjoint = Adjoint(solution)
-    problem, point, design = adjoint.problem, adjoint.point, solution.design
-    terms = _terms(problem, point)
-    slopes = _index(design, _scaled(problem, terms.value(point.z, point.q)))[1]
-    weights = 100.0 * _scaled(problem, np.ones(2 * len(LOADS))) * slopes
+    return PitchGradient(adjoint.problem.disk.r, adjoint.problem.disk.dr, index_along(adjoint)[1])
+
+
+def hub_index(adjoint: Adjoint) -> float:
+    """The index [%] of a trim that has hub loads, with blades that bend."""
+    problem, point = adjoint.problem, adjoint.point
+    return (
+        100.0 * index_of(problem.design, scaled_loads(problem, load_terms(problem, point).value(point.z, point.q)))[0]
+    )
+
+
+def index_along(adjoint: Adjoint) -> tuple[float, Array]:
+    """The index [%], and its slope by each element's pitch [%/rad], (elements,)."""
+    problem, point = adjoint.problem, adjoint.point
+    terms = load_terms(problem, point)
+    index, slopes = index_of(problem.design, scaled_loads(problem, terms.value(point.z, point.q)))
+    weights = 100.0 * scaled_loads(problem, np.ones(2 * len(LOADS))) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
-    return PitchGradient(problem.disk.r, problem.disk.dr, adjoint.by_pitch(Weights(terms=summed)))
+    return 100.0 * index, adjoint.by_pitch(Weights(terms=summed))
 
 
 def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:

@@ -23,6 +23,7 @@ from explorer.export.provenance import versions
 from explorer.export.report import document
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
+from explorer.export.report.tables import vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
@@ -33,6 +34,7 @@ from explorer.picture.regions import NO_MARKS, Marks
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.web import json_block
 from rotor.design.design import Design
+from rotor.files.make_design import make_design
 from rotor.trim.solution import Status
 from rotor.trim.solve import solve
 
@@ -148,6 +150,17 @@ class TestReport:
             assert f"<tr><td>{name}</td><td>{number}</td></tr>" in page
         assert escape(json.dumps(FAST.design.to_dict()["twist"])) in page
         assert "Kept &lt;1&gt;" in page
+
+    def test_hub_loads_of_blades_that_bend(self, page: str):
+        assert "Vibration index" not in page
+        design = make_design(mu=0.3, inflow="pitt-peters", bending=True)
+        fast, slow = solve(design), solve(design.at(mu=0.1))
+        words = vibration(fast)
+        assert fast.hub_loads is not None
+        assert f"{fast.hub_loads.index:.1f} % of the weight" in words
+        assert "over wakes" in words
+        assert "below µ 0.2" in vibration(slow)
+        assert "per rev" in vibration(slow)
 
     def test_does_not_compare_what_flies_differently(self, page: str):
         assert "other flight condition" in page

@@ -247,7 +247,10 @@ WRONG = {
     "rotor.sweep(design, mu=['fast'])": (TypeError, "mu is 'fast'"),
     "rotor.optimise(design, concept='cubic')": (ValueError, "concept 'cubic' is not known: use one of linear"),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
-    "rotor.optimise(design, quantity='noise')": (ValueError, "objective 'noise' is not known: use total or induced"),
+    "rotor.optimise(design, quantity='noise')": (
+        ValueError,
+        "objective 'noise' is not known: use total, induced, vibration",
+    ),
     "rotor.load_design('none.json')": (ValueError, "'none.json' does not exist"),
     "rotor.load_rotor('none.toml')": (ValueError, "'none.toml' does not exist"),
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),

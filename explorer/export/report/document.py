@@ -120,7 +120,7 @@ def _section(report: DesignReport, k: int) -> str:
         f"{escape(model_words(solution.design))}</p>"
         f"{_caveats(solution)}"
         f'<div class="tables">{tables.conditions(solution)}{tables.parts(report, entry)}'
-        f"{tables.trim(solution)}</div>{tables.blade(solution.design)}"
+        f"{tables.trim(solution)}{tables.vibration(solution)}</div>{tables.blade(solution.design)}"
         f"{figures.disks(report, entry, k)}{figures.along(solution)}{_design_file(solution.design)}</section>"
     )
 

@@ -15,6 +15,7 @@ from explorer.text.status import section_title
 from explorer.theme.colours import PARTS
 from rotor.aero.problem import grid_of
 from rotor.design.design import Design
+from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
@@ -149,6 +150,31 @@ def trim(solution: Solution) -> str:
         ("Stalled", f"{stalled[0]} % of the disk, {stalled[1]} % of the thrust"),
     ]
     return _table("Trim", rows)
+
+
+def vibration(solution: Solution) -> str:
+    """Loads on the hub and frequencies of blades that bend; nothing for others."""
+    if not solution.design.models.bending:
+        return ""
+    rows: list[Row] = []
+    if (frequencies := solution.blade_frequencies) is not None:
+        for name, own in vars(frequencies).items():
+            rows.append((f"Blade in {name}", f"{', '.join(number(value, 2) for value in own[:3])} per rev"))
+    if (reason := why_no_hub_loads(solution.design)) is not None:
+        rows.append(("Hub loads", reason.sentence))
+    elif (loads := solution.hub_loads) is not None:
+        low, high = loads.band or (loads.index, loads.index)
+        force, moment = (
+            ", ".join(number(size) for name, size in loads.amplitudes.items() if name[0] == kind) for kind in "fm"
+        )
+        rows += [
+            (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
+            (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
+            ("Vibration index", f"{number(loads.index, 1)} % of the weight"),
+            ("The same over wakes", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
+            ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments over the radius"),
+        ]
+    return _table("Vibration", rows)
 
 
 def blade(design: Design) -> str:

@@ -50,6 +50,34 @@ def test_optimise_json(capsys: pytest.CaptureFixture[str]):
     assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
 
 
+def test_least_vibration(capsys: pytest.CaptureFixture[str]):
+    flags = (
+        "optimise",
+        "--mu",
+        "0.3",
+        "--bending",
+        "--inflow",
+        "pitt-peters",
+        "--objective",
+        "vibration",
+        "--starts",
+        "2",
+    )
+    code, out, _ = run(capsys, *flags, "--json")
+    answer = json.loads(out, parse_constant=no_constant)
+    assert code == 0
+    assert answer["index_percent"] < answer["baseline_index_percent"]
+    low, high = answer["index_band_percent"]
+    assert low - 1e-6 <= answer["index_percent"] <= high + 1e-6
+    code, out, _ = run(
+        capsys, "solve", "--mu", "0.3", "--bending", "--inflow", "pitt-peters", "--twist", answer["twist"], "--json"
+    )
+    assert_allclose(json.loads(out)["hub_loads"]["index_percent"], answer["index_percent"], rtol=1e-5)
+    code, out, _ = run(capsys, *flags)
+    assert "within 0.1 % of the index" in out
+    assert "over wakes: trade-offs, not a level" in out
+
+
 def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str]):
     flags = ("--mu", "0.2", "--mass-kg", "7800")
     code, out, _ = run(

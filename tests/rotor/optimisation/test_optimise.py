@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.aero.problem import build_problem
 from rotor.analysis.series import sweep
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
@@ -16,7 +17,14 @@ from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
 from rotor.optimisation.descent import second_derivatives
-from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, measure
+from rotor.optimisation.objective import (
+    Objective,
+    Quantity,
+    WeightedCondition,
+    at_condition,
+    hover_and_cruise,
+    measure,
+)
 from rotor.optimisation.search import (
     ChangeLimit,
     Limits,
@@ -27,6 +35,8 @@ from rotor.optimisation.search import (
     even_change_limit,
     run_search,
 )
+from rotor.trim.hub_loads import hub_loads
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
 DEGREE = math.radians(1.0)
@@ -238,12 +248,12 @@ def test_stalled_area_limit_is_kept():
     design = small(0.36)
     free = run_search(Search(design, CONCEPTS["two-segment"], starts=2, band=False))
     assert free.best is not None
-    counted = measure(at_condition(design), free.design, stall=True).stalled[0]
+    counted = measure(at_condition(design), free.design, limits=Limits(stalled=1.0)).limited[0] / 100.0
     limit = 0.9 * counted
     held = run_search(Search(design, CONCEPTS["two-segment"], limits=Limits(stalled=limit), starts=3, band=False))
     assert held.best is not None
     assert "stalled area" in held.best.active
-    assert measure(at_condition(design), held.design, stall=True).stalled[0] <= limit + 2e-5
+    assert measure(at_condition(design), held.design, limits=Limits(stalled=1.0)).limited[0] / 100.0 <= limit + 2e-5
     assert held.best.power > free.best.power
 
 
@@ -347,9 +357,88 @@ def test_induced_power_as_objective():
         (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("rate", 0.1, 0.0),))), "are empty"),
         (lambda: Limits(rate=(0.1, 0.0)), "steepest first"),
         (lambda: Limits(stalled=2.0), "200 %"),
+        (lambda: Limits(index=0.0), "0 % of the vibration index"),
         (lambda: ChangeLimit(LinearTwist(0.0), (0.0, 1.0), (0.1,)), "one angle"),
     ],
 )
 def test_bad_searches_are_one_sentence(call, words: str):
     with pytest.raises(ValueError, match=words):
         call()
+
+
+class TestVibration:
+    """The index of the hub loads as objective and limit."""
+
+    TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
+
+    @staticmethod
+    def bent(mu: float, twist: str | None = None) -> Design:
+        return make_design(mu=mu, twist=twist, inflow="pitt-peters", bending=True)
+
+    @pytest.mark.parametrize("quantity", ["vibration", "total"])
+    def test_gradients_over_two_conditions(self, quantity: Quantity):
+        """Of objective and limits by twist in two segments, against differences of tight trims."""
+        concept, design, held = CONCEPTS["two-segment"], self.bent(0.3), Limits(index=3.0, stalled=0.1)
+        conditions = tuple(
+            WeightedCondition(self.bent(mu).condition, hours) for mu, hours in ((0.25, 2.0), (0.33, 1.0))
+        )
+        objective, values, step = Objective(quantity, conditions), np.radians([-8.0, -11.0]), math.radians(0.05)
+        found = measure(objective, concept.apply(design, values), limits=held, options=self.TIGHT)
+        assert found.by_pitch is not None
+        assert found.limited_by_pitch is not None
+        slopes = concept.slopes(values, build_problem(design).disk.r)
+        for k, along in enumerate(np.eye(2)):
+            low, high = (
+                measure(objective, concept.apply(design, values + sign * step * along), limits=held, options=self.TIGHT)
+                for sign in (-1.0, 1.0)
+            )
+            assert low.value is not None
+            assert high.value is not None
+            assert_allclose(slopes[k] @ found.by_pitch, (high.value - low.value) / (2.0 * step), rtol=1e-3)
+            expected = (np.array(high.limited) - np.array(low.limited)) / (2.0 * step)
+            assert_allclose(found.limited_by_pitch[2:] @ slopes[k], expected[2:], rtol=1e-3)
+        assert found.index is not None
+        assert_allclose(found.index, (2.0 * found.limited[2] + found.limited[3]) / 3.0, rtol=1e-12)
+
+    def test_least_index(self):
+        """No linear twist of a grid has less, and the power beside it is that of the trim."""
+        design = self.bent(0.3)
+        found = run_search(Search(design, CONCEPTS["linear"], at_condition(design, "vibration"), starts=3))
+        assert found.status is SearchStatus.CONVERGED
+        assert found.best is not None
+        assert found.best.index is not None
+        for rate in np.arange(-20.0, 6.0, 2.5).tolist():
+            loads = hub_loads(solve(self.bent(0.3, f"linear:{rate:g}")).require(), solve, band=False)
+            assert loads is not None
+            assert loads.index > found.best.index
+        assert_allclose(solve(found.design).power.total, found.best.power, rtol=1e-6)
+        assert found.baseline_index is not None
+        assert found.baseline_index > found.best.index
+        (band,) = found.band
+        assert band.low < found.best.parameters[0] < band.high
+
+    def test_limit_is_kept_and_costs_power(self):
+        design = self.bent(0.35)
+        free = run_search(Search(design, CONCEPTS["linear"], limits=Limits(index=1e3), starts=2, band=False))
+        assert free.best is not None
+        assert free.best.index is not None
+        limit = 0.8 * free.best.index
+        held = run_search(Search(design, CONCEPTS["linear"], limits=Limits(index=limit), starts=2, band=False))
+        assert held.best is not None
+        assert "vibration index" in held.best.active
+        loads = hub_loads(solve(held.design).require(), solve, band=False)
+        assert loads is not None
+        assert_allclose(loads.index, limit, rtol=1e-3)
+        assert held.best.power > free.best.power
+
+    def test_conditions_without_hub_loads_are_refused_before_the_search(self):
+        design, both = self.bent(0.3), hover_and_cruise(self.bent(0.3), 0.5, 0.3)
+        search = Search(design, CONCEPTS["linear"])
+        for change, words in (
+            ({"objective": at_condition(design.at(mu=0.1), "vibration")}, "advance ratio 0.1.*below µ 0.2"),
+            ({"objective": both, "limits": Limits(index=3.0)}, "advance ratio 0,.*below µ 0.2"),
+            ({"design": make_design(mu=0.3), "limits": Limits(index=3.0)}, "--bending"),
+            ({"design": make_design(rotor="r22", mu=0.25), "limits": Limits(index=3.0)}, "not known"),
+        ):
+            with pytest.raises(ValueError, match=words):
+                replace(search, **change)

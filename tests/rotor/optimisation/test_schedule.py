@@ -213,3 +213,10 @@ def test_fifteen_conditions_all_concepts_two_processes():
                 poor,
                 rich,
             )
+
+
+def test_a_limit_of_the_index_needs_hub_loads_everywhere():
+    with pytest.raises(ValueError, match="the vibration index"):
+        replace(plan("linear"), limits=Limits(index=3.0))
+    with pytest.raises(ValueError, match="weighs powers"):
+        replace(plan("linear"), quantity="vibration")

@@ -23,7 +23,7 @@ from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, e
 from rotor.study.findings import best_row, effects, robust_best
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, Store, StoreError, read_file, read_results
-from rotor.study.study import Axis, Sample, StudyPoints, default_chunk
+from rotor.study.study import Axis, Sample, StudyPoints, columns_of, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.trim.solve import solve
 
@@ -478,3 +478,19 @@ def test_one_ctrl_c_received_twice_counts_once():
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
         assert stop()
+
+
+def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
+    text = SMALL.replace("[models]", "[models]\nbending = true").replace("elements = 12\nazimuths = 24\n", "")
+    study = parse_study(text)
+    rows = evaluate_points(study, 0, study.count)
+    slow, fast = (next(row for row in rows if row["mu"] == mu and row["rate_deg"] == -8) for mu in (0.1, 0.3))
+    assert "index_percent" not in slow
+    assert "no-hub-loads" in slow["caveats"]
+    design = make_design(twist="linear:-8", mu=0.3, inflow="pitt-peters", bending=True)
+    loads = solve(design).hub_loads
+    assert loads is not None
+    assert_allclose((fast["index_percent"], fast["hub_fz_n"]), (loads.index, loads.amplitudes["fz"]), rtol=1e-4)
+    assert 2.7 < slow["flap_2_per_rev"] < 2.9
+    names = {column.name for column in columns_of(study)}
+    assert {"index_percent", "hub_mx_nm", "torsion_1_per_rev"} <= names

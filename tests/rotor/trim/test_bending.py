@@ -1,6 +1,7 @@
 """Trims of a blade that bends: identities, hub loads from two sides, gradient, time marching, convergence."""
 
 import math
+import time
 from dataclasses import replace
 from functools import cache
 
@@ -10,6 +11,8 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.aero.bending import BladeBending
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
@@ -305,13 +308,23 @@ def test_loads_do_not_depend_on_the_pitch_of_the_modes(monkeypatch: pytest.Monke
 
 @pytest.mark.slow
 def test_more_modes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two flap modes more: index within 1 %, vertical force within 3 %, power within 0.2 %."""
+    """Two flap modes more: index within 1 %, vertical force within 3 %, power within 0.2 %.
+
+    The target of 3 % is missed by 1 % and 2 % elsewhere: with a flap and a lag mode more the vertical force has 3.4 %
+    more with a lifting line, and 4.8 % less with linear inflow, where it is a quarter of that.
+    """
     few = _solved(0.3, LINE)
     monkeypatch.setattr("rotor.aero.problem.MODES", (6, 3))
     more = rotor.solve(_design(0.3, LINE)).require()
     assert_allclose(_loads(more).index, _loads(few).index, rtol=0.01)
     assert_allclose(_loads(more).amplitudes["fz"], _loads(few).amplitudes["fz"], rtol=0.03)
     assert_allclose(more.power.total, few.power.total, rtol=2e-3)
+    monkeypatch.setattr("rotor.aero.problem.MODES", (5, 4))
+    for inflow in (LINE, LINEAR):
+        design = _design(0.3, inflow)
+        other = _loads(rotor.solve(replace(design, rotor=replace(design.rotor, name="with nine modes"))).require())
+        assert_allclose(other.index, _loads(_solved(0.3, inflow)).index, rtol=0.02)
+        assert_allclose(other.amplitudes["fz"], _loads(_solved(0.3, inflow)).amplitudes["fz"], rtol=0.05)
 
 
 @pytest.mark.slow
@@ -334,8 +347,59 @@ def test_more_azimuths() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("finer", [{"azimuths": 48}, {"panels": 48}], ids=["azimuths", "panels"])
+def test_twice_the_grid_of_the_lifting_line(finer: dict[str, int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """The index within 6 %, and what 3/rev twist does to it within 3 % of it.
+
+    The target for all loads, 1 %, is missed by the grid of the wake, which lies with its 24 azimuths and panels.
+    """
+    few = _loads(_solved(0.3, LINE)).index
+    before = _loads(rotor.solve(_design(0.3, LINE, twist_per_rev="3:1:45"))).index / few
+    monkeypatch.setitem(INFLOW_MODELS, "lifting-line", replace(LiftingLineInflow(), **finer))
+    rotor_ = replace(_design(0.3, LINE).rotor, name=f"with {finer}")
+    plain, moved = (
+        _loads(rotor.solve(replace(_design(0.3, LINE, twist_per_rev=own), rotor=rotor_))).index
+        for own in ("", "3:1:45")
+    )
+    assert_allclose(plain, few, rtol=0.06)
+    assert_allclose(moved / plain, before, atol=0.03)
+
+
+@pytest.mark.slow
+def test_warm_trims_take_at_most_twice_the_time() -> None:
+    """Of a blade that does not bend. Cold ones miss that target: three to four times, see `bench`."""
+    warm = dict[bool, float]()
+    for bends in (False, True):
+        near, there = (rotor.make_design(mu=0.3, twist=f"linear:{rate}", bending=bends) for rate in (-10.0, -10.5))
+        start, times = rotor.solve(near), list[float]()
+        for _ in range(15):
+            begin = time.process_time()
+            rotor.solve(there, start)
+            times.append(time.process_time() - begin)
+        warm[bends] = min(times)
+    assert warm[True] < 2.0 * warm[False]
+
+
+@pytest.mark.slow
+def test_trends_that_linear_inflow_does_not_share() -> None:
+    """Known: 3/rev at 60° adds 39 %, 2/rev at 270° takes 29 %, and −20° of twist at µ 0.35 has 1.7 times the index
+    of 0°.
+
+    The loads at N_b/rev of a rotor in linear inflow miss what its own wake puts into them.
+    """
+    base = _loads(_solved(0.3, LINEAR)).index
+    flat, much = (_loads(rotor.solve(_design(0.35, LINEAR, twist=f"linear:{own}"))).index for own in (0, -20))
+    assert 1.3 < much / flat < 3.0
+    two, three = (
+        _loads(rotor.solve(_design(0.3, LINEAR, twist_per_rev=own))).index / base - 1.0 for own in ("2:1:270", "3:1:60")
+    )
+    assert -0.35 < two < -0.20
+    assert three > 0.0
+
+
+@pytest.mark.slow
 def test_trends() -> None:
-    """With a lifting line, as an independent prototype with other wakes has them; linear inflow misses the last."""
+    """With a lifting line, as an independent prototype with other wakes has them."""
     flat, much = (_loads(rotor.solve(_design(0.35, LINE, twist=f"linear:{own}"))).index for own in (0, -20))
     assert much > 3.0 * flat
     base = _loads(_solved(0.3, LINE)).index

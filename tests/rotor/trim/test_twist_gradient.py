@@ -11,7 +11,7 @@ from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure
+from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, measure
 from rotor.trim.newton import SolverOptions
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
@@ -60,7 +60,7 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
     assert_allclose(ways @ exact, measured, atol=RELATIVE * scale, rtol=0.0)
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("quantity", POWERS)
 @pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_forward_flight(inflow: str, quantity):
     """The slope by the pitch of every element, which holds those of all concepts."""
@@ -74,7 +74,7 @@ def test_concepts_in_forward_flight(name: str):
     check(design, name, at_condition(design), every=False)
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("quantity", POWERS)
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 @pytest.mark.parametrize("name", CONCEPTS)
 def test_hover(name: str, preset: str, quantity):
@@ -100,7 +100,7 @@ def test_mission(name: str):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("quantity", POWERS)
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.35])
 @pytest.mark.parametrize("name", CONCEPTS)
 def test_full_grid(name: str, mu: float, quantity):

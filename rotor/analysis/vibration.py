@@ -1,0 +1,388 @@
+"""What moving a twist does to power and to the loads on the hub: the response to n/rev twist, and fronts of both.
+
+The response to active twist at n per revolution, tip relative to root as on a blade at rest, has for every harmonic a
+cosine and a sine, A cos(nψ − φ) = a cos nψ + b sin nψ with a = A cos φ and b = A sin φ. At a trim
+
+    J dx = −∂R/∂(a, b),    dm = ∂m/∂x dx + ∂m/∂(a, b)
+
+gives exact slopes of the loads and of power, m, with trim, wake, bending and torsion following: the T-matrix of
+higher-harmonic control (W. Johnson, Self-tuning regulators for multicyclic control of helicopter vibration, NASA
+TP-1996, 1982). Its change between trims with one harmonic each gives the second order, without which power has no
+least.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import optimize
+
+from rotor.aero.problem import given_torsion
+from rotor.aero.section import RATE, TH
+from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
+from rotor.columns.bending import LOADS
+from rotor.design.active_twist import Harmonic, PerRev, linear_active_twist, read_harmonics
+from rotor.design.design import Design, require_design
+from rotor.engine.linearise import jacobian
+from rotor.engine.linearise import response as linear_response
+from rotor.engine.terms import Terms
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.evaluator import TrimmedBlades
+from rotor.optimisation.limits import Limits
+from rotor.optimisation.objective import Objective, WeightedCondition, check_index
+from rotor.optimisation.results import Minimum, Optimum, SearchStatus
+from rotor.optimisation.search import Search, run_search
+from rotor.trim.adjoint import Adjoint, tail_gain
+from rotor.trim.hub_loads import BAND, hub_index, index_of, load_terms, scaled_loads
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+STEP = math.radians(0.5)
+"""Amplitude of the trims that give the second order. Our choice, half of what actuators reach."""
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """What an active twist does, by a `TMatrix`."""
+
+    power: float
+    """Total power [W]."""
+    index: float
+    """[%]"""
+    loads: dict[str, complex]
+    """fx, fy, fz [N], mx, my [N m] at N_b/rev: amplitude and, as the angle, phase of A cos(N_b ψ − φ)."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TMatrix:
+    """The response of hub loads and power to n/rev twist. Columns: cosine and sine of each harmonic in turn, (2 H,)."""
+
+    solution: Solution
+    """The trim without active twist."""
+    harmonics: tuple[int, ...]
+    """(H,)"""
+    base: Array
+    """Cosine and sine at N_b ψ of fx, fy, fz [N], mx, my [N m], then total power [W], without active twist, (11,)."""
+    slopes: Array
+    """Their slopes [1/rad], (11, 2 H)."""
+    second: Array
+    """Their second derivatives [1/rad²], (11, 2 H, 2 H)."""
+
+    def __repr__(self) -> str:
+        design = self.solution.design
+        return f"TMatrix({design.rotor.name}, mu {design.condition.advance_ratio:g}, harmonics {self.harmonics})"
+
+    @property
+    def complex_loads(self) -> NDArray[np.complex128]:
+        """T: amplitude and phase of each load by a degree of each harmonic at phase 0 [N/°, N m/°], (5, H), complex.
+
+        At another phase a load is not that times a rotation: it has a part that turns with φ and one against it.
+        """
+        slopes = self.slopes[:-1].reshape(len(LOADS), 2, -1, 2)[..., 0]
+        return (slopes[:, 0] + 1j * slopes[:, 1]) * math.radians(1.0)
+
+    def response(self, twist_per_rev: PerRev) -> Response:
+        """Of an active twist, `N:DEG:PHASE[,…]` or as `make_design` takes it. ValueError for other harmonics."""
+        x = np.zeros((len(self.harmonics), 2))
+        for one in read_harmonics(twist_per_rev, "twist_per_rev"):
+            if one.per_rev not in self.harmonics:
+                have = ", ".join(map(str, self.harmonics))
+                raise ValueError(f"the matrix has no {one.per_rev}/rev: use {have}, or make it with that harmonic")
+            phase = np.array([math.cos(one.phase), math.sin(one.phase)])
+            x[self.harmonics.index(one.per_rev)] = one.amplitude * phase
+        values = self._values(x.ravel())[0]
+        loads = values[:-1].reshape(-1, 2)
+        found = [complex(cosine, sine) for cosine, sine in loads.tolist()]
+        index = 100.0 * index_of(self.solution.design, loads)[0]
+        return Response(float(values[-1]), index, dict(zip(LOADS, found, strict=True)))
+
+    def twist(self, x: Array) -> tuple[Harmonic, ...]:
+        """Active twist of cosines and sines [rad], (2 H,)."""
+        pairs = zip(self.harmonics, x.reshape(-1, 2).tolist(), strict=True)
+        return tuple(Harmonic(n, math.hypot(a, b), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
+
+    def power_and_index(self, x: Array) -> tuple[Array, Array]:
+        """Total power [W] and index [%] with cosines and sines [rad], (2,), and their slopes by x, (2, 2 H)."""
+        values, slopes = self._values(x)
+        index, by_load = index_of(self.solution.design, values[:-1].reshape(-1, 2))
+        by_x = 100.0 * by_load.ravel() @ slopes[:-1]
+        return np.array([values[-1], 100.0 * index]), np.stack([slopes[-1], by_x])
+
+    def _values(self, x: Array) -> tuple[Array, Array]:
+        bent = self.second @ x
+        return self.base + (self.slopes + 0.5 * bent) @ x, self.slopes + bent
+
+
+def with_harmonics(design: Design, harmonics: tuple[Harmonic, ...]) -> Design:
+    """The design with this active twist, of the shape along the span that it has or else linear."""
+    old = design.active_twist
+    if not harmonics:
+        return replace(design, active_twist=None)
+    if old is not None:
+        return replace(design, active_twist=replace(old, harmonics=harmonics))
+    return replace(design, active_twist=linear_active_twist(harmonics, design.rotor.blade.root_cutout))
+
+
+def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix:
+    """The response of hub loads and power of a design to n/rev twist, trimmed; about a second.
+
+    `T.response("2:1:240,3:0.5:60")` then answers at once: loads, index and power. What active twist the design has
+    does not count but for its shape along the span. Raises ValueError with one sentence for a design without hub loads,
+    RuntimeError with the solution's sentence for one that does not trim.
+    """
+    require_design(design)
+    check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
+    waves = read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics")
+    shaped = with_harmonics(design, waves)
+    base = solve(replace(design, active_twist=None)).require()
+    numbers = tuple(wave.per_rev for wave in waves)
+    found = TMatrix(base, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1)))
+    second = np.zeros((*found.slopes.shape, found.slopes.shape[1]))
+    for k, step in enumerate(STEP * np.eye(found.slopes.shape[1])):
+        moved = solve(with_harmonics(shaped, found.twist(step)), base).require()
+        second[:, :, k] = (_measured(moved, shaped)[1] - found.slopes) / STEP
+    return replace(found, second=0.5 * (second + second.transpose(0, 2, 1)))
+
+
+def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
+    """Loads and power of a trim, (11,), and their slopes by the active twist of `shaped`, (11, 2 H)."""
+    adjoint = Adjoint(solution)
+    problem, point = adjoint.problem, adjoint.point
+    structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
+    loads = load_terms(problem, point)
+    both = _stacked(loads, adjoint.total_terms)
+    with one_blas_thread():
+        matrix, by_state = jacobian(point, both)
+        by_measure = both.slopes(point.z, point.q, structure.first_state)[0]
+        moved, direct = list[Array](), list[Array]()
+        twist = shaped.active_twist
+        assert twist is not None
+        for one in twist.harmonics:
+            for phase in (0.0, 0.5 * math.pi):
+                wave = replace(twist, harmonics=(Harmonic(one.per_rev, 1e-3, phase),))
+                fields = [1e3 * wave(disk.r, disk.psi, order) for order in range(3)]
+                given = np.zeros(len(structure.equations))
+                if torsion is not None:
+                    added = given_torsion(torsion, np.zeros(len(disk.r)), fields[0], fields[2])
+                    for (k, h), value in np.ndenumerate(added):
+                        given[structure.equations["twist", k, h]] = value
+                on_equations, on_measures = linear_response(point, {TH: fields[0], RATE: fields[1]}, given)
+                moved.append(on_equations)
+                direct.append(on_measures)
+        states = np.linalg.solve(matrix, np.stack(moved, axis=1))
+    slopes = by_measure @ np.stack(direct, axis=1) - by_state @ states
+    watts = solution.design.power_unit * tail_gain(solution)
+    units = np.append(scaled_loads(problem, np.ones(2 * len(LOADS))).ravel(), watts)[:, None]
+    values = np.append(scaled_loads(problem, loads.value(point.z, point.q)).ravel(), solution.power.total)
+    return values, slopes * units
+
+
+def _stacked(one: Terms, other: Terms) -> Terms:
+    """The rows of one and of the other."""
+    pairs = ((getattr(one, name), getattr(other, name)) for name in ("measure", "first", "second", "factor"))
+    row = np.concatenate([one.row, other.row + one.rows])
+    return Terms(row, *(np.concatenate(pair) for pair in pairs), rows=one.rows + other.rows)
+
+
+@dataclass(frozen=True, eq=False)
+class FrontPoint:
+    """One compromise between power and vibration, trimmed."""
+
+    design: Design
+    power: float
+    """Total [W]."""
+    index: float
+    """[%]"""
+    preview: tuple[float, float] | None = None
+    """Power [W] and index [%] that the T-matrix foresaw; None where there is none."""
+    band: tuple[float, float] | None = None
+    """Least and largest index over the wakes of `hub_loads.BAND` with which it trims [%]."""
+    over_wakes: tuple[float, float] | None = None
+    """Least and largest change of the index from the start, each with the same wake [%]; None for the start."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class VibrationFront:
+    """Designs of which none has both less power and less vibration than another, from least power to least index."""
+
+    start: FrontPoint
+    """What they are compared with: without active twist, or with the twist given."""
+    points: tuple[FrontPoint, ...]
+    message: str
+    """How it was found, in one sentence or two."""
+
+    def __repr__(self) -> str:
+        ends = " to ".join(
+            f"({power:+.2f} %, {index:+.0f} %)" for power, index in self.changes[:: len(self.points) - 1 or 1]
+        )
+        return f"VibrationFront({len(self.points)} points of power and index: {ends})"
+
+    @property
+    def changes(self) -> tuple[tuple[float, float], ...]:
+        """Change of power and of index from the start [%], point by point."""
+        return tuple(
+            (100.0 * (one.power / self.start.power - 1.0), 100.0 * (one.index / self.start.index - 1.0))
+            for one in self.points
+        )
+
+    @property
+    def preview_error(self) -> tuple[float, float] | None:
+        """Largest errors of the preview, of power and of index, in per cent of those of the start."""
+        pairs = [(one.preview, one) for one in self.points]
+        power = [abs(seen[0] - one.power) / self.start.power for seen, one in pairs if seen is not None]
+        index = [abs(seen[1] - one.index) / self.start.index for seen, one in pairs if seen is not None]
+        return (100.0 * max(power), 100.0 * max(index)) if power else None
+
+
+def vibration_front(
+    design: Design,
+    concept: str | None = None,
+    *,
+    harmonics: Sequence[int] = (2, 3),
+    reach_deg: float = 1.0,
+    points: int = 5,
+) -> VibrationFront:
+    """Least power at one limit of the vibration index after another, from least power to least index; some seconds.
+
+    concept: of the static twist to vary, as for `rotor.optimise`; None: active twist at rest is varied instead.
+    harmonics, reach_deg: of the active twist, and its largest amplitude at each.
+    points: how many, 2 to 50.
+
+    Every point is trimmed. Points of active twist are found with `t_matrix`, whose error there is stated; those of
+    static twist by searches. Raises ValueError with one sentence for bad input and for a design without hub loads,
+    RuntimeError where the start does not trim.
+    """
+    require_design(design)
+    if not 2 <= points <= 50:
+        raise ValueError(f"{points} points of a front are outside 2…50: 5 suffice for most")
+    if not 0.0 < reach_deg <= 5.0:
+        raise ValueError(f"reach {reach_deg:g}° of the active twist is outside 0…5°: actuators have 1 to 2")
+    check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
+    if concept is not None:
+        return _static_front(design, concept, points)
+    matrix = t_matrix(design, harmonics)
+    start, found, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
+    for x in _active_twists(matrix, math.radians(reach_deg), points):
+        solution = solve(with_harmonics(design, matrix.twist(x)), matrix.solution)
+        power, index = matrix.power_and_index(x)[0].tolist()
+        found += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
+        lost += not solution.converged
+    reached = f"at most {reach_deg:g}° each of {', '.join(map(str, matrix.harmonics))}/rev"
+    words = f"Active twist, {reached}; every point is trimmed again."
+    return _over_wakes(VibrationFront(start, tuple(found), words + (f" {lost} did not trim." if lost else "")))
+
+
+def _trimmed(solution: Solution) -> FrontPoint:
+    solution.require()
+    return FrontPoint(solution.design, solution.power.total, hub_index(Adjoint(solution)))
+
+
+def _over_wakes(front: VibrationFront) -> VibrationFront:
+    """With band and changes of the index over wakes."""
+    every = (front.start, *front.points)
+    indices = np.array([[_index_with(one, inflow) for inflow in BAND] for one in every])
+    changes = 100.0 * (indices / indices[0] - 1.0)
+    found = [
+        replace(one, band=_ends([*own, one.index]), over_wakes=_ends(change) if one is not front.start else None)
+        for one, own, change in zip(every, indices.tolist(), changes.tolist(), strict=True)
+    ]
+    return replace(front, start=found[0], points=tuple(found[1:]))
+
+
+def _index_with(one: FrontPoint, inflow: str) -> float:
+    """The index with another wake [%]; NaN where it does not trim."""
+    models = one.design.models
+    if inflow == models.inflow:
+        return one.index
+    other = solve(replace(one.design, models=replace(models, inflow=inflow)))
+    return hub_index(Adjoint(other)) if other.converged else math.nan
+
+
+def _ends(values: Sequence[float]) -> tuple[float, float] | None:
+    """Least and largest of those that there are."""
+    known = [value for value in values if math.isfinite(value)]
+    return (min(known), max(known)) if known else None
+
+
+_minimize = cast(Any, optimize.minimize)
+
+
+def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
+    """Cosines and sines [rad] of least power for limits of the index, by the T-matrix."""
+    size, start = 2 * len(matrix.harmonics), matrix.power_and_index(np.zeros(2 * len(matrix.harmonics)))[0]
+    scale = np.array([0.01 * start[0], start[1]])
+
+    def seen(u: Array) -> tuple[Array, Array]:
+        values, slopes = matrix.power_and_index(reach * u)
+        return values / scale, slopes * (reach / scale[:, None])
+
+    def within(u: Array) -> Array:
+        return 1.0 - (u.reshape(-1, 2) ** 2).sum(axis=1)
+
+    def within_slopes(u: Array) -> Array:
+        pairs = -2.0 * u.reshape(-1, 2)
+        return np.stack([np.where(np.arange(size) // 2 == k, pairs.ravel(), 0.0) for k in range(len(pairs))])
+
+    def least(which: int, starts: Sequence[Array], limit: float | None = None) -> Array:
+        """Of power (0) or index (1), with the index at most `limit`."""
+
+        def cost(u: Array) -> tuple[float, Array]:
+            values, slopes = seen(u)
+            return values[which], slopes[which]
+
+        def room(u: Array) -> float:
+            return math.inf if limit is None else limit - seen(u)[0][1]
+
+        def room_slopes(u: Array) -> Array:
+            return -seen(u)[1][1]
+
+        limits: list[dict[str, Any]] = [{"type": "ineq", "fun": within, "jac": within_slopes}]
+        limits += [] if limit is None else [{"type": "ineq", "fun": room, "jac": room_slopes}]
+        options = {"maxiter": 200, "ftol": 1e-9}
+        found = [_minimize(cost, u, jac=True, method="SLSQP", constraints=limits, options=options) for u in starts]
+        ends = [*(np.asarray(one.x, dtype=np.float64) for one in found), *starts]
+        return min((u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0])
+
+    sides = [np.zeros(size), *(0.7 * np.eye(size)), *(-0.7 * np.eye(size))]
+    ends = least(0, sides), least(1, sides)
+    high, low = (float(seen(u)[0][1]) for u in ends)
+    found = [ends[0]]
+    for limit in np.linspace(high, low, points)[1:-1].tolist():
+        share = (high - limit) / (high - low)
+        found.append(least(0, [ends[1], found[-1], (1.0 - share) * ends[0] + share * ends[1]], limit))
+    return [reach * u for u in (*found, ends[1])]
+
+
+def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
+    """The same of static twist, by searches."""
+    here, family = (WeightedCondition(design.condition),), find_concept(concept)
+    start = _trimmed(solve(design))
+    plain = Search(design, family, Objective("total", here), starts=3, band=False)
+    least = run_search(replace(plain, limits=Limits(index=_ANY)))
+    calm = run_search(replace(plain, objective=Objective("vibration", here)))
+    searches, trimmed = [least, calm], TrimmedBlades()
+    found, (high, low) = [_best(least)], (_best(one).index or 0.0 for one in searches)
+    for limit in np.linspace(high, low, points)[1:-1].tolist():
+        guesses = found[-1].parameters, _best(calm).parameters
+        held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
+        searches.append(run_search(held, trimmed=trimmed))
+        found.append(_best(searches[-1]))
+    trims = [solve(family.apply(design, one.parameters)) for one in (*found, _best(calm))]
+    lost = sum(one.status is not SearchStatus.CONVERGED for one in searches)
+    words = f"Static twist, {family.title.lower()}."
+    words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""
+    return _over_wakes(VibrationFront(start, tuple(map(_trimmed, trims)), words))
+
+
+_ANY = 1e3
+"""A limit of the index [%] that no rotor reaches, so that it is measured."""
+
+
+def _best(optimum: Optimum) -> Minimum:
+    if optimum.best is None:
+        raise RuntimeError(f"No front: {optimum.message}")
+    return optimum.best
