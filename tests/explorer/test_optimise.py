@@ -30,6 +30,9 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.schedule import Cell, Plan
 from rotor.optimisation.search import SearchStatus as Status
+from rotor.optimisation.search import run_search
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -384,3 +387,18 @@ class TestSchedule:
         told: list[Any] = []
         schedule = ScheduleTask(progress.plan).run(told.append, lambda: len(told) > 0)
         assert len(schedule.cells) == 1
+
+
+def test_a_limit_on_vibration_needs_bending_and_is_kept():
+    """Without the limit the optimum has more; the notes name what it has."""
+    design = make_design(mu=0.3, bending=True)
+    request = SearchRequest(concept="linear", starts=1)
+    free = run_search(request.search(design, mission.legs)).best
+    assert free is not None
+    index = hub_index(Adjoint(solve(design.with_twist(free.twist)).require()))
+    held = run_search(replace(request, index=round(0.7 * index, 1)).search(design, mission.legs)).best
+    assert held is not None
+    assert held.index == pytest.approx(round(0.7 * index, 1), abs=0.02)
+    assert held.power > free.power
+    with pytest.raises(ValueError, match="switch Blade bending on"):
+        replace(request, index=3.0).search(make_design(mu=0.3), mission.legs)

@@ -59,6 +59,8 @@ class OptimisePanel:
             self._numbers["change"] = gui.add_slider(
                 "Change at tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit")
             )
+            self._limit_index = gui.add_checkbox("Limit vibration", False, hint=hint("limit_index"))
+            self._numbers["index"] = gui.add_slider("Index [%]", 0.5, 10.0, 0.1, 3.0, hint=hint("index_limit"))
         self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
         self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
         self._bar = gui.add_progress_bar(0.0)
@@ -78,7 +80,8 @@ class OptimisePanel:
         context.controls.optimise_button.on_click(lambda _: self._begin_from_rail())
         context.keyboard.bind("optimise", self.toggle)
         by_hand(self._scrubber, self._scrubbed)
-        for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
+        limits = self._limit_stall, self._limit_change, self._limit_index
+        for widget in (self._concept, self._objective, *limits, *self._numbers.values()):
             by_hand(widget, lambda _: context.wake())
 
     def request(self) -> SearchRequest:
@@ -94,6 +97,7 @@ class OptimisePanel:
             starts=round(number["starts"]),
             stalled=number["stalled"] if self._limit_stall.value else None,
             change=number["change"] if self._limit_change.value else None,
+            index=number["index"] if self._limit_index.value else None,
         )
 
     def _begin_from_rail(self) -> None:

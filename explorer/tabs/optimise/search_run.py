@@ -71,6 +71,8 @@ class SearchRequest:
     """[%] of the disk; None: no limit."""
     change: float | None = None
     """[°] at the tip; None: no limit."""
+    index: float | None = None
+    """Vibration index [%]; None: no limit."""
 
     def asks_for(self, name: str) -> bool:
         """Whether the number of that name plays a part."""
@@ -85,6 +87,8 @@ class SearchRequest:
                 return self.stalled is not None
             case "change":
                 return self.change is not None
+            case "index":
+                return self.index is not None
             case _:
                 return True
 
@@ -113,6 +117,8 @@ class SearchRequest:
 
     def search(self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]) -> Search:
         """The search; ValueError with one sentence where it makes no sense."""
+        if self.index is not None and not design.models.bending:
+            raise ValueError("A limit on vibration needs blades that bend: switch Blade bending on, under Model.")
         return Search(
             design=design,
             concept=self.known_concept(),
@@ -124,7 +130,7 @@ class SearchRequest:
     def limits(self, design: Design) -> Limits:
         """The limits; change is counted from the design's own twist."""
         change = None if self.change is None else even_change_limit(design.twist, math.radians(self.change))
-        return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change)
+        return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change, index=self.index)
 
 
 State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]

@@ -264,6 +264,8 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
     notes = [optimum.message]
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
+    if best.index is not None:
+        notes.append(f"Vibration index {number(best.index, 1)} %.")
     others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
     if others:
         notes.append(f"Other {'minimum' if len(others) == 1 else 'minima'}: {', '.join(others)}.")
