@@ -1,6 +1,7 @@
-"""`reproduce`: rebuilds the figures and tables of the thesis, and the trust table."""
+"""The source document: `reproduce` rebuilds its figures, `ladder` changes its assumptions one at a time."""
 
 import argparse
+import json
 import os
 import sys
 import time
@@ -9,7 +10,7 @@ from typing import Any
 from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, bar, interruptible
-from rotor.user_input import make_folder
+from rotor.user_input import make_folder, parse_range
 
 
 def add_parser(commands: Any) -> None:
@@ -40,9 +41,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
-    processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
-    if not 1 <= processes <= 64:
-        raise ValueError(f"{processes} processes are outside 1…64: give one a core")
+    processes = _processes(args)
     wanted = [find_entry(number) for number in args.figure or ()]
     entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = make_folder(args.out)
@@ -84,3 +83,37 @@ def run(args: argparse.Namespace) -> int:
     left = f", {len(entries) - len(made)} left out because of Ctrl-C" if stopped else ""
     print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
     return STOPPED if stopped else 0
+
+
+def add_ladder(commands: Any) -> None:
+    """Register `ladder`."""
+    parser = add_command(
+        commands, "ladder", "from preset thesis to flight, one assumption at a time: how far it moves the best twist"
+    )
+    parser.add_argument("--mu", metavar="A:B:STEP", help="hover (0) and advance ratios (default 0,0.1,0.15,…,0.35)")
+    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run_ladder)
+
+
+def run_ladder(args: argparse.Namespace) -> int:
+    """0, or 130 when interrupted."""
+    from rotor.reproduce.ladder import SPEEDS, calls, check_speeds, climb, record, text
+    from rotor.reproduce.runs import compute_ahead
+
+    speeds = check_speeds(parse_range(args.mu)) if args.mu else SPEEDS
+    groups = calls(speeds)
+    with interruptible() as stop, bar(len({call for group in groups for call in group}), "optimum") as advance:
+        if compute_ahead(groups, _processes(args), advance, stop):
+            return STOPPED
+    found = climb(speeds)
+    print(json.dumps(record(found), indent=2, allow_nan=False) if args.json else text(found))
+    return 0
+
+
+def _processes(args: argparse.Namespace) -> int:
+    """How many were asked for, or one a core; ValueError outside 1…64."""
+    count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
+    if not 1 <= count <= 64:
+        raise ValueError(f"{count} processes are outside 1…64: give one a core")
+    return count
