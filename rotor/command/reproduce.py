@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     count = sum(map(len, groups))
     stopped = False
     if count:
-        print(f"{count} searches for the optima of chapter 4, in {processes} processes", file=sys.stderr)
+        print(f"{count} searches, in {processes} processes", file=sys.stderr)
         # Figures without searches come first: a page that is stopped has them, and each takes a second at most.
         figures = [[(written, (entry.number, folder, pictures))] for entry in fast]
         with interruptible() as stop, bar(count + len(figures), "step") as advance:

@@ -11,6 +11,7 @@ from rotor.reproduce import (
     actuation,
     aircraft,
     disk_figures,
+    ladder,
     optimum_twist,
     readings,
     sections,
@@ -155,6 +156,9 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
         calls = dict.fromkeys(call for entry in entries if entry.needs for call in entry.needs(name))
         chained.append([call for call in calls if call[0] in (best, best_fixed)])
         alone += [[call] for call in calls if call[0] not in (best, best_fixed)]
+    climbing = [calls[0] for calls in alone if calls[0][0] in ladder.PARTS]
+    chained.append(climbing)
+    alone = [calls for calls in alone if calls[0] not in climbing]
     long = [calls for calls in alone if calls[0][0] is actuation.compared]
     short = [calls for calls in alone if calls not in long]
     return [*long, *(calls for calls in chained if calls), *short]
@@ -206,7 +210,7 @@ def _keys_1987(report: Report) -> TrustSet:
               unit="points")
         for name in ("thesis-wake", "flight")
         for key, words, published in (
-            ("hover", "hover", twist_effect.HOVER), ("fast", "330 km/h", twist_effect.FAST),
+            ("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST),
         )
     )  # fmt: skip
     return TrustSet(

@@ -34,7 +34,7 @@ RUNGS = {
 }
 """Assumptions by name, in the order of the ladder: what takes the place of what."""
 TRIM = ("cyclic", "axial")
-"""What only belongs together: a rotor without one of them does not fly as an aircraft does."""
+"""Counted as one change too: the trim of an aircraft has both."""
 SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 STRONG, WEAK = -17.3, -11.5
 """Twists of Keys et al. [°], read per radius."""
@@ -133,6 +133,13 @@ def strong_over_weak(on: tuple[str, ...], kmh: float, inflow: str | None) -> flo
 
 
 @CachedFunction
+def without_drag(mu: float) -> Least:
+    """The best twist of the preset `flight` without fuselage drag, which is what tilts the disk."""
+    design = built(tuple(RUNGS), mu)
+    return _least(replace(design, models=replace(design.models, fuselage=False)))
+
+
+@CachedFunction
 def twice_the_blades(mu: float) -> Least:
     """The best twist of a rigid blade, as one of eight of half the chord and mass."""
     design = built([name for name in RUNGS if name != "elastic"], mu)
@@ -143,6 +150,10 @@ def twice_the_blades(mu: float) -> Least:
     )  # fmt: skip
     many: Rotor = replace(rotor, blades=2 * rotor.blades, reference_chord=rotor.reference_chord / 2.0, blade=half)
     return _least(replace(design, rotor=many))
+
+
+PARTS = (least, worth, strong_over_weak, twice_the_blades, without_drag)
+"""What a ladder is made of."""
 
 
 @dataclass(frozen=True)
@@ -183,6 +194,8 @@ class Ladder:
     """Both of `TRIM` as one change."""
     eight_blades_deg: float
     """Best twist of eight rigid blades less that of four, at the fastest speed."""
+    without_drag_deg: float
+    """Best twist of `flight` without fuselage drag, at the fastest speed [°/R]."""
     wakes: tuple[WakeRow, ...]
 
     def step(self, name: str) -> Step:
@@ -237,6 +250,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
     rigid = least(tuple(name for name in names if name != "elastic"), fast, None)
     return Ladder(
         speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rigid.rate_deg,
+        without_drag(fast).rate_deg,
         tuple(
             WakeRow(name, tuple(least(names, mu, name) for mu in speeds), worth(names, speeds, name))
             for name in INFLOW_MODELS
@@ -258,7 +272,7 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
             for on in ladder
         ),
         [(least, (on, speeds[-1], None)) for on in alone],
-        [(twice_the_blades, (speeds[-1],))],
+        [(twice_the_blades, (speeds[-1],)), (without_drag, (speeds[-1],))],
     ]
 
 
@@ -286,12 +300,11 @@ def text(found: Ladder) -> str:
             lines.append(f"{'  ' + found.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(found.trim)}")
     lines += [
         f"Eight rigid blades of half the chord in place of four move it by {found.eight_blades_deg:+.1f}°.",
+        f"Without fuselage drag, which tilts the disk, the best of flight is {found.without_drag_deg:.1f}°.",
         "",
         "flight with each inflow model",
     ]
-    lines += [
-        f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.worth.gain:7.2f} %" for one in found.wakes
-    ]
+    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.worth.gain:7.2f} %" for one in found.wakes]
     return "\n".join(lines)
 
 
@@ -301,9 +314,7 @@ def _rates(best: Sequence[Least]) -> str:
 
 def _moves(one: Step) -> str:
     ways = ((one.moves_deg, 9), (one.alone_on_thesis_deg, 11), (one.alone_off_flight_deg, 12))
-    return "".join(
-        f"{'–' if way is None or abs(way) < NOTHING else f'{way:+.1f}':>{width}}" for way, width in ways
-    )
+    return "".join(f"{'–' if way is None or abs(way) < NOTHING else f'{way:+.1f}':>{width}}" for way, width in ways)
 
 
 def _end(one: Step) -> str:
@@ -317,6 +328,7 @@ def record(found: Ladder) -> dict[str, Any]:
         "steps": [_step_record(one) for one in found.steps],
         "trim": _step_record(found.trim),
         "eight_blades_deg": found.eight_blades_deg,
+        "without_drag_deg": found.without_drag_deg,
         "wakes": [{"inflow": one.inflow, **_least_record(one.best), **_worth_record(one.worth)} for one in found.wakes],
         "measured": {"hover_percent": 100 * HOVER, "fast_percent": 100 * FAST, "fast_km_h": FAST_KMH},
     }

@@ -85,6 +85,8 @@ def draw(report: Report, folder: Path) -> None:
     down = math.ceil(count / across)
     # A single picture is wider, so that its text is not enlarged on the page.
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
+    if count == 1 and isinstance(panels[0], PlotPanel) and panels[0].names:
+        width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
@@ -106,11 +108,14 @@ def draw(report: Report, folder: Path) -> None:
 
 
 def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
-    turn = 0
+    turn, down = 0, bool(panel.names)
     for one in panel.curves:
         place = one.colour if one.colour is not None else turn
         turn += one.colour is None
         colour = PALETTE[place % len(PALETTE)]
+        if one.style == "band" and down:
+            axes.fill_betweenx(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
+            continue
         if one.style == "band":
             if len(one.x) == 1:  # One condition alone has no area.
                 axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
@@ -123,9 +128,13 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
             "dashed": {"linestyle": "--"},
             "both": {"marker": "o", "markersize": 3},
         }[one.style]
-        axes.plot(one.x, one.y, color=colour, label=typographic(one.label) or None, **look)
-    axes.set_xlabel(panel.x_label)
-    axes.set_ylabel(panel.y_label)
+        across, up = (one.y, one.x) if down else (one.x, one.y)
+        axes.plot(across, up, color=colour, label=typographic(one.label) or None, **look)
+    axes.set_xlabel(panel.y_label if down else panel.x_label)
+    axes.set_ylabel(panel.x_label if down else panel.y_label)
+    if down:
+        axes.set_yticks(range(len(panel.names)), panel.names)
+        axes.invert_yaxis()
     if panel.title:
         axes.set_title(panel.title)
     if "x" in panel.log:
@@ -199,11 +208,13 @@ td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cur
 .shown th{font-weight:600;color:var(--soft)}
 .yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
 .shown td.code{font-family:monospace;white-space:pre-wrap}
-.talk main{max-width:1240px;padding-bottom:20px}.talk details{display:none}
-.talk article{display:grid;grid-template-columns:7fr 5fr;column-gap:24px;align-items:start}
-.talk h3,.talk h3+div,.talk .files{grid-column:1/-1}.talk img{grid-column:1;grid-row:3/5}
-.talk .shown,.talk dl{grid-column:2}.talk .shown td{white-space:normal}
-.talk dl{grid-template-columns:1fr;font-size:14px}.talk dl dd{margin-bottom:4px}
+.talk main{max-width:1400px;padding:10px 24px}.talk h1{font-size:24px;margin:2px 0}
+.lead{font-size:18px;margin:2px 0 8px}
+.two{display:grid;grid-template-columns:11fr 9fr;gap:24px;align-items:start}.two img{width:100%;margin:0}
+.two dl{grid-template-columns:1fr;gap:0;margin:0;font-size:clamp(14px,1.15vw,17px);line-height:1.4}
+.two dt{font-weight:600}
+.two dd{margin-bottom:7px}
+@media(max-width:900px){.two{grid-template-columns:1fr}}
 .toc{width:100%}.toc td{text-align:left}.toc td:first-child{white-space:nowrap}
 @media(prefers-color-scheme:dark){
 .yes{color:#63c58d}
@@ -217,9 +228,8 @@ body{font-size:10.5pt}main{max-width:none;padding:0}img,img.field{filter:none;br
 article{border:0;border-top:1px solid var(--line);border-radius:0;padding:8px 0;break-inside:avoid}
 dl{font-size:9pt;line-height:1.35;gap:2px 12px;margin:6px 0}img.tall{max-height:13cm}.talk img{max-height:none}
 h2,h3{break-after:avoid}h3+div{break-after:avoid}dl,tr{break-inside:avoid}
-article>details,.files,.talk p{display:none}
-.talk{page:talk}.talk body{line-height:1.3;font-size:9.5pt}.talk h1{font-size:16pt;margin:0}.talk article{padding:4px 0}
-.talk dl{font-size:8.5pt;gap:1px 0;margin:4px 0;break-inside:auto}
+article>details,.files{display:none}
+.talk{page:talk}.talk h1{font-size:16pt;margin:0}.two dl{font-size:9pt}.talk img{max-height:none}
 .chip{print-color-adjust:exact}.shown td,.shown th{font-size:7pt;padding:1px 3px;white-space:normal}}
 @page{margin:12mm}@page talk{size:A4 landscape;margin:9mm}
 """
@@ -236,10 +246,19 @@ MISPRINTS_PAGE = "misprints.html"
 
 
 def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> None:
-    """Write the last chapter as a page of its own, where it was made."""
+    """Write the last chapter as a page of one screen, where it was made."""
     report = _talk_of(made)
-    if report is not None:
-        _write_beside(folder / TALK, "What the thesis would have found", _article(report, folder, pictures=pictures))
+    if report is None:
+        return
+    answer, *others = report.tables
+    image = _image(report, folder) if pictures else ""
+    rows = "".join(f"<dt>{escape(str(words))}</dt><dd>{escape(str(text))}</dd>" for words, text in answer.rows)
+    files = " · ".join(f'<a href="{csv_name(report, one)}">CSV {escape(one.name)}</a>' for one in others)
+    body = (
+        f"<p class=lead>{escape(report.ours)}</p><div class=two><div>{image}<p class=small>{escape(report.caption)}</p>"
+        f"</div><dl>{rows}</dl></div><p class=small>{escape(report.because)} {files}</p>"
+    )
+    _write_beside(folder / TALK, "What the thesis would have found", body)
 
 
 def write_misprints(folder: Path) -> Path:
@@ -298,14 +317,9 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
 
 
 def _article(report: Report, folder: Path, *, pictures: bool) -> str:
-    image = ""
+    image = _image(report, folder) if pictures and report.panels else ""
     files = [f'<a href="{csv_name(report, one)}">CSV {escape(one.name.replace("_", " "))}</a>' for one in report.tables]
-    if pictures and report.panels:
-        data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
-        # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
-        field = any(isinstance(panel, DiskPanel) for panel in report.panels)
-        kind = "field" if field else "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
-        image = f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+    if image:
         files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables if not one.shown)
     result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
@@ -316,6 +330,14 @@ def _article(report: Report, folder: Path, *, pictures: bool) -> str:
         f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
         f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
     )
+
+
+def _image(report: Report, folder: Path) -> str:
+    data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
+    # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
+    field = any(isinstance(panel, DiskPanel) for panel in report.panels)
+    kind = "field" if field else "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
+    return f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
 
 
 def _details(one: ReportTable) -> str:

@@ -77,6 +77,8 @@ class PlotPanel:
     equal: bool = False
     """Same scale on both axes, for outlines."""
     y_limits: tuple[float, float] | None = None
+    names: tuple[str, ...] = ()
+    """Of the places 0, 1, … of x, which then runs down the left side; y runs across."""
 
 
 @dataclass(frozen=True)
