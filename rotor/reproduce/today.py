@@ -77,34 +77,32 @@ def today() -> Report:
     rows = (
         (
             "The thesis says",
-            "In hover “the optimized solution is −13.5°”; “after µ = 0.18 the linear twist distribution with −8° of "
-            "slope becomes the solution that requires less power”; “in high speed forward flight a linear twist "
-            "behaviour of −4° presents better results” (p. 27, 28).",
+            "“the optimized solution is −13.5°” in hover; “after µ = 0.18 the linear twist distribution with −8° of "
+            "slope becomes the solution that requires less power”; “a linear twist behaviour of −4° presents better "
+            "results” in fast flight (p. 27, 28).",
         ),
         (
             "Its assumptions give",
-            f"{best('thesis')}. Moving the twist saves {_saves(first.worth.gain)} beyond the best fixed one.",
+            f"{best('thesis')}; a twist that moves saves {_saves(first.worth.gain)}.",
         ),
         (
             "One change decides",
-            f"Trim by cyclic together with µ sin α in U_P moves the best twist at µ {fast:g} by {moves('trim')}: air "
-            f"comes through the tilted disk (without drag, which tilts it, {found.without_drag_deg:.1f}° today). Less: "
-            f"lifting line {moves('wake')}, section table {moves('table')}, drag rise {moves('mach')}, elastic blade "
-            f"{moves('elastic')}, eight blades for four {found.eight_blades_deg:+.1f}°.",
+            f"Trim by cyclic with µ sin α in U_P: {moves('trim')} at µ {fast:g}. Air comes through the tilted disk; "
+            f"without the drag that tilts it, the best today is {found.without_drag_deg:.1f}°. Drag rise: "
+            f"{moves('mach')}; lifting line: {moves('wake')}; eight blades for four: {found.eight_blades_deg:+.1f}°.",
         ),
         (
-            "Left to move today",
-            f"{best(last.name)}: {_saves(last.worth.gain)} beyond the best fixed blade, "
-            f"{last.worth.fixed_deg:.1f}°; {100 * min(gains):.1f} to {_saves(max(gains))} over {len(gains)} inflow "
-            "models.",
+            "A moving twist saves today",
+            f"{_saves(last.worth.gain)} beyond the best fixed one, {last.worth.fixed_deg:.1f}°; {100 * min(gains):.1f} "
+            f"to {_saves(max(gains))} over {len(gains)} inflow models.",
         ),
         (
             "Measured",
-            f"Keys et al., another rotor, −17.3° over −11.5°: {100 * FAST:+.0f} % of power at {FAST_KMH:.0f} km/h, "
-            f"{100 * HOVER:+.1f} % in hover. Ours differs: {_signed(keys[last.name][1])} "
-            f"({100 * min(others):+.1f} to {_signed(max(others))} over models), {_signed(keys[last.name][0])}. The "
-            f"change of trim takes it from {_signed(keys[before_trim.name][1])} to {_signed(keys['trim'][1])}: away "
-            "from this test. No measured gain of a moving twist is known to us.",
+            f"Another rotor (Keys et al.), −17.3° over −11.5°: {100 * FAST:+.0f} % power at {FAST_KMH:.0f} km/h, "
+            f"{100 * HOVER:+.1f} % in hover. Ours differs: {_signed(keys[last.name][1])} ({100 * min(others):+.1f} to "
+            f"{_signed(max(others))} over models) and {_signed(keys[last.name][0])}. The change of trim leads away "
+            f"from it, {_signed(keys[before_trim.name][1])} to {_signed(keys['trim'][1])}. No measured gain of a "
+            "moving twist is known to us.",
         ),
     )
     return Report(

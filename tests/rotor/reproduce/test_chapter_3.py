@@ -215,12 +215,14 @@ def test_crossings_are_at_equal_power():
 
 @pytest.mark.slow
 def test_keys_1987(report: Make):
-    """More twist helps in hover in every preset; at 330 km/h it costs on the thesis' rotor. Another rotor: "
-    "indicative."""
+    """More twist helps in hover in every model; at 330 km/h the flight preset is far from the measurement."""
     one = report("keys 1987")
-    assert one.verdict is Agreement.INDICATIVE
-    for name in ("thesis", "thesis-wake", "flight"):
-        assert -0.024 < one.numbers[f"{name}_hover"] < 0.0
+    assert one.verdict is Agreement.DIFFERS
+    rows = {words: (hover, fast) for words, hover, fast, _ in one.tables[0].rows}
+    assert len(rows) == 18
+    for hover, fast in rows.values():
+        assert -2.4 < float(hover) < 0.0
+        assert float(fast) < 5.0
     assert one.numbers["thesis_fast"] > 0.0
     assert one.numbers["thesis-wake_fast"] > 0.02
-    assert one.numbers["thesis-wake_slower_kmh"] < 0.0
+    assert abs(one.numbers["flight_fast"] - 0.05) > 0.04
