@@ -91,7 +91,7 @@ def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) ->
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
     """Draw power over advance ratio: the parts of one sweep, or the totals of several. Returns the matplotlib axes.
 
-    Raises TypeError for anything but sweeps, and ImportError with the remedy where matplotlib is missing.
+    Raises TypeError for anything but sweeps.
     """
     if not tables or not all(
         isinstance(table, SweepTable)  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything

@@ -33,7 +33,7 @@ def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
-    from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report, written
+    from rotor.reproduce.page import write_all, write_report, written
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.runs import compute_ahead
     from rotor.validation.page import SETS, write_trust
@@ -47,14 +47,13 @@ def run(args: argparse.Namespace) -> int:
     folder = make_folder(args.out)
     begin = time.perf_counter()
     made: list[tuple[CatalogueEntry, Report]] = []
-    pictures = can_draw()
 
     def make(wanted: list[CatalogueEntry]) -> None:
         for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
-            report = written.known.pop((entry.number, folder, pictures), None)
+            report = written.known.pop((entry.number, folder), None)
             if report is None:
                 report = entry.make()
-                write_report(report, folder, pictures=pictures)
+                write_report(report, folder)
             made.append((entry, report))
             tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
 
@@ -65,17 +64,15 @@ def run(args: argparse.Namespace) -> int:
     if count:
         print(f"{count} searches, in {processes} processes", file=sys.stderr)
         # Figures without searches come first: a page that is stopped has them, and each takes a second at most.
-        figures = [[(written, (entry.number, folder, pictures))] for entry in fast]
+        figures = [[(written, (entry.number, folder))] for entry in fast]
         with interruptible() as stop, bar(count + len(figures), "step") as advance:
             stopped = compute_ahead([*figures, *groups], processes, advance, stop)
-        fast = [entry for entry in fast if (entry.number, folder, pictures) in written.known]
+        fast = [entry for entry in fast if (entry.number, folder) in written.known]
     make(fast)
     if not stopped:
         make([entry for entry in entries if entry.slow])
     made.sort(key=lambda pair: entries.index(pair[0]))
     page = write_all(made, folder)
-    if not pictures:
-        print(f"note: {NO_PICTURES}", file=sys.stderr)
     if args.trust and not stopped:
         sets = [make_set() for make_set in SETS.values()]
         sets += trust_sets(report for _, report in made)

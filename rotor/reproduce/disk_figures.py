@@ -1,6 +1,6 @@
 """The disk in figures: what the fields on it look like, and how many elements and azimuths it needs.
 
-Figures 2.6–2.8: velocities, inflow and thrust over the disk, in hover and in forward flight. Figures 3.7–3.9: power
+Figures 2.7 and 2.8: inflow and thrust in hover, and velocities in forward flight. Figures 3.7–3.9: power
 against the number of blade elements and of azimuths, with the order of convergence.
 """
 
@@ -14,7 +14,6 @@ import numpy as np
 from rotor.aero.switches import with_switches
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import (
-    Agreement,
     Curve,
     DiskPanel,
     PlotPanel,
@@ -26,7 +25,7 @@ from rotor.reproduce.report import (
     judged,
     table,
 )
-from rotor.reproduce.runs import FLIGHT_LINEAR, solved, variant
+from rotor.reproduce.runs import FLIGHT_LINEAR, variant
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import solve
 
@@ -34,24 +33,6 @@ FINE = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""
 FAST = 0.30
 """Advance ratio of fig. 2.8; the thesis states none."""
-
-
-def figure_2_6() -> Report:
-    """Velocities in hover."""
-    disk = solved("thesis", "linear:-16", 0.0).require().disk
-    spread = float(np.ptp(disk.u_t, axis=1).max())
-    slope = float(np.polyfit(disk.r, disk.u_t[:, 0], 1)[0])
-    return Report(
-        number="2.6",
-        caption="Velocity normal to the leading edge over the hovering disk, over ΩR.",
-        statement="In hover the velocity distribution is the same at every azimuth (p. 13).",
-        ours=f"Largest difference over azimuth {spread:.1e}; U_T/ΩR = {slope:.6f} r.",
-        verdict=Agreement.ALONE,
-        because="True by construction. The hovering rotor is solved annulus by annulus: U_T = Ωy.",
-        tables=(table("u_t", ("r", "u_t"), zip(disk.r, disk.u_t[:, 0], strict=True)),),
-        panels=(_normal_velocity(disk, "hover"),),
-        numbers={"spread_over_azimuth": spread, "slope": slope},
-    )
 
 
 def figure_2_7() -> Report:

@@ -1,12 +1,8 @@
-"""Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each.
-
-Figures are SVG and PNG, where matplotlib is installed.
-"""
+"""Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each."""
 
 import base64
 import csv
 import importlib
-import importlib.util
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -33,10 +29,6 @@ from rotor.reproduce.report import (
 from rotor.reproduce.runs import CachedFunction
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
-NO_PICTURES = (
-    "matplotlib is not installed, so there are no pictures; tables are complete. "
-    "For pictures: pip install 'rotor-explorer[plots]'"
-)
 _STYLE = {
     "font.size": 9.0,
     "font.family": "sans-serif",
@@ -59,11 +51,6 @@ _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
 FEW = 3
 """Curves for whose names there is room in a panel."""
-
-
-def can_draw() -> bool:
-    """Whether matplotlib is there."""
-    return importlib.util.find_spec("matplotlib") is not None
 
 
 def same_key(panels: tuple[AnyPanel, ...]) -> bool:
@@ -245,18 +232,18 @@ TALK = "today.html"
 MISPRINTS_PAGE = "misprints.html"
 
 
-def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> None:
+def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> None:
     """Write the last chapter as a page of one screen, where it was made."""
     report = _talk_of(made)
     if report is None:
         return
     answer, *others = report.tables
-    image = _image(report, folder) if pictures else ""
     rows = "".join(f"<dt>{escape(str(words))}</dt><dd>{escape(str(text))}</dd>" for words, text in answer.rows)
     files = " · ".join(f'<a href="{csv_name(report, one)}">CSV {escape(one.name)}</a>' for one in others)
     body = (
-        f"<p class=lead>{escape(report.ours)}</p><div class=two><div>{image}<p class=small>{escape(report.caption)}</p>"
-        f"</div><dl>{rows}</dl></div><p class=small>{escape(report.because)} {files}</p>"
+        f"<p class=lead>{escape(report.ours)}</p><div class=two><div>{_image(report, folder)}"
+        f"<p class=small>{escape(report.caption)}</p></div><dl>{rows}</dl></div>"
+        f"<p class=small>{escape(report.because)} {files}</p>"
     )
     _write_beside(folder / TALK, "What the thesis would have found", body)
 
@@ -289,17 +276,16 @@ def _opening(title: str, kind: str = "") -> str:
     )
 
 
-def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
+def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> str:
     counts = Counter(report.verdict for _, report in made)
     summary = ", ".join(f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.ALONE)
-    checkable = sum(report.checkable for _, report in made)
+    checkable, captions = (sum(getattr(report, name) for _, report in made) for name in ("checkable", "caption_only"))
     drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
     rows = "".join(
         f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
         f"<td>{escape(report.statement)}</td></tr>"
         for _, report in made
     )
-    without = "" if pictures else f"<p><b>{escape(NO_PICTURES)}</b></p>"
     talk = f' <a href="{TALK}">Its main results then and now, on one page</a>.' if _talk_of(made) else ""
     return (
         f"{_opening('The thesis, rebuilt')}<h1>The thesis, rebuilt</h1>"
@@ -308,26 +294,32 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
         "the captions.</p>"
-        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {len(made) - checkable} "
-        f"ours under a caption or a picture without numbers; {len(DRAWINGS)} drawings of the thesis, not rebuilt. "
-        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>{without}'
+        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {captions} ours under its "
+        f"captions; {len(made) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures of the "
+        "thesis that show nothing of its model, not rebuilt. "
+        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>'
         f"<details open><summary>Contents</summary><table class=toc>{rows}</table>"
-        f"<p class=small>Drawings in the thesis, not rebuilt: figures {escape(drawings)}.</p></details>"
+        f"<p class=small>Not rebuilt: figures {escape(drawings)}.</p></details>"
     )
 
 
-def _article(report: Report, folder: Path, *, pictures: bool) -> str:
-    image = _image(report, folder) if pictures and report.panels else ""
+def _article(report: Report, folder: Path) -> str:
+    image = _image(report, folder) if report.panels else ""
     files = [f'<a href="{csv_name(report, one)}">CSV {escape(one.name.replace("_", " "))}</a>' for one in report.tables]
     if image:
         files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables if not one.shown)
     result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
+    words = (("The thesis", report.statement), ("Ours", report.ours),
+             (report.verdict.value.capitalize(), report.because))  # fmt: skip
+    said = "".join(f"<dt>{escape(head)}</dt><dd>{escape(text)}</dd>" for head, text in words)
+    said = f"<dl>{said}</dl>"
+    if report.caption_only:
+        more = f"<details><summary>more</summary><p>{escape(report.because)} {escape(report.statement)}</p></details>"
+        said = f"<p>{escape(report.ours)}</p>{more}"
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
-        f"<div>{escape(report.caption)}</div>{image}{result}<dl><dt>The thesis</dt><dd>{escape(report.statement)}</dd>"
-        f"<dt>Ours</dt><dd>{escape(report.ours)}</dd>"
-        f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
+        f"<div>{escape(report.caption)}</div>{image}{result}{said}"
         f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
     )
 
@@ -375,19 +367,18 @@ def _chip(verdict: Agreement) -> str:
 
 
 @CachedFunction
-def written(number: str, folder: Path, pictures: bool) -> Report:
+def written(number: str, folder: Path) -> Report:
     """The report of an entry, its files written to the folder; for another process."""
     report = find_entry(number).make()
-    write_report(report, folder, pictures=pictures)
+    write_report(report, folder)
     return report
 
 
-def write_report(report: Report, folder: Path, *, pictures: bool) -> None:
+def write_report(report: Report, folder: Path) -> None:
     """CSV per table, SVG and PNG."""
     for one in report.tables:
         write_csv(folder / csv_name(report, one), report, one)
-    if pictures:
-        draw(report, folder)
+    draw(report, folder)
 
 
 def csv_name(report: Report, one: ReportTable) -> str:
@@ -407,13 +398,12 @@ def write_csv(path: Path, report: Report, one: ReportTable) -> None:
 
 def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
-    pictures = can_draw()
     write_misprints(folder)
-    write_talk(made, folder, pictures=pictures)
-    parts = [_head(made, pictures)]
+    write_talk(made, folder)
+    parts = [_head(made)]
     for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
         parts.append(f"<h2>{escape(chapter)}</h2>")
-        parts += [_article(report, folder, pictures=pictures) for _, report in group]
+        parts += [_article(report, folder) for _, report in group]
     path = folder / "index.html"
     path.write_text("\n".join([*parts, "</main></html>\n"]), encoding="utf-8")
     return path

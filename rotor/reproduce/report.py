@@ -146,6 +146,11 @@ class Report:
         return self.verdict is not Agreement.ALONE
 
     @property
+    def caption_only(self) -> bool:
+        """Whether the caption is all that is known of it."""
+        return self.title in _CAPTIONS
+
+    @property
     def stem(self) -> str:
         """Name of its files, without ending."""
         return f"{self.kind}-{self.number}".lower().replace(" ", "-").replace(".", "_")
@@ -203,14 +208,19 @@ def card(
     data: ReportTable,
     panels: tuple[AnyPanel, ...] = (),
     numbers: Mapping[str, float] | None = None,
+    summary: ReportTable | None = None,
 ) -> Report:
-    """A figure, or with no panels a table, of which only the caption is known: a picture, a sentence and a table."""
+    """A figure, or with no panels a table, of which only the caption is known.
+
+    A picture, a sentence and a small table, `summary`, or the whole one; the rest folds.
+    """
     kind = "figure" if panels else "table"
+    tables = (data,) if summary is None else (replace(summary, shown=True), data)
     return Report(
         number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
         statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
         "thesis are not.",
-        verdict=Agreement.ALONE, tables=(replace(data, shown=not panels),),
+        verdict=Agreement.ALONE, tables=tables if panels else (replace(data, shown=True),),
     )  # fmt: skip
 
 

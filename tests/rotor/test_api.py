@@ -169,11 +169,6 @@ class TestSolution:
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
         pyplot.close("all")
 
-    def test_plot_without_matplotlib_gives_the_remedy(self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-        with pytest.raises(ImportError, match=r"pip install 'rotor-explorer\[plots\]'"):
-            solution.plot()
-
 
 class TestSweep:
     def test_rows_have_units_in_their_columns(self, design: rotor.Design):

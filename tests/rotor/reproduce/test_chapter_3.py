@@ -22,21 +22,6 @@ def column(table: ReportTable, name: str) -> np.ndarray:
     return np.array([float(row[k]) for row in table.rows])
 
 
-def test_figure_3_1(report: Make):
-    """SC1095 at 3°: the arrows carry the lift, and tripping costs drag, not lift."""
-    numbers = report("3.1").numbers
-    assert_allclose(numbers["cl_integrated"], numbers["cl"], atol=5e-4)
-    assert_allclose(numbers["cl_tripped"], numbers["cl"], rtol=0.03)
-    assert 1.15 < numbers["cd_tripped"] / numbers["cd"] < 1.6  # 16–35 % and a little (assets/airfoils/CITATION.md)
-
-
-def test_figure_3_2(report: Make):
-    """SC1094 R8 at 3°: more camber, more lift than the SC1095."""
-    numbers = report("3.2").numbers
-    assert_allclose(numbers["cl_integrated"], numbers["cl"], atol=5e-4)
-    assert numbers["cl"] > report("3.1").numbers["cl"]
-
-
 def test_figure_3_3(report: Make):
     """Order 10 fits lift to 1 % of its range, but the knee of the error lies at a lower order."""
     one = report("3.3")

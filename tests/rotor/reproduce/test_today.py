@@ -12,7 +12,7 @@ from rotor.__main__ import main
 from rotor.files.make_design import make_design
 from rotor.reproduce import find_entry
 from rotor.reproduce.ladder import RUNGS, STRONG, TRIM, WEAK, Ladder, built, climb
-from rotor.reproduce.page import TALK, write_talk
+from rotor.reproduce.page import TALK, write_report, write_talk
 from rotor.reproduce.today import gain_of_2_per_rev, mass_for_equal_power
 from rotor.trim.solve import solve
 
@@ -97,7 +97,8 @@ def test_the_page_of_one_screen(tmp_path: Path):
     assert numbers["flight_fast"] == found.at("elastic", 0.35).rate_deg
     assert numbers["thesis_hover"] == found.at("thesis", 0.0).rate_deg
     assert 0.0 < numbers["flight_beyond_fixed"] < numbers["thesis_beyond_fixed"]
-    write_talk([(find_entry("today"), report)], tmp_path, pictures=False)
+    write_report(report, tmp_path)
+    write_talk([(find_entry("today"), report)], tmp_path)
     page = (tmp_path / TALK).read_text(encoding="utf-8")
     words = re.sub(r"<[^>]+>", " ", page[page.index("<dl>") : page.index("</dl>")])
     assert "What the thesis would have found" in page
