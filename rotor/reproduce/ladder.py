@@ -8,7 +8,6 @@ power of twist −17.3° over −11.5° at 330 km/h, which was measured on anoth
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.airfoil.polynomial import THESIS_NAME
@@ -87,8 +86,12 @@ class Worth:
 
     fixed_deg: float
     """[°/R]"""
+    fixed_kw: float
+    """Its mean total power."""
+    baseline_kw: float
+    """That of a fixed −16°."""
     gain: float
-    """Part of the fixed blade's mean power."""
+    """What moving saves, as a part of the fixed blade's power."""
 
 
 @CachedFunction
@@ -115,11 +118,12 @@ def worth(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) ->
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds)
     guess = (math.radians(sum(one.rate_deg for one in moving) / len(moving)),)
     search = Search(design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False)
-    fixed = run_search(search).best
-    if fixed is None:
+    found = run_search(search)
+    fixed, baseline = found.best, found.baseline_power
+    if fixed is None or baseline is None:
         raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
     mean = 1e3 * sum(one.power_kw for one in moving) / len(moving)
-    return Worth(math.degrees(fixed.parameters[0]), 1.0 - mean / fixed.power)
+    return Worth(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
 
 
 @CachedFunction
@@ -278,83 +282,3 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
 
 def _without(names: tuple[str, ...], left: Collection[str]) -> tuple[str, ...]:
     return tuple(name for name in names if name not in left)
-
-
-def text(found: Ladder) -> str:
-    """The ladder as printed."""
-    fast = f"µ {found.speeds[-1]:g}"
-    heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in found.speeds]
-    wide = 46
-    lines = [
-        "UH-60A, 8322.4 kg, sea level: linear twist of least total power [°/R]; each line changes one assumption more.",
-        f"Moves, at {fast}: in the ladder, changed alone on thesis, taken back alone from flight. Worth: what a moving",
-        "twist saves beyond the best fixed one, equal time at each speed.",
-        f"−17.3° over −11.5°: main-rotor power at {FAST_KMH:.0f} km/h; Keys et al. measured {100 * FAST:+.0f} %.",
-        "",
-        f"{'':<{wide}}" + "".join(f"{head:>8}" for head in heads)
-        + f"{'moves':>9}{'on thesis':>11}{'off flight':>12}{'worth':>9}{'−17.3/−11.5':>13}",
-    ]  # fmt: skip
-    for one in found.steps:
-        lines.append(f"{one.words:<{wide}}{_rates(one.best)}{_moves(one)}{_end(one)}")
-        if one.name == TRIM[-1]:
-            lines.append(f"{'  ' + found.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(found.trim)}")
-    lines += [
-        f"Eight rigid blades of half the chord in place of four move it by {found.eight_blades_deg:+.1f}°.",
-        f"Without fuselage drag, which tilts the disk, the best of flight is {found.without_drag_deg:.1f}°.",
-        "",
-        "flight with each inflow model",
-    ]
-    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.worth.gain:7.2f} %" for one in found.wakes]
-    return "\n".join(lines)
-
-
-def _rates(best: Sequence[Least]) -> str:
-    return "".join(f"{one.rate_deg:8.1f}" for one in best)
-
-
-def _moves(one: Step) -> str:
-    ways = ((one.moves_deg, 9), (one.alone_on_thesis_deg, 11), (one.alone_off_flight_deg, 12))
-    return "".join(f"{'–' if way is None or abs(way) < NOTHING else f'{way:+.1f}':>{width}}" for way, width in ways)
-
-
-def _end(one: Step) -> str:
-    return f"{100 * one.worth.gain:7.2f} %{100 * one.strong_over_weak[1]:+11.1f} %"
-
-
-def record(found: Ladder) -> dict[str, Any]:
-    """The JSON of `ladder --json`."""
-    return {
-        "speeds_mu": list(found.speeds),
-        "steps": [_step_record(one) for one in found.steps],
-        "trim": _step_record(found.trim),
-        "eight_blades_deg": found.eight_blades_deg,
-        "without_drag_deg": found.without_drag_deg,
-        "wakes": [{"inflow": one.inflow, **_least_record(one.best), **_worth_record(one.worth)} for one in found.wakes],
-        "measured": {"hover_percent": 100 * HOVER, "fast_percent": 100 * FAST, "fast_km_h": FAST_KMH},
-    }
-
-
-def _step_record(one: Step) -> dict[str, Any]:
-    hover, fast = one.strong_over_weak
-    return {
-        "step": one.name,
-        "change": one.words,
-        **_least_record(one.best),
-        "moves_deg": one.moves_deg,
-        "alone_on_thesis_deg": one.alone_on_thesis_deg,
-        "alone_off_flight_deg": one.alone_off_flight_deg,
-        **_worth_record(one.worth),
-        "strong_over_weak_percent": {"hover": 100 * hover, "fast": 100 * fast},
-    }
-
-
-def _least_record(best: Sequence[Least]) -> dict[str, Any]:
-    return {
-        "best_twist_deg": [one.rate_deg for one in best],
-        "band_deg": [None if math.isnan(sum(one.band_deg)) else list(one.band_deg) for one in best],
-        "power_w": [1e3 * one.power_kw for one in best],
-    }
-
-
-def _worth_record(one: Worth) -> dict[str, float]:
-    return {"best_fixed_deg": one.fixed_deg, "moving_saves_percent": 100.0 * one.gain}

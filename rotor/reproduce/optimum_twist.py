@@ -9,6 +9,7 @@ import numpy as np
 from rotor.files.make_design import make_design, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
+from rotor.reproduce.ladder import RUNGS, worth
 from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
@@ -19,7 +20,6 @@ from rotor.reproduce.runs import (
     ConceptOptimum,
     Scope,
     best,
-    best_fixed,
     comparable_kw,
     variant,
 )
@@ -144,7 +144,7 @@ def figure_4_11() -> Report:
     return Report(
         number="4.11",
         caption="Built-in twist of the UH-60A and its linear approximation.",
-        statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
+        statement="“approximated by a linear blade twist of −16°” (p. 25).",
         ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
         "r².",
         verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
@@ -262,15 +262,15 @@ def table_4_1(scope: Scope = FULL) -> Report:
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     for name in VARIANTS:
-        one = best_fixed(name, scope)
+        one = worth(tuple(RUNGS) if name == "flight" else (), scope.speeds, None)
         mean = {
             concept: sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / len(scope.speeds)
             for concept in CONCEPTS
         }
         saving = {concept: 1.0 - power / one.baseline_kw for concept, power in mean.items()}
-        fixed, moving = 1.0 - one.power_kw / one.baseline_kw, 1.0 - mean["linear"] / one.power_kw
+        fixed, moving = 1.0 - one.fixed_kw / one.baseline_kw, 1.0 - mean["linear"] / one.fixed_kw
         rows.append(
-            (name, *(f"{100.0 * part:.2f}" for part in saving.values()), f"{100.0 * fixed:.2f} ({one.rate_deg:.1f}°)")
+            (name, *(f"{100.0 * part:.2f}" for part in saving.values()), f"{100.0 * fixed:.2f} ({one.fixed_deg:.1f}°)")
         )
         numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
     beyond = by_name({name: numbers[f"{name}_moving"] for name in VARIANTS}, "{:.2f} %")

@@ -11,15 +11,11 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from rotor.arrays import Array
+from rotor.assets import asset_path
 from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
 from rotor.reproduce.misprints import misprint_table
 from rotor.reproduce.report import (
     Agreement,
-    AnyPanel,
-    DiskPanel,
     PlotPanel,
     Report,
     ReportTable,
@@ -53,9 +49,9 @@ FEW = 3
 """Curves for whose names there is room in a panel."""
 
 
-def same_key(panels: tuple[AnyPanel, ...]) -> bool:
+def same_key(panels: tuple[PlotPanel, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
-    keys = [tuple(one.label for one in panel.curves) for panel in panels if isinstance(panel, PlotPanel)]
+    keys = [tuple(one.label for one in panel.curves) for panel in panels]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
@@ -72,17 +68,14 @@ def draw(report: Report, folder: Path) -> None:
     down = math.ceil(count / across)
     # A single picture is wider, so that its text is not enlarged on the page.
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
-    if count == 1 and isinstance(panels[0], PlotPanel) and panels[0].names:
+    if count == 1 and panels[0].names:
         width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
             place = axes[k // across][k % across]
-            if isinstance(panel, DiskPanel):
-                _draw_disk(figure, place, panel)
-            else:
-                _draw_panel(place, panel, legend=not legend_below)
+            _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
             handles, labels = axes[0][0].get_legend_handles_labels()
             columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))
@@ -128,40 +121,10 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
         axes.set_xscale("log")
     if "y" in panel.log:
         axes.set_yscale("log")
-    if panel.invert_y:
-        axes.invert_yaxis()
-    if panel.equal:
-        axes.set_aspect("equal", adjustable="datalim")
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
     if legend and sum(bool(one.label) for one in panel.curves) > 1:
         axes.legend()
-
-
-def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
-    """Seen from above, nose up: x = r sin ψ, y = −r cos ψ; the circle closes because cells have edges of their own."""
-    values = np.array(panel.values)
-    m, edges = values.shape[1], np.array(panel.edges)
-    around: Array = 2.0 * np.pi * (np.arange(m + 1, dtype=np.float64) - 0.5) / m
-    x: Array = edges[:, None] * np.sin(around)
-    y: Array = -edges[:, None] * np.cos(around)
-    mesh = axes.pcolormesh(x, y, values, cmap="viridis", rasterized=True)
-    figure.colorbar(mesh, ax=axes, label=panel.label, shrink=0.85)
-    if panel.zero_line:
-        psi = np.append(panel.psi, 2.0 * np.pi)
-        closed = np.hstack((values, values[:, :1]))
-        r = np.array(panel.r)[:, None]
-        axes.contour(r * np.sin(psi), -r * np.cos(psi), closed, levels=[0.0], colors="white", linewidths=1.2)
-    axes.set_aspect("equal")
-    axes.set_xticks([])
-    axes.set_yticks([])
-    axes.grid(False)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-    for words, across, up in (("ψ = 0°, tail", 0.0, -1.1), ("90°, advancing", 1.08, 0.0), ("180°", 0.0, 1.06)):
-        turn = 90 if across else 0
-        axes.text(across, up, words, ha="center", va="center", fontsize=7, rotation=turn, color="#555555")
-    axes.set_title(panel.title, pad=14)
 
 
 LONG = 60
@@ -175,51 +138,6 @@ COLOURS = {
     Agreement.LOADED: "#5b6770",
     Agreement.INDICATIVE: "#9a6b00",
 }
-_CSS = """
-:root{color-scheme:light dark;--ink:#1c2429;--soft:#5b6770;--page:#f6f7f8;--card:#fff;--line:#dde2e6;--link:#0b5fa5}
-body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--page);margin:0}
-main{max-width:1080px;margin:0 auto;padding:24px 20px 80px}
-h1{font-size:26px;margin:8px 0}
-h2{font-size:19px;margin:38px 0 10px;border-bottom:1px solid var(--line);padding-bottom:4px}
-article{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:16px 20px;margin:14px 0}
-h3{font-size:16px;margin:0 0 6px;display:flex;gap:12px;align-items:baseline}
-.chip{color:#fff;font-size:12px;border-radius:10px;padding:1px 9px;font-weight:600;white-space:nowrap}
-dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{color:var(--soft)}dd{margin:0}
-img{max-width:100%;height:auto;display:block;margin:8px auto}
-table{border-collapse:collapse;font-size:13px}
-td,th{padding:2px 10px;text-align:right;border-bottom:1px solid var(--line);vertical-align:top}
-td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:var(--link)}
-.scroll{overflow-x:auto}.scroll td,.scroll th{white-space:nowrap}a{color:var(--link)}
-.small{font-size:13px;color:var(--soft)}
-.shown{overflow-x:auto;margin:10px 0}.shown td,.shown th{text-align:left;padding:3px 8px;font-size:12.5px}
-.shown th{font-weight:600;color:var(--soft)}
-.yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
-.shown td.code{font-family:monospace;white-space:pre-wrap}
-.talk main{max-width:1400px;padding:10px 24px}.talk h1{font-size:24px;margin:2px 0}
-.lead{font-size:18px;margin:2px 0 8px}
-.two{display:grid;grid-template-columns:11fr 9fr;gap:24px;align-items:start}.two img{width:100%;margin:0}
-.two dl{grid-template-columns:1fr;gap:0;margin:0;font-size:clamp(14px,1.15vw,17px);line-height:1.4}
-.two dt{font-weight:600}
-.two dd{margin-bottom:7px}
-@media(max-width:900px){.two{grid-template-columns:1fr}}
-.toc{width:100%}.toc td{text-align:left}.toc td:first-child{white-space:nowrap}
-@media(prefers-color-scheme:dark){
-.yes{color:#63c58d}
-:root{--ink:#dfe5e9;--soft:#9aa7b0;--page:#12171a;--card:#1a2126;--line:#303a41;--link:#6db3ee}
-img{filter:invert(1) hue-rotate(180deg)}
-img.field{filter:none;background:#fff;border-radius:6px;padding:6px}.chip{filter:brightness(.9)}}
-@media(max-width:600px){dl{grid-template-columns:1fr}dt{margin-top:4px}article{padding:12px}}
-@media print{
-:root{color-scheme:light;--ink:#000;--soft:#444;--page:#fff;--card:#fff;--line:#ccc;--link:#000}
-body{font-size:10.5pt}main{max-width:none;padding:0}img,img.field{filter:none;break-inside:avoid;max-height:7.6cm;padding:0}
-article{border:0;border-top:1px solid var(--line);border-radius:0;padding:8px 0;break-inside:avoid}
-dl{font-size:9pt;line-height:1.35;gap:2px 12px;margin:6px 0}img.tall{max-height:13cm}.talk img{max-height:none}
-h2,h3{break-after:avoid}h3+div{break-after:avoid}dl,tr{break-inside:avoid}
-article>details,.files{display:none}
-.talk{page:talk}.talk h1{font-size:16pt;margin:0}.two dl{font-size:9pt}.talk img{max-height:none}
-.chip{print-color-adjust:exact}.shown td,.shown th{font-size:7pt;padding:1px 3px;white-space:normal}}
-@page{margin:12mm}@page talk{size:A4 landscape;margin:9mm}
-"""
 
 
 def escape(text: str) -> str:
@@ -272,7 +190,7 @@ def _opening(title: str, kind: str = "") -> str:
     return (
         f'<!doctype html><html lang="en" class="{kind}"><meta charset="utf-8"><title>{escape(title)}</title>'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<style>{_CSS}</style><main>"
+        f"<style>{asset_path('thesis_page.css').read_text(encoding='utf-8')}</style><main>"
     )
 
 
@@ -326,9 +244,8 @@ def _article(report: Report, folder: Path) -> str:
 
 def _image(report: Report, folder: Path) -> str:
     data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
-    # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
-    field = any(isinstance(panel, DiskPanel) for panel in report.panels)
-    kind = "field" if field else "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
+    # In print a picture of three rows and more is higher.
+    kind = "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
     return f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
 
 

@@ -27,9 +27,7 @@ _CAPTIONS = {
     "Figure 4.12": "Comparison of flight test data and three linear segments",
     "Figure 4.13": "Twist behaviours compared",
     "Table 4.1": "Reduction of power between fixed linear twist and simulations",
-    "Figure 5.4": "Continuous and interdigitated electrode, electric field",
     "Figure 5.5": "Free strain compared",
-    "Figure 5.7": "Electric field compared",
     "Figure 5.10": "Torsion angle of the thermal analysis",
     "Table 5.1": "Actuator properties",
     "Table 5.2": "Actuators and concepts compared",
@@ -73,33 +71,9 @@ class PlotPanel:
     curves: tuple[Curve, ...]
     title: str = ""
     log: Literal["", "y", "xy"] = ""
-    invert_y: bool = False
-    equal: bool = False
-    """Same scale on both axes, for outlines."""
     y_limits: tuple[float, float] | None = None
     names: tuple[str, ...] = ()
     """Of the places 0, 1, … of x, which then runs down the left side; y runs across."""
-
-
-@dataclass(frozen=True)
-class DiskPanel:
-    """A field over the disk seen from above, nose up, ψ = 0 at the bottom, advancing side right."""
-
-    label: str
-    r: tuple[float, ...]
-    """Element centres y/R."""
-    edges: tuple[float, ...]
-    """Of the elements y/R, (elements + 1,)."""
-    psi: tuple[float, ...]
-    """[rad]"""
-    values: tuple[tuple[float, ...], ...]
-    """(elements, azimuths)"""
-    title: str = ""
-    zero_line: bool = False
-    """Whether the line of zero is drawn (the border of reverse flow, in U_T)."""
-
-
-AnyPanel = PlotPanel | DiskPanel
 
 
 @dataclass(frozen=True)
@@ -131,7 +105,7 @@ class Report:
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
     tables: tuple[ReportTable, ...]
-    panels: tuple[AnyPanel, ...] = ()
+    panels: tuple[PlotPanel, ...] = ()
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """Numbers that decide the verdict, by name."""
 
@@ -206,7 +180,7 @@ def card(
     ours: str,
     because: str,
     data: ReportTable,
-    panels: tuple[AnyPanel, ...] = (),
+    panels: tuple[PlotPanel, ...] = (),
     numbers: Mapping[str, float] | None = None,
     summary: ReportTable | None = None,
 ) -> Report:

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 
 from rotor.reproduce import Agreement, Report
 from rotor.reproduce.disk_figures import convergence_order
+from rotor.reproduce.implementation import knee_of
 from rotor.reproduce.report import ReportTable
-from rotor.reproduce.sections import knee_of
 from rotor.reproduce.twist_effect import crossings
 
 Make = Callable[[str], Report]
@@ -178,17 +178,9 @@ def test_figure_3_14(report: Make):
     "cyclic."""
     numbers = report("3.14").numbers
     assert numbers["thesis_best"] == numbers["thesis-wake_best"] == -4.0
-    assert numbers["flight_best"] == numbers["thesis-trimmed_best"] == -12.0
+    assert numbers["flight_best"] == -12.0
+    assert numbers["with_trim"] < -10.0 < -7.0 < numbers["with_section"]
     assert numbers["flight_cost_of_4"] > 0.02
-
-
-@pytest.mark.slow
-def test_figure_3_15(report: Make):
-    """Linear inflow leaves the five within a few per cent; a wake that responds to loading spreads them more."""
-    one = report("3.15")
-    assert one.verdict is Agreement.ALONE
-    assert one.numbers["thesis_spread"] < 0.03 < 0.05 < one.numbers["thesis-wake_spread"]
-    assert set(column(one.tables[0], "best")) <= FIVE
 
 
 def test_crossings_are_at_equal_power():

@@ -67,12 +67,12 @@ def test_panels_with_the_same_curves_share_one_legend():
 
 @pytest.mark.slow
 def test_chapter_5_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-    assert main(["reproduce", str(tmp_path), "--figure", "5.4", "--figure", "table 5.1"]) == 0
+    assert main(["reproduce", str(tmp_path), "--figure", "5.5", "--figure", "table 5.1"]) == 0
     assert "Table 5.1" in capsys.readouterr().out
-    assert {"figure-5_4.csv", "table-5_1.csv"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"figure-5_5.csv", "table-5_1.csv"} <= {path.name for path in tmp_path.iterdir()}
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert page.count("data:image/svg+xml") == 1
-    assert (tmp_path / "figure-5_4.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "figure-5_5.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_results_of_other_processes_are_not_computed_again():
