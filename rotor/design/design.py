@@ -63,6 +63,8 @@ BEYOND_DOCUMENT = ("elastic_twist", "surface_drag", "swept_tip", "radial_frictio
 """Switches of `Models` for losses that the document does not have."""
 
 
+FLIGHT_INFLOW = "lifting-line"
+"""The inflow model of the preset `flight`, which has a grid of its own."""
 LARGEST_LINE = 6000
 """Elements times azimuths of a lifting line: its influence matrix then has 140 MB."""
 
@@ -135,12 +137,14 @@ class Models:
             raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
+        if self.panels < 4 or self.line_azimuths < 8:
+            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
-        if not (self.panels >= 4 and self.line_azimuths >= 8 and self.panels * self.line_azimuths <= LARGEST_LINE):
+        if self.inflow == FLIGHT_INFLOW and self.panels * self.line_azimuths > LARGEST_LINE:
             raise ValueError(
-                f"a lifting line of {self.panels} elements at {self.line_azimuths} azimuths is outside 4 × 8 and "
-                f"{LARGEST_LINE} points in all: 24 × 24 is enough for power"
+                f"a lifting line of {self.panels} elements at {self.line_azimuths} azimuths has more than "
+                f"{LARGEST_LINE} points: 24 × 24 is enough for power"
             )
 
 
@@ -390,7 +394,7 @@ class Design:
 PRESETS = ("flight", "thesis")
 
 FLIGHT_MODELS = Models(
-    inflow="lifting-line",
+    inflow=FLIGHT_INFLOW,
     hover_inflow="annulus",
     trim="propulsive",
     disk_axial_flow=True,

@@ -135,8 +135,11 @@ def test_power_settles_on_finer_grids(inflow: str, tmp_path: Path):
     assert rotor.solve(fine).disk.alpha.shape == (32, 36)
     fine.save(tmp_path / "fine.json")
     assert rotor.load_design(tmp_path / "fine.json") == fine
-    with pytest.raises(ValueError, match="outside"):
+    with pytest.raises(ValueError, match="3 blade elements are outside"):
         rotor.make_design(elements=3)
+    assert rotor.make_design(inflow="pitt-peters", elements=200, azimuths=200).models.elements == 200
+    with pytest.raises(ValueError, match="more than 6000 points: 24 × 24 is enough"):
+        rotor.make_design(elements=200, azimuths=200)
 
 
 class TestDesign:

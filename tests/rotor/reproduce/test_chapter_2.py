@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from numpy.testing import assert_allclose
 
-from rotor.reproduce import Agreement, Report
+from rotor.reproduce.report import Agreement, Report
 
 Make = Callable[[str], Report]
 

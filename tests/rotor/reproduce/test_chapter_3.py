@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.reproduce import Agreement, Report
 from rotor.reproduce.disk_figures import convergence_order
 from rotor.reproduce.implementation import knee_of
-from rotor.reproduce.report import ReportTable
+from rotor.reproduce.report import Agreement, Report, ReportTable
 from rotor.reproduce.twist_effect import crossings
 
 Make = Callable[[str], Report]

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.reproduce import Agreement, Report
 from rotor.reproduce import optimum_twist as side_by_side
 from rotor.reproduce.optimum_twist import FIGURES, optimum_figure
+from rotor.reproduce.report import Agreement, Report
 from rotor.reproduce.runs import CONCEPTS, QUICK, SC1095_DECKS, VARIANTS, best, comparable_kw, preset_of, variant
 from rotor.trim.solve import solve
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import pytest
 
 from rotor.actuator.pictures import twist_under_voltage
-from rotor.reproduce import Agreement, Report
 from rotor.reproduce.actuation import BLADES, fitted_blade
+from rotor.reproduce.report import Agreement, Report
 
 Make = Callable[[str], Report]
 

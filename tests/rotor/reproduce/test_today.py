@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
 from rotor.files.make_design import make_design
-from rotor.reproduce import find_entry
+from rotor.reproduce.catalogue import find_entry
 from rotor.reproduce.ladder import RUNGS, STRONG, TRIM, WEAK, Ladder, built, climb
 from rotor.reproduce.page import TALK, write_report, write_talk
 from rotor.reproduce.today import gain_of_2_per_rev, mass_for_equal_power
