@@ -91,7 +91,7 @@ def figure_2_8() -> Report:
     return Report(
         number="2.8",
         caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the thesis states none).",
-        statement="near ψ = 90° the blade “has a velocity that is the sum of the rotational and forward speed”; in "
+        statement="Near ψ = 90° the blade “has a velocity that is the sum of the rotational and forward speed”; in "
         "reverse flow “the air flows from the trailing to the leading edge of the airfoil” (p. 14).",
         ours=f"From {low:.3f} to {top:.3f} ΩR. Reverse flow over {100 * ours:.2f} % of the disk; the circle "
         f"r = −µ sin ψ outside the root cut-out has {100 * expected:.2f} %.",
