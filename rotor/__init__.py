@@ -5,6 +5,8 @@
     solution.power.total
     rotor.sweep(design, mu=[0.1, 0.2, 0.3])
     rotor.optimise(design, concept="two-segment").twist
+    rotor.schedule(design, mu=[0.0, 0.2, 0.3]).in_flight_gain("linear")
+    rotor.actuator.try_actuator("MFC_P1", design, mu=(0.0, 0.3)).net_saving
 
 Conventions:
 
@@ -22,8 +24,9 @@ thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are 
 
 from importlib.metadata import PackageNotFoundError, version
 
+from rotor import actuator
 from rotor.aero.elements import TrimState
-from rotor.analysis.series import SweepTable, plot_power, sweep
+from rotor.analysis.series import SweepTable, plot_power, schedule, sweep
 from rotor.analysis.vibration import t_matrix, vibration_front
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
@@ -58,6 +61,7 @@ __all__ = (
     "SweepTable",
     "TrimState",
     "__version__",
+    "actuator",
     "distribution",
     "load_design",
     "load_rotor",
@@ -65,6 +69,7 @@ __all__ = (
     "optimise",
     "parse_twist",
     "plot_power",
+    "schedule",
     "solve",
     "sweep",
     "t_matrix",

@@ -1,4 +1,4 @@
-"""Plots of arrays with matplotlib, which the `plots` extra brings. It is imported only when something is drawn."""
+"""Plots of arrays with matplotlib, which is imported only when something is drawn."""
 
 import importlib
 from collections.abc import Mapping, Sequence
@@ -10,13 +10,8 @@ from rotor.arrays import Array
 
 
 def new_axes(**options: Any) -> Any:
-    """Axes in a new pyplot figure; ImportError with the remedy where matplotlib is missing."""
-    try:
-        pyplot: Any = importlib.import_module("matplotlib.pyplot")
-    except ModuleNotFoundError:
-        raise ImportError(
-            "matplotlib is not installed, so nothing can be drawn: pip install 'rotor-explorer[plots]'"
-        ) from None
+    """Axes in a new pyplot figure."""
+    pyplot: Any = importlib.import_module("matplotlib.pyplot")
     return pyplot.subplots(**options)[1]
 
 

@@ -2,8 +2,8 @@
 Which inflow model would mislead me?
 ====================================
 
-All inflow models agree on the thrust. They differ in where over the disk the inflow is, and that is what decides the
-best twist. Which of them would send a designer the wrong way?
+All inflow models agree on the thrust. They differ in where over the disk the inflow is, and so in the best twist, by
+some degrees. Which of them would send a designer the wrong way?
 """
 
 import matplotlib.pyplot as plt

@@ -10,7 +10,7 @@ from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import Host, Placement
-from rotor.actuator.verdict import Verdict, judge, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_sentence
 
 __all__ = (
     "Actuator",
@@ -29,5 +29,6 @@ __all__ = (
     "install",
     "judge",
     "power_map",
+    "try_actuator",
     "verdict_sentence",
 )

@@ -128,7 +128,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
         "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
-        "mass kg", "torsion /rev", "ideal kW", "gross kW", "net kW", "limits exceeded",
+        "mass kg", "torsion /rev", "fixed kW", "ideal kW", "gross kW", "net kW", "limits exceeded",
     )  # fmt: skip
     rows = [
         (
@@ -138,8 +138,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
             "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
             f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
-            kilowatts(verdict.baseline.ideal_saving), kilowatts(verdict.gross_saving),
-            kilowatts(verdict.net_saving), ", ".join(limit.name for limit in verdict.broken) or "none",
+            kilowatts(verdict.ideal_saving - verdict.baseline.ideal_saving), kilowatts(verdict.ideal_saving),
+            kilowatts(verdict.gross_saving), kilowatts(verdict.net_saving),
+            ", ".join(limit.name for limit in verdict.broken) or "none",
         )
         for verdict in verdicts
     ]  # fmt: skip
@@ -148,8 +149,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     notes = (
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
         "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
-        "Ideal: saving of the concept with free in-flight twist against its best fixed blade; gross and net: saving "
-        "within the actuator's range, without and with its mass on board.",
+        "All savings against one blade: the twist as built for a retrofit, else the concept's best fixed one. Fixed: "
+        "by the concept's best fixed twist; ideal: by free in-flight twist; gross and net: within the actuator's "
+        "range, without and with its mass on board.",
     )
     return ActuatorTable(
         f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes

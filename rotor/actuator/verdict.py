@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
 from rotor.actuator.electrical import Drive, drive
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated
-from rotor.actuator.section import Host, Placement
+from rotor.actuator.section import Host, Placement, default_placement
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
-from rotor.optimisation.concepts import Concept
+from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.limits import ChangeLimit
 from rotor.trim.solve import solve
 
@@ -140,6 +140,28 @@ class Verdict:
     def _fixed(self, jig: TwistOptimum) -> Design:
         design = self.baseline.pair.designs()[1]
         return design if self.installed.host.kind == "retrofit" else self.baseline.concept.apply(design, jig.values)
+
+
+def try_actuator(
+    name: str,
+    design: Design,
+    mu: tuple[float, float] = (0.0, 0.3),
+    *,
+    concept: str = "linear",
+    plies: int = 2,
+    share: float = 0.5,
+    new_blade: bool = False,
+    derated: bool = False,
+) -> Verdict:
+    """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
+
+    name: an actuator of `actuators()`, for example `MFC_P1`. share: fraction of time at the second advance ratio.
+    new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit. Raises ValueError with
+    one sentence for what cannot be used, RuntimeError where nothing trims.
+    """
+    host = Host("new", 0.5) if new_blade else Host()
+    pair = ConditionPair(design, mu, share)
+    return judge(find_actuator(name), pair, find_concept(concept), default_placement(plies), host, derated=derated)
 
 
 def judge(

@@ -12,6 +12,10 @@ from typing import Any
 from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
 from rotor.columns.bending import LOADS
 from rotor.design.design import Design, require_design
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.objective import Quantity, WeightedCondition
+from rotor.optimisation.schedule import Plan, Schedule, run_plan
+from rotor.optimisation.search import Limits
 from rotor.plots import plot_lines
 from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
@@ -102,10 +106,45 @@ def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) ->
     return SweepTable(tuple(solutions))
 
 
+def schedule(
+    design: Design,
+    mu: Iterable[float],
+    concepts: Sequence[str] = ("linear",),
+    *,
+    hours: Sequence[float] | None = None,
+    quantity: Quantity = "total",
+    limits: Limits | None = None,
+    starts: int = 4,
+    seed: int = 0,
+    processes: int = 1,
+) -> Schedule:
+    """The best twist at each advance ratio, the best fixed blade, and what a twist that moves saves beyond it.
+
+    concepts: names in `rotor.optimisation.CONCEPTS`, for example `linear` or `two-segment`.
+    hours: time at each advance ratio [h]; by default the same at all.
+    quantity, limits, starts, seed: as in `optimise`. processes: how many to use.
+
+    `Schedule.at(k, concept)` is the optimum at the k-th advance ratio in ascending order, `at(None, concept)` the fixed
+    blade, `in_flight_gain(concept)` the gain of moving. Raises ValueError with one sentence for what cannot be used.
+    """
+    speeds = list(mu)
+    times = [1.0] * len(speeds) if hours is None else list(hours)
+    if len(times) != len(speeds):
+        raise ValueError(f"{len(times)} hours for {len(speeds)} advance ratios: give one for each")
+    flights = [
+        WeightedCondition(design.at(mu=one).condition, time) for one, time in sorted(zip(speeds, times, strict=True))
+    ]
+    plan = Plan(
+        require_design(design), tuple(find_concept(name) for name in concepts), tuple(flights), quantity,
+        limits or Limits(), starts, seed,
+    )  # fmt: skip
+    return run_plan(plan, processes=processes)
+
+
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
     """Draw power over advance ratio: the parts of one sweep, or the totals of several. Returns the matplotlib axes.
 
-    Raises TypeError for anything but sweeps, and ImportError with the remedy where matplotlib is missing.
+    Raises TypeError for anything but sweeps.
     """
     if not tables or not all(
         isinstance(table, SweepTable)  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything

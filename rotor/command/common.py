@@ -95,6 +95,8 @@ def _how(name: str, hint: Any) -> dict[str, Any]:
         return {"action": "store_true"}
     if name == "low_speed":
         return {"choices": LOW_SPEEDS}
+    if int in get_args(hint):
+        return {"type": int, "metavar": "N"}
     if float in get_args(hint):
         return {"type": finite, "metavar": _unit(name)}
     return {"metavar": name.upper().replace("_", "-")}

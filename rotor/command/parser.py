@@ -31,6 +31,7 @@ def build_parser() -> argparse.ArgumentParser:
         tables.add_ideal,
         actuator.add_parser,
         reproduce.add_parser,
+        reproduce.add_ladder,
         validate.add_parser,
         airfoil.add_parser,
         bench.add_parser,

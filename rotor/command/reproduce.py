@@ -1,15 +1,33 @@
-"""`reproduce`: rebuilds the figures and tables of the thesis, and the trust table."""
+"""The source document: `reproduce` rebuilds its figures, `ladder` changes its assumptions one at a time."""
 
 import argparse
+import json
+import math
 import os
 import sys
 import time
+from collections.abc import Sequence
 from typing import Any
 
 from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, bar, interruptible
-from rotor.user_input import make_folder
+from rotor.reproduce.ladder import (
+    FAST,
+    FAST_KMH,
+    HOVER,
+    NOTHING,
+    SPEEDS,
+    TRIM,
+    Ladder,
+    Least,
+    Step,
+    Worth,
+    calls,
+    check_speeds,
+    climb,
+)
+from rotor.user_input import make_folder, parse_range
 
 
 def add_parser(commands: Any) -> None:
@@ -32,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
-    from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report, written
+    from rotor.reproduce.page import write_all, write_report, written
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.runs import compute_ahead
     from rotor.validation.page import SETS, write_trust
@@ -40,22 +58,19 @@ def run(args: argparse.Namespace) -> int:
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
-    processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
-    if not 1 <= processes <= 64:
-        raise ValueError(f"{processes} processes are outside 1…64: give one a core")
+    processes = _processes(args)
     wanted = [find_entry(number) for number in args.figure or ()]
     entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = make_folder(args.out)
     begin = time.perf_counter()
     made: list[tuple[CatalogueEntry, Report]] = []
-    pictures = can_draw()
 
     def make(wanted: list[CatalogueEntry]) -> None:
         for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
-            report = written.known.pop((entry.number, folder, pictures), None)
+            report = written.known.pop((entry.number, folder), None)
             if report is None:
                 report = entry.make()
-                write_report(report, folder, pictures=pictures)
+                write_report(report, folder)
             made.append((entry, report))
             tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
 
@@ -64,19 +79,17 @@ def run(args: argparse.Namespace) -> int:
     count = sum(map(len, groups))
     stopped = False
     if count:
-        print(f"{count} searches for the optima of chapter 4, in {processes} processes", file=sys.stderr)
+        print(f"{count} searches, in {processes} processes", file=sys.stderr)
         # Figures without searches come first: a page that is stopped has them, and each takes a second at most.
-        figures = [[(written, (entry.number, folder, pictures))] for entry in fast]
+        figures = [[(written, (entry.number, folder))] for entry in fast]
         with interruptible() as stop, bar(count + len(figures), "step") as advance:
             stopped = compute_ahead([*figures, *groups], processes, advance, stop)
-        fast = [entry for entry in fast if (entry.number, folder, pictures) in written.known]
+        fast = [entry for entry in fast if (entry.number, folder) in written.known]
     make(fast)
     if not stopped:
         make([entry for entry in entries if entry.slow])
     made.sort(key=lambda pair: entries.index(pair[0]))
     page = write_all(made, folder)
-    if not pictures:
-        print(f"note: {NO_PICTURES}", file=sys.stderr)
     if args.trust and not stopped:
         sets = [make_set() for make_set in SETS.values()]
         sets += trust_sets(report for _, report in made)
@@ -84,3 +97,116 @@ def run(args: argparse.Namespace) -> int:
     left = f", {len(entries) - len(made)} left out because of Ctrl-C" if stopped else ""
     print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
     return STOPPED if stopped else 0
+
+
+def add_ladder(commands: Any) -> None:
+    """Register `ladder`."""
+    parser = add_command(
+        commands, "ladder", "from preset thesis to flight, one assumption at a time: how far it moves the best twist"
+    )
+    parser.add_argument("--mu", metavar="A:B:STEP", help="hover (0) and advance ratios (default 0,0.1,0.15,…,0.35)")
+    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run_ladder)
+
+
+def run_ladder(args: argparse.Namespace) -> int:
+    """0, or 130 when interrupted."""
+    from rotor.reproduce.runs import compute_ahead
+
+    speeds = check_speeds(parse_range(args.mu)) if args.mu else SPEEDS
+    groups = calls(speeds)
+    with interruptible() as stop, bar(len({call for group in groups for call in group}), "optimum") as advance:
+        if compute_ahead(groups, _processes(args), advance, stop):
+            return STOPPED
+    found = climb(speeds)
+    print(json.dumps(ladder_record(found), indent=2, allow_nan=False) if args.json else ladder_text(found))
+    return 0
+
+
+def _processes(args: argparse.Namespace) -> int:
+    """How many were asked for, or one a core; ValueError outside 1…64."""
+    count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
+    if not 1 <= count <= 64:
+        raise ValueError(f"{count} processes are outside 1…64: give one a core")
+    return count
+
+
+def ladder_text(found: Ladder) -> str:
+    """The ladder as printed."""
+    fast = f"µ {found.speeds[-1]:g}"
+    heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in found.speeds]
+    wide = 46
+    lines = [
+        "UH-60A, 8322.4 kg, sea level: linear twist of least total power [°/R]; each line changes one assumption more.",
+        f"Moves, at {fast}: in the ladder, changed alone on thesis, taken back alone from flight. Worth: what a moving",
+        "twist saves beyond the best fixed one, equal time at each speed.",
+        f"−17.3° over −11.5°: main-rotor power at {FAST_KMH:.0f} km/h; Keys et al. measured {100 * FAST:+.0f} %.",
+        "",
+        f"{'':<{wide}}" + "".join(f"{head:>8}" for head in heads)
+        + f"{'moves':>9}{'on thesis':>11}{'off flight':>12}{'worth':>9}{'−17.3/−11.5':>13}",
+    ]  # fmt: skip
+    for one in found.steps:
+        lines.append(f"{one.words:<{wide}}{_rates(one.best)}{_moves(one)}{_end(one)}")
+        if one.name == TRIM[-1]:
+            lines.append(f"{'  ' + found.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(found.trim)}")
+    lines += [
+        f"Eight rigid blades of half the chord in place of four move it by {found.eight_blades_deg:+.1f}°.",
+        f"Without fuselage drag, which tilts the disk, the best of flight is {found.without_drag_deg:.1f}°.",
+        "",
+        "flight with each inflow model",
+    ]
+    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.worth.gain:7.2f} %" for one in found.wakes]
+    return "\n".join(lines)
+
+
+def _rates(best: Sequence[Least]) -> str:
+    return "".join(f"{one.rate_deg:8.1f}" for one in best)
+
+
+def _moves(one: Step) -> str:
+    ways = ((one.moves_deg, 9), (one.alone_on_thesis_deg, 11), (one.alone_off_flight_deg, 12))
+    return "".join(f"{'–' if way is None or abs(way) < NOTHING else f'{way:+.1f}':>{width}}" for way, width in ways)
+
+
+def _end(one: Step) -> str:
+    return f"{100 * one.worth.gain:7.2f} %{100 * one.strong_over_weak[1]:+11.1f} %"
+
+
+def ladder_record(found: Ladder) -> dict[str, Any]:
+    """The JSON of `ladder --json`."""
+    return {
+        "speeds_mu": list(found.speeds),
+        "steps": [_step_record(one) for one in found.steps],
+        "trim": _step_record(found.trim),
+        "eight_blades_deg": found.eight_blades_deg,
+        "without_drag_deg": found.without_drag_deg,
+        "wakes": [{"inflow": one.inflow, **_least_record(one.best), **_worth_record(one.worth)} for one in found.wakes],
+        "measured": {"hover_percent": 100 * HOVER, "fast_percent": 100 * FAST, "fast_km_h": FAST_KMH},
+    }
+
+
+def _step_record(one: Step) -> dict[str, Any]:
+    hover, fast = one.strong_over_weak
+    return {
+        "step": one.name,
+        "change": one.words,
+        **_least_record(one.best),
+        "moves_deg": one.moves_deg,
+        "alone_on_thesis_deg": one.alone_on_thesis_deg,
+        "alone_off_flight_deg": one.alone_off_flight_deg,
+        **_worth_record(one.worth),
+        "strong_over_weak_percent": {"hover": 100 * hover, "fast": 100 * fast},
+    }
+
+
+def _least_record(best: Sequence[Least]) -> dict[str, Any]:
+    return {
+        "best_twist_deg": [one.rate_deg for one in best],
+        "band_deg": [None if math.isnan(sum(one.band_deg)) else list(one.band_deg) for one in best],
+        "power_w": [1e3 * one.power_kw for one in best],
+    }
+
+
+def _worth_record(one: Worth) -> dict[str, float]:
+    return {"best_fixed_deg": one.fixed_deg, "moving_saves_percent": 100.0 * one.gain}

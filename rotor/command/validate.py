@@ -175,11 +175,8 @@ def verdict(found: Comparison) -> str:
 
 
 def draw(found: Comparison, folder: Path) -> Path:
-    """Measured points with their scatter, and ours, as `SET.png`. ValueError where that cannot be done."""
-    try:
-        pictures: Any = importlib.import_module("matplotlib.figure")
-    except ModuleNotFoundError:
-        raise ValueError("--plot needs matplotlib: pip install 'rotor-explorer[plots]'") from None
+    """Measured points with their scatter, and ours, as `SET.png`."""
+    pictures: Any = importlib.import_module("matplotlib.figure")
     measured, quantity = found.measured, found.measured.quantity
     along = measured.varied[0]
     figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")

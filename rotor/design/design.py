@@ -63,6 +63,12 @@ BEYOND_DOCUMENT = ("elastic_twist", "surface_drag", "swept_tip", "radial_frictio
 """Switches of `Models` for losses that the document does not have."""
 
 
+FLIGHT_INFLOW = "lifting-line"
+"""The inflow model of the preset `flight`, which has a grid of its own."""
+LARGEST_LINE = 6000
+"""Elements times azimuths of a lifting line: its influence matrix then has 140 MB."""
+
+
 @dataclass(frozen=True)
 class Models:
     """The models of a computation. A preset is a value of this type."""
@@ -113,9 +119,13 @@ class Models:
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
-    """Blade elements, equally wide (eq. 3.14), unless the inflow model has a grid of its own."""
+    """Blade elements, equally wide (eq. 3.14), unless the inflow is that of a lifting line."""
     azimuths: int = 120
-    """Azimuth stations; an inflow model with a grid of its own may be solved on fewer."""
+    """Azimuth stations; with a lifting line those shown."""
+    panels: int = 24
+    """Elements of a blade that is a lifting line, finer towards the tip."""
+    line_azimuths: int = 24
+    """Azimuth stations on which a lifting line is solved, at least."""
 
     def has(self, name: str) -> bool:
         """Whether one of the switches is on and belongs to these models."""
@@ -127,8 +137,15 @@ class Models:
             raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
+        if self.panels < 4 or self.line_azimuths < 8:
+            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
+        if self.inflow == FLIGHT_INFLOW and self.panels * self.line_azimuths > LARGEST_LINE:
+            raise ValueError(
+                f"a lifting line of {self.panels} elements at {self.line_azimuths} azimuths has more than "
+                f"{LARGEST_LINE} points: 24 × 24 is enough for power"
+            )
 
 
 @dataclass(frozen=True, repr=False)
@@ -253,6 +270,7 @@ class Design:
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
             **{name: getattr(self.models, name) for name in switches},
             **({"bending": True} if self.models.bending else {}),
+            **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if self.condition.stand is None else self._stand_record(self.condition.stand)),
@@ -376,7 +394,7 @@ class Design:
 PRESETS = ("flight", "thesis")
 
 FLIGHT_MODELS = Models(
-    inflow="lifting-line",
+    inflow=FLIGHT_INFLOW,
     hover_inflow="annulus",
     trim="propulsive",
     disk_axial_flow=True,
@@ -393,6 +411,21 @@ THESIS_MODELS = Models(
     tail_rotor_solved=False,
     document_losses=True,
 )
+
+
+def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:
+    """The models on so many blade elements and azimuths, whatever the inflow model; None leaves the present number."""
+    asked = {"elements": elements, "panels": elements, "azimuths": azimuths, "line_azimuths": azimuths}
+    return replace(models, **{name: value for name, value in asked.items() if value is not None})
+
+
+def grid_asked(models: Models) -> dict[str, int | None]:
+    """The arguments of `with_grid` that give these models; None for the numbers of a preset."""
+    plain, found = FLIGHT_MODELS, dict[str, int | None]()
+    for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):
+        values = {getattr(models, name) for name in (asked, line) if getattr(models, name) != getattr(plain, name)}
+        found[asked] = min(values, default=None)
+    return found
 
 
 def preset_models(preset: str) -> Models:

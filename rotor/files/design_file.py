@@ -13,7 +13,7 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import FORMAT, VERSION, Design
+from rotor.design.design import FORMAT, VERSION, Design, with_grid
 from rotor.design.retired import Tell, current_model, warn
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
@@ -39,6 +39,8 @@ _KEYS = (
     "low_speed",
     *SWITCHES,
     "bending",
+    "elements",
+    "azimuths",
     "airfoils",
     "active_twist",
     "twist_per_rev",
@@ -120,7 +122,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         if design.active_twist is not None:
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
-    return replace(design, models=models)
+    return replace(design, models=with_grid(models, _count(record, "elements"), _count(record, "azimuths")))
 
 
 def load_design(path: str | Path) -> Design:
@@ -176,6 +178,13 @@ def _number(record: dict[str, Any], key: str, default: Any) -> Any:
     if isinstance(value, (int, float)) and not isinstance(value, bool) and not abs(value) >= _LARGEST_NUMBER:
         return value
     raise ValueError(f"design file key {key!r} is {value!r}: give a number")
+
+
+def _count(record: dict[str, Any], key: str) -> int | None:
+    value = record.get(key)
+    if value is None or (isinstance(value, int) and not isinstance(value, bool)):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give a whole number")
 
 
 def _text(record: dict[str, Any], key: str, default: str) -> str:

@@ -21,6 +21,7 @@ from rotor.design.design import (
     Models,
     check_preset,
     preset_models,
+    with_grid,
 )
 from rotor.design.retired import current_model
 from rotor.design.stand import LOAD_KEYS, STAND_TRIMS, Stand, read_stand
@@ -68,6 +69,8 @@ def make_design(
     airfoils: str | None = None,
     off: str | None = None,
     bending: bool = False,
+    elements: int | None = None,
+    azimuths: int | None = None,
     models: Models | None = None,
     trim: str | None = None,
     stand: Stand | Mapping[str, Any] | None = None,
@@ -96,6 +99,8 @@ def make_design(
     airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
     off: physical effects switched off, separated by commas.
     bending: blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads.
+    elements: blade elements (default 40, or 24 panels of a lifting line).
+    azimuths: stations around the disk (default 120, or 24 of a lifting line).
     models: all model choices at once.
     trim: in flight, or on a test stand (the last three).
     stand: inputs of the test, a `Stand` or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its keys:
@@ -134,7 +139,9 @@ def make_design(
         condition=condition,
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=_changed(replace(models, bending=models.bending or bending), inflow, low_speed, off),
+        models=with_grid(
+            _changed(replace(models, bending=models.bending or bending), inflow, low_speed, off), elements, azimuths
+        ),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )

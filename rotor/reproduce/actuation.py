@@ -1,4 +1,4 @@
-"""Chapter 5: field and free strain of piezoelectric sheets, how far plies twist the blade, and whether it pays.
+"""Chapter 5: free strain of piezoelectric sheets, how far plies twist the blade, and whether it pays.
 
 Only the captions of the thesis are known; what is here is ours.
 """
@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
-from rotor.actuator.electrical import field_map, strain_curve
+from rotor.actuator.electrical import strain_curve
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
@@ -26,13 +26,9 @@ BLADES: dict[str, tuple[int, Host]] = {
     "flown blade, 4 plies": (4, Host()),
     "new blade, GJ/2, 2 plies": (2, Host("new", 0.5)),
 }
-PAIR = ("MFC_P1", "MFC_P2")
-"""The same fibres with interdigitated (d33) and with continuous electrodes (d31)."""
 SOURCE = "Properties and sources: assets/actuators.toml; recalled or assumed values are marked in Table 5.1."
-FINGER = 0.2
-"""Part of the gap that an electrode finger covers (assumed)."""
-MM, PPM, KV_MM = 1e3, 1e6, 1e-6
-"""From metres, strains and volts per metre."""
+PPM, KV_MM = 1e6, 1e-6
+"""From strains and volts per metre."""
 
 
 def sheet(id: str) -> PiezoPly:
@@ -51,33 +47,6 @@ def sheets() -> tuple[PiezoPly, ...]:
 def fitted_blade(plies: int, host: Host) -> InstalledActuator:
     """MFC P1 as the worked example places it."""
     return install(sheet("MFC_P1"), default_placement(plies), host, uh60a_rotor("flight"))
-
-
-def figure_5_4() -> Report:
-    """The field of both kinds of electrode."""
-    curves: list[Curve] = []
-    rows: list[tuple[str | float, ...]] = []
-    numbers: dict[str, float] = {}
-    for id in PAIR:
-        one = sheet(id)
-        found = field_map(one, FINGER)
-        mean = one.voltage_range[1] / one.electrode_gap * KV_MM
-        j, k = len(found.z) // 2, len(found.x) // 2
-        strength = mean * found.strength[j]
-        numbers |= {f"{id}_mean": mean, f"{id}_middle": float(strength[k])}
-        curves.append(curve(f"{id.replace('_', ' ')}, {one.electrodes}", found.x, strength))
-        rows += [(id, x, value) for x, value in zip(found.x, strength, strict=True)]
-    return card(
-        "5.4",
-        "Field at mid-depth of a sheet at the highest voltage allowed, along the fibre: from finger to finger of "
-        "interdigitated electrodes, and between continuous ones.",
-        f"MFC P1: mean over the gap {numbers['MFC_P1_mean']:.1f} kV/mm, {numbers['MFC_P1_middle']:.1f} halfway between "
-        f"the fingers; MFC P2: {numbers['MFC_P2_mean']:.1f} kV/mm everywhere.",
-        f"Laplace's equation for one dielectric, fingers {100 * FINGER:.0f} % of the gap wide (assumed).",
-        table("field", ("actuator", "x_over_gap", "field_kv_mm"), rows),
-        (PlotPanel("along the fibre, over the electrode gap", "field [kV/mm]", tuple(curves), y_limits=(0.0, 4.0)),),
-        numbers,
-    )
 
 
 def figure_5_5() -> Report:
@@ -108,32 +77,6 @@ def figure_5_5() -> Report:
         (PlotPanel("field [kV/mm]", "free strain along [µε]", tuple(curves)),),
         numbers,
     )  # fmt: skip
-
-
-def figure_5_7() -> Report:
-    """Field against voltage."""
-    curves: list[Curve] = []
-    rows: list[tuple[str, float, float, float, float, float]] = []
-    numbers: dict[str, float] = {}
-    for one in sheets():
-        found = strain_curve(one, 2)
-        curves.append(curve(found.label, found.voltage, KV_MM * found.field, "both"))
-        low, high = KV_MM * found.field
-        rows.append((one.id, *one.voltage_range, MM * one.electrode_gap, float(low), float(high)))
-        numbers |= {f"{one.id}_low": float(low), f"{one.id}_high": float(high)}
-    return card(
-        "5.7",
-        "Field between the electrodes, V/ΔES, over the voltage range of each sheet.",
-        "; ".join(
-            f"{id.replace('_', ' ')} {low:.2f}…{high:.2f} kV/mm over {gap:.2g} mm" for id, *_, gap, low, high in rows
-        )
-        + ".",
-        "Against the poling direction the field must stay below the coercive field of the ceramic (1.2 to 1.5 kV/mm "
-        f"for PZT-5A); that sets the low end of the voltage. {SOURCE}",
-        table("field", ("actuator", "lowest_v", "highest_v", "gap_mm", "lowest_kv_mm", "highest_kv_mm"), rows),
-        (PlotPanel("voltage [V]", "field [kV/mm]", tuple(curves)),),
-        numbers,
-    )
 
 
 def figure_5_10() -> Report:

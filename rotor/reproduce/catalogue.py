@@ -9,11 +9,11 @@ from typing import Any
 from rotor.line_chart import LineChart, Mark, Series
 from rotor.reproduce import (
     actuation,
-    aircraft,
     disk_figures,
+    implementation,
+    ladder,
     optimum_twist,
     readings,
-    sections,
     today,
     twist_effect,
 )
@@ -26,7 +26,6 @@ from rotor.reproduce.runs import (
     CachedFunction,
     Call,
     best,
-    best_fixed,
     searches,
 )
 from rotor.validation.theory import bound
@@ -53,10 +52,6 @@ def _of(*concepts: str) -> Callable[[str], Sequence[Call]]:
     return lambda name: searches(concepts, name, FULL)
 
 
-def _all_and_fixed(name: str) -> Sequence[Call]:
-    return [*searches(tuple(CONCEPTS), name, FULL), (best_fixed, (name, FULL))]
-
-
 def _once(function: CachedFunction[..., Any], *args: object) -> Callable[[str], Sequence[Call]]:
     return lambda name: [(function, args)] if name == "flight" else []
 
@@ -72,29 +67,23 @@ _TODAY = "What the thesis would have found"
 
 ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("literature", today.literature, _INTRODUCTION),
-    CatalogueEntry("2.3", partial(sections.force_figure, "2.3"), _SECTIONS),
-    CatalogueEntry("2.4", sections.figure_2_4, _SECTIONS),
-    CatalogueEntry("2.6", disk_figures.figure_2_6, _SECTIONS),
     CatalogueEntry("2.7", disk_figures.figure_2_7, _SECTIONS),
     CatalogueEntry("2.8", disk_figures.figure_2_8, _SECTIONS),
-    CatalogueEntry("3.1", partial(sections.force_figure, "3.1"), _MODEL),
-    CatalogueEntry("3.2", partial(sections.force_figure, "3.2"), _MODEL),
-    CatalogueEntry("3.3", partial(sections.error_figure, "3.3"), _MODEL),
-    CatalogueEntry("3.4", partial(sections.error_figure, "3.4"), _MODEL),
-    CatalogueEntry("3.5", partial(sections.fit_figure, "3.5"), _MODEL),
-    CatalogueEntry("3.6", partial(sections.fit_figure, "3.6"), _MODEL),
+    CatalogueEntry("3.3", partial(implementation.error_figure, "3.3"), _MODEL),
+    CatalogueEntry("3.4", partial(implementation.error_figure, "3.4"), _MODEL),
+    CatalogueEntry("3.5", partial(implementation.fit_figure, "3.5"), _MODEL),
+    CatalogueEntry("3.6", partial(implementation.fit_figure, "3.6"), _MODEL),
     CatalogueEntry("3.7", partial(disk_figures.elements_figure, "3.7"), _MODEL),
     CatalogueEntry("3.8", partial(disk_figures.elements_figure, "3.8"), _MODEL),
     CatalogueEntry("3.9", disk_figures.figure_3_9, _MODEL),
-    CatalogueEntry("table 3.1", aircraft.table_3_1, _AIRCRAFT),
-    CatalogueEntry("table 3.2", aircraft.table_3_2, _AIRCRAFT),
-    CatalogueEntry("tail rotor", aircraft.tail_rotor, _AIRCRAFT),
-    CatalogueEntry("3.10", aircraft.figure_3_10, _AIRCRAFT),
+    CatalogueEntry("table 3.1", implementation.table_3_1, _AIRCRAFT),
+    CatalogueEntry("table 3.2", implementation.table_3_2, _AIRCRAFT),
+    CatalogueEntry("tail rotor", implementation.tail_rotor, _AIRCRAFT),
+    CatalogueEntry("3.10", implementation.figure_3_10, _AIRCRAFT),
     CatalogueEntry("3.11", twist_effect.figure_3_11, _TWIST),
     CatalogueEntry("3.12", twist_effect.figure_3_12, _TWIST),
     CatalogueEntry("3.13", twist_effect.figure_3_13, _TWIST),
     CatalogueEntry("3.14", twist_effect.figure_3_14, _TWIST),
-    CatalogueEntry("3.15", twist_effect.figure_3_15, _TWIST),
     CatalogueEntry("readings", readings.readings, _TWIST, readings.needed),
     CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
     *(
@@ -106,10 +95,8 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
         "4.12", optimum_twist.figure_4_12, _OPTIMUM, _once(optimum_twist.three_segment_rows, "flight", None)
     ),
     CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
-    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, _all_and_fixed),
-    CatalogueEntry("5.4", actuation.figure_5_4, _CONCEPT),
+    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, _of(*CONCEPTS)),
     CatalogueEntry("5.5", actuation.figure_5_5, _CONCEPT),
-    CatalogueEntry("5.7", actuation.figure_5_7, _CONCEPT),
     CatalogueEntry("5.10", actuation.figure_5_10, _CONCEPT),
     CatalogueEntry("table 5.1", actuation.table_5_1, _CONCEPT),
     CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, _once(actuation.compared, "flight")),
@@ -119,17 +106,25 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
 DRAWINGS = {
     "2.1": "stream tube in hover",
     "2.2": "blade element",
+    "2.3": "forces around NACA 23015, XFOIL's picture",
+    "2.4": "pressure on NACA 23015, XFOIL's picture",
     "2.5": "annulus of the disk and reverse flow",
+    "2.6": "velocity in hover, the same at every azimuth",
     "2.9": "flapping hinge",
+    "3.1": "forces around SC1095, XFOIL's picture",
+    "3.2": "forces around SC1094 R8, XFOIL's picture",
+    "3.15": "figure of another work, Han et al. 2015",
     "4.9": "planform of the UH-60A blade",
     "5.1": "active twist",
     "5.2": "deformed piezoelectric sheet",
     "5.3": "continuous and interdigitated electrodes",
+    "5.4": "electric field of both kinds of electrodes",
     "5.6": "macro fibre composite",
+    "5.7": "electric field over voltage, which is voltage over gap",
     "5.8": "blade with its electronics",
     "5.9": "airfoil with actuators",
 }
-"""Figures of the thesis that show nothing computed, and so are not rebuilt."""
+"""Figures of the thesis that show nothing of its model, and so are not rebuilt."""
 
 
 def find_entry(number: str) -> CatalogueEntry:
@@ -151,10 +146,13 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     """
     chained: list[list[Call]] = []
     alone: list[list[Call]] = []
-    for name in sorted(VARIANTS, key=lambda name: name in ("thesis", FLIGHT_LINEAR)):  # The lifting line takes longest.
+    for name in reversed(VARIANTS):  # The lifting line takes longest.
         calls = dict.fromkeys(call for entry in entries if entry.needs for call in entry.needs(name))
-        chained.append([call for call in calls if call[0] in (best, best_fixed)])
-        alone += [[call] for call in calls if call[0] not in (best, best_fixed)]
+        chained.append([call for call in calls if call[0] is best])
+        alone += [[call] for call in calls if call[0] is not best]
+    climbing = [calls[0] for calls in alone if calls[0][0] in ladder.PARTS]
+    chained.append(climbing)
+    alone = [calls for calls in alone if calls[0] not in climbing]
     long = [calls for calls in alone if calls[0][0] is actuation.compared]
     short = [calls for calls in alone if calls not in long]
     return [*long, *(calls for calls in chained if calls), *short]
@@ -206,7 +204,7 @@ def _keys_1987(report: Report) -> TrustSet:
               unit="points")
         for name in ("thesis-wake", "flight")
         for key, words, published in (
-            ("hover", "hover", twist_effect.HOVER), ("fast", "330 km/h", twist_effect.FAST),
+            ("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST),
         )
     )  # fmt: skip
     return TrustSet(

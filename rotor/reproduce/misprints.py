@@ -108,6 +108,18 @@ MISPRINTS: tuple[Misprint, ...] = (
         "spread('thesis'), spread('thesis-wake')", "kW",
     ),
     Misprint(
+        "3.12", "22", "misprint", "T = ∫∫ Nb Fz dy dψ over 0…2π",
+        "1/2π before it: thrust is the mean over a turn. Shown: thrust over weight of a trimmed hover.",
+        "one = solve(make_design(preset='thesis', mu=0.0)).require()",
+        "2 * np.pi * one.ct / one.design.weight_coefficient, one.ct / one.design.weight_coefficient",
+    ),
+    Misprint(
+        "3.13", "22", "misprint", "P = ∫∫ Nb Ωy Fx dy dψ over 0…2π",
+        "1/2π before it, as in (3.12). Shown: shaft power of the same hover.",
+        "one = solve(make_design(preset='thesis', mu=0.0)).require()",
+        "2 * np.pi * one.power.shaft / 1e3, one.power.shaft / 1e3", "kW",
+    ),
+    Misprint(
         "3.14", "22", "misprint", "Δy = (1 − Rmin/Rmax)/N", "That is Δr = Δy/R. Shown: N = 40, as printed and in "
         "metres.",
         "root, radius = 0.1304, 8.1788",

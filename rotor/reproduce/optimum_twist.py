@@ -9,6 +9,7 @@ import numpy as np
 from rotor.files.make_design import make_design, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
+from rotor.reproduce.ladder import RUNGS, worth
 from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
@@ -19,7 +20,6 @@ from rotor.reproduce.runs import (
     ConceptOptimum,
     Scope,
     best,
-    best_fixed,
     comparable_kw,
     variant,
 )
@@ -27,12 +27,6 @@ from rotor.trim.solve import solve
 from rotor.units import KNOT
 from rotor.validation.uh60a import HORSEPOWER_KW, SLOWEST, public_data
 
-SHORT = {
-    "thesis": "thesis",
-    "thesis-wake": "thesis + wake",
-    "flight": "flight",
-    "flight-linear": "flight, linear inflow",
-}
 NAMES = {
     "rate_deg": "twist rate [°/R]",
     "curvature_deg": "parameter a [°/R²]",
@@ -64,29 +58,19 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
 
 
 def optimum_figure(number: str, scope: Scope = FULL) -> Report:
-    """The optimum of one concept over speed, in every variant; `number` is one of `FIGURES`."""
+    """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
     concept, shown, note = FIGURES[number]
     found = {name: [best(name, concept, mu, scope) for mu in scope.speeds] for name in VARIANTS}
-    largest = {name: max(row, key=lambda one: one.saving) for name, row in found.items()}
+    largest = {name: max(one.saving for one in row) for name, row in found.items()}
     widths = [high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
     settled = all(one.converged for row in found.values() for one in row)
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
     return card(
         number,
-        f"Twist of least total power over speed: {CONCEPTS[concept][0]}. Shaded: within 0.1 % of that power, the "
-        f"other parameters re-optimised.{note}",
-        f"From hover to µ {scope.speeds[-1]:g}: "
-        + "; ".join(
-            f"{SHORT[name]}: "
-            + ", ".join(f"{_word(key)} {_value(row[0], key):.1f}° to {_value(row[-1], key):.1f}°" for key in shown)
-            + f", saving at most {100 * largest[name].saving:.1f} % (µ {largest[name].mu:g})"
-            for name, row in found.items()
-        )
-        + ".",
-        f"The optimum is flat (up to {widest:.0f}° of twist for 0.1 % of power): read the band, not the line. "
-        "With linear inflow only profile power moves it; with a model that responds to loading, induced power does too."
-        + _on_bound(found, shown)
+        f"Twist of least total power over speed: {CONCEPTS[concept][0]}. Shaded: within 0.1 % of that power.",
+        f"Against a fixed linear −16° it saves at most {by_name(largest)}; up to {widest:.0f}° of twist cost 0.1 %.",
+        "The other parameters are re-optimised along the band." + note + _on_bound(found, shown)
         + ("" if settled else " Not every search converged."),
         table(
             "optimum",
@@ -99,13 +83,22 @@ def optimum_figure(number: str, scope: Scope = FULL) -> Report:
             ],
         ),
         tuple(_panel(name, row, shown) for name, row in found.items()),
+        summary=table(
+            "best",
+            ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in scope.speeds)),
+            [
+                (f"{name}, {NAMES[key]}", *(f"{_value(one, key):.1f}" for one in row))
+                for name, row in found.items()
+                for key in shown
+            ],
+        ),
     )  # fmt: skip
 
 
 def _on_bound(found: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> str:
     """Names the optima that lie on the bound of the search, where the true optimum may lie beyond."""
     places = [
-        f"{_word(key)} at {'hover' if one.mu == 0.0 else f'µ {one.mu:g}'} ({SHORT[name]})"
+        f"{_word(key)} at {'hover' if one.mu == 0.0 else f'µ {one.mu:g}'} ({name})"
         for name, row in found.items()
         for one in row
         for key in shown
@@ -151,7 +144,7 @@ def figure_4_11() -> Report:
     return Report(
         number="4.11",
         caption="Built-in twist of the UH-60A and its linear approximation.",
-        statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
+        statement="“approximated by a linear blade twist of −16°” (p. 25).",
         ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
         "r².",
         verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
@@ -220,7 +213,7 @@ def figure_4_12(most: int | None = None) -> Report:
 
 
 _SAME_BASELINE = (
-    " Two airfoils in the thesis preset: the gain of the second airfoil, found with decks, on top of the two segments "
+    "Two airfoils in the thesis preset: the gain of the second airfoil, found with decks, on top of the two segments "
     "with polynomials; so every concept has the same baseline."
 )
 
@@ -240,17 +233,12 @@ def figure_4_13(scope: Scope = FULL) -> Report:
         panels.append(
             PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
         )
-    gain = {
-        name: max(float(x) for x in np.subtract(savings[name, "three"], savings[name, "linear"])) for name in VARIANTS
-    }
+    gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in VARIANTS}
     return card(
         "4.13",
-        "Saving of total power by each concept at its optimum for each speed, relative to a fixed linear "
-        f"−16°.{_SAME_BASELINE}",
-        "Three segments save more than one linear twist by at most "
-        + by_name({SHORT[name]: value / 100.0 for name, value in gain.items()}, "{:.2f} %")
-        + ".",
-        "One variable linear twist gives most of the saving of steady twist.",
+        "Saving of total power by each concept at its optimum for each speed, against a fixed linear −16°.",
+        f"Three segments save more than one linear twist by at most {by_name(gain, '{:.2f} %')}.",
+        _SAME_BASELINE,
         table(
             "saving_percent",
             ("variant", "concept", *(f"mu_{mu:g}" for mu in scope.speeds)),
@@ -259,8 +247,13 @@ def figure_4_13(scope: Scope = FULL) -> Report:
         tuple(panels),
         {
             **{f"{name}_{concept}_largest": max(row) / 100.0 for (name, concept), row in savings.items()},
-            **{f"{name}_three_over_linear": value / 100.0 for name, value in gain.items()},
+            **{f"{name}_three_over_linear": float(value) for name, value in gain.items()},
         },
+        summary=table(
+            "largest saving",
+            ("[%]", *CONCEPTS),
+            [(name, *(f"{max(savings[name, concept]):.1f}" for concept in CONCEPTS)) for name in VARIANTS],
+        ),
     )
 
 
@@ -268,29 +261,26 @@ def table_4_1(scope: Scope = FULL) -> Report:
     """Reduction of power, and how much of it a better fixed blade would have had too."""
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
-    words: list[str] = []
     for name in VARIANTS:
-        one = best_fixed(name, scope)
+        one = worth(tuple(RUNGS) if name == "flight" else (), scope.speeds, None)
         mean = {
             concept: sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / len(scope.speeds)
             for concept in CONCEPTS
         }
         saving = {concept: 1.0 - power / one.baseline_kw for concept, power in mean.items()}
-        fixed, moving = 1.0 - one.power_kw / one.baseline_kw, 1.0 - mean["linear"] / one.power_kw
-        rows.append((name, *(100.0 * part for part in saving.values()), one.rate_deg, 100.0 * fixed))
-        numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
-        words.append(
-            f"{SHORT[name]}: variable linear twist saves {100 * saving['linear']:.1f} % of mean power relative to "
-            f"−16°, a fixed {one.rate_deg:.1f}° saves {100 * fixed:.1f} %; the additional saving from variable twist "
-            f"is {100 * moving:.1f} %"
+        fixed, moving = 1.0 - one.fixed_kw / one.baseline_kw, 1.0 - mean["linear"] / one.fixed_kw
+        rows.append(
+            (name, *(f"{100.0 * part:.2f}" for part in saving.values()), f"{100.0 * fixed:.2f} ({one.fixed_deg:.1f}°)")
         )
+        numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
+    beyond = by_name({name: numbers[f"{name}_moving"] for name in VARIANTS}, "{:.2f} %")
     return card(
         "4.1",
-        "Reduction of total power between a fixed linear −16° and each concept, mean over the speeds; and the part "
-        f"of it that the best fixed linear blade would give (equal time at every speed) [%].{_SAME_BASELINE}",
-        "; ".join(words) + ".",
-        "Part of every saving relative to −16° arises because −16° is not the best fixed blade for these speeds.",
-        table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed [°/R]", "fixed"), rows),
+        "Reduction of mean total power against a fixed linear −16° by each concept, equal time at each speed, and by "
+        "the best fixed linear blade [%].",
+        f"Beyond the best fixed linear blade a linear twist that moves saves {beyond}.",
+        _SAME_BASELINE,
+        table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows),
         numbers=numbers,
     )
 

@@ -1,12 +1,8 @@
-"""Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each.
-
-Figures are SVG and PNG, where matplotlib is installed.
-"""
+"""Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each."""
 
 import base64
 import csv
 import importlib
-import importlib.util
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -15,15 +11,11 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from rotor.arrays import Array
+from rotor.assets import asset_path
 from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
 from rotor.reproduce.misprints import misprint_table
 from rotor.reproduce.report import (
     Agreement,
-    AnyPanel,
-    DiskPanel,
     PlotPanel,
     Report,
     ReportTable,
@@ -33,10 +25,6 @@ from rotor.reproduce.report import (
 from rotor.reproduce.runs import CachedFunction
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
-NO_PICTURES = (
-    "matplotlib is not installed, so there are no pictures; tables are complete. "
-    "For pictures: pip install 'rotor-explorer[plots]'"
-)
 _STYLE = {
     "font.size": 9.0,
     "font.family": "sans-serif",
@@ -61,14 +49,9 @@ FEW = 3
 """Curves for whose names there is room in a panel."""
 
 
-def can_draw() -> bool:
-    """Whether matplotlib is there."""
-    return importlib.util.find_spec("matplotlib") is not None
-
-
-def same_key(panels: tuple[AnyPanel, ...]) -> bool:
+def same_key(panels: tuple[PlotPanel, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
-    keys = [tuple(one.label for one in panel.curves) for panel in panels if isinstance(panel, PlotPanel)]
+    keys = [tuple(one.label for one in panel.curves) for panel in panels]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
@@ -85,15 +68,14 @@ def draw(report: Report, folder: Path) -> None:
     down = math.ceil(count / across)
     # A single picture is wider, so that its text is not enlarged on the page.
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
+    if count == 1 and panels[0].names:
+        width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
             place = axes[k // across][k % across]
-            if isinstance(panel, DiskPanel):
-                _draw_disk(figure, place, panel)
-            else:
-                _draw_panel(place, panel, legend=not legend_below)
+            _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
             handles, labels = axes[0][0].get_legend_handles_labels()
             columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))
@@ -106,11 +88,14 @@ def draw(report: Report, folder: Path) -> None:
 
 
 def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
-    turn = 0
+    turn, down = 0, bool(panel.names)
     for one in panel.curves:
         place = one.colour if one.colour is not None else turn
         turn += one.colour is None
         colour = PALETTE[place % len(PALETTE)]
+        if one.style == "band" and down:
+            axes.fill_betweenx(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
+            continue
         if one.style == "band":
             if len(one.x) == 1:  # One condition alone has no area.
                 axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
@@ -123,49 +108,23 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
             "dashed": {"linestyle": "--"},
             "both": {"marker": "o", "markersize": 3},
         }[one.style]
-        axes.plot(one.x, one.y, color=colour, label=typographic(one.label) or None, **look)
-    axes.set_xlabel(panel.x_label)
-    axes.set_ylabel(panel.y_label)
+        across, up = (one.y, one.x) if down else (one.x, one.y)
+        axes.plot(across, up, color=colour, label=typographic(one.label) or None, **look)
+    axes.set_xlabel(panel.y_label if down else panel.x_label)
+    axes.set_ylabel(panel.x_label if down else panel.y_label)
+    if down:
+        axes.set_yticks(range(len(panel.names)), panel.names)
+        axes.invert_yaxis()
     if panel.title:
         axes.set_title(panel.title)
     if "x" in panel.log:
         axes.set_xscale("log")
     if "y" in panel.log:
         axes.set_yscale("log")
-    if panel.invert_y:
-        axes.invert_yaxis()
-    if panel.equal:
-        axes.set_aspect("equal", adjustable="datalim")
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
     if legend and sum(bool(one.label) for one in panel.curves) > 1:
         axes.legend()
-
-
-def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
-    """Seen from above, nose up: x = r sin ψ, y = −r cos ψ; the circle closes because cells have edges of their own."""
-    values = np.array(panel.values)
-    m, edges = values.shape[1], np.array(panel.edges)
-    around: Array = 2.0 * np.pi * (np.arange(m + 1, dtype=np.float64) - 0.5) / m
-    x: Array = edges[:, None] * np.sin(around)
-    y: Array = -edges[:, None] * np.cos(around)
-    mesh = axes.pcolormesh(x, y, values, cmap="viridis", rasterized=True)
-    figure.colorbar(mesh, ax=axes, label=panel.label, shrink=0.85)
-    if panel.zero_line:
-        psi = np.append(panel.psi, 2.0 * np.pi)
-        closed = np.hstack((values, values[:, :1]))
-        r = np.array(panel.r)[:, None]
-        axes.contour(r * np.sin(psi), -r * np.cos(psi), closed, levels=[0.0], colors="white", linewidths=1.2)
-    axes.set_aspect("equal")
-    axes.set_xticks([])
-    axes.set_yticks([])
-    axes.grid(False)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-    for words, across, up in (("ψ = 0°, tail", 0.0, -1.1), ("90°, advancing", 1.08, 0.0), ("180°", 0.0, 1.06)):
-        turn = 90 if across else 0
-        axes.text(across, up, words, ha="center", va="center", fontsize=7, rotation=turn, color="#555555")
-    axes.set_title(panel.title, pad=14)
 
 
 LONG = 60
@@ -179,50 +138,6 @@ COLOURS = {
     Agreement.LOADED: "#5b6770",
     Agreement.INDICATIVE: "#9a6b00",
 }
-_CSS = """
-:root{color-scheme:light dark;--ink:#1c2429;--soft:#5b6770;--page:#f6f7f8;--card:#fff;--line:#dde2e6;--link:#0b5fa5}
-body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--page);margin:0}
-main{max-width:1080px;margin:0 auto;padding:24px 20px 80px}
-h1{font-size:26px;margin:8px 0}
-h2{font-size:19px;margin:38px 0 10px;border-bottom:1px solid var(--line);padding-bottom:4px}
-article{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:16px 20px;margin:14px 0}
-h3{font-size:16px;margin:0 0 6px;display:flex;gap:12px;align-items:baseline}
-.chip{color:#fff;font-size:12px;border-radius:10px;padding:1px 9px;font-weight:600;white-space:nowrap}
-dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{color:var(--soft)}dd{margin:0}
-img{max-width:100%;height:auto;display:block;margin:8px auto}
-table{border-collapse:collapse;font-size:13px}
-td,th{padding:2px 10px;text-align:right;border-bottom:1px solid var(--line);vertical-align:top}
-td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:var(--link)}
-.scroll{overflow-x:auto}.scroll td,.scroll th{white-space:nowrap}a{color:var(--link)}
-.small{font-size:13px;color:var(--soft)}
-.shown{overflow-x:auto;margin:10px 0}.shown td,.shown th{text-align:left;padding:3px 8px;font-size:12.5px}
-.shown th{font-weight:600;color:var(--soft)}
-.yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
-.shown td.code{font-family:monospace;white-space:pre-wrap}
-.talk main{max-width:1240px;padding-bottom:20px}.talk details{display:none}
-.talk article{display:grid;grid-template-columns:7fr 5fr;column-gap:24px;align-items:start}
-.talk h3,.talk h3+div,.talk .files{grid-column:1/-1}.talk img{grid-column:1;grid-row:3/5}
-.talk .shown,.talk dl{grid-column:2}.talk .shown td{white-space:normal}
-.talk dl{grid-template-columns:1fr;font-size:14px}.talk dl dd{margin-bottom:4px}
-.toc{width:100%}.toc td{text-align:left}.toc td:first-child{white-space:nowrap}
-@media(prefers-color-scheme:dark){
-.yes{color:#63c58d}
-:root{--ink:#dfe5e9;--soft:#9aa7b0;--page:#12171a;--card:#1a2126;--line:#303a41;--link:#6db3ee}
-img{filter:invert(1) hue-rotate(180deg)}
-img.field{filter:none;background:#fff;border-radius:6px;padding:6px}.chip{filter:brightness(.9)}}
-@media(max-width:600px){dl{grid-template-columns:1fr}dt{margin-top:4px}article{padding:12px}}
-@media print{
-:root{color-scheme:light;--ink:#000;--soft:#444;--page:#fff;--card:#fff;--line:#ccc;--link:#000}
-body{font-size:10.5pt}main{max-width:none;padding:0}img,img.field{filter:none;break-inside:avoid;max-height:7.6cm;padding:0}
-article{border:0;border-top:1px solid var(--line);border-radius:0;padding:8px 0;break-inside:avoid}
-dl{font-size:9pt;line-height:1.35;gap:2px 12px;margin:6px 0}img.tall{max-height:13cm}.talk img{max-height:none}
-h2,h3{break-after:avoid}h3+div{break-after:avoid}dl,tr{break-inside:avoid}
-article>details,.files,.talk p{display:none}
-.talk{page:talk}.talk body{line-height:1.3;font-size:9.5pt}.talk h1{font-size:16pt;margin:0}.talk article{padding:4px 0}
-.talk dl{font-size:8.5pt;gap:1px 0;margin:4px 0;break-inside:auto}
-.chip{print-color-adjust:exact}.shown td,.shown th{font-size:7pt;padding:1px 3px;white-space:normal}}
-@page{margin:12mm}@page talk{size:A4 landscape;margin:9mm}
-"""
 
 
 def escape(text: str) -> str:
@@ -235,11 +150,20 @@ TALK = "today.html"
 MISPRINTS_PAGE = "misprints.html"
 
 
-def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> None:
-    """Write the last chapter as a page of its own, where it was made."""
+def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> None:
+    """Write the last chapter as a page of one screen, where it was made."""
     report = _talk_of(made)
-    if report is not None:
-        _write_beside(folder / TALK, "What the thesis would have found", _article(report, folder, pictures=pictures))
+    if report is None:
+        return
+    answer, *others = report.tables
+    rows = "".join(f"<dt>{escape(str(words))}</dt><dd>{escape(str(text))}</dd>" for words, text in answer.rows)
+    files = " · ".join(f'<a href="{csv_name(report, one)}">CSV {escape(one.name)}</a>' for one in others)
+    body = (
+        f"<p class=lead>{escape(report.ours)}</p><div class=two><div>{_image(report, folder)}"
+        f"<p class=small>{escape(report.caption)}</p></div><dl>{rows}</dl></div>"
+        f"<p class=small>{escape(report.because)} {files}</p>"
+    )
+    _write_beside(folder / TALK, "What the thesis would have found", body)
 
 
 def write_misprints(folder: Path) -> Path:
@@ -266,21 +190,20 @@ def _opening(title: str, kind: str = "") -> str:
     return (
         f'<!doctype html><html lang="en" class="{kind}"><meta charset="utf-8"><title>{escape(title)}</title>'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<style>{_CSS}</style><main>"
+        f"<style>{asset_path('thesis_page.css').read_text(encoding='utf-8')}</style><main>"
     )
 
 
-def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
+def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> str:
     counts = Counter(report.verdict for _, report in made)
     summary = ", ".join(f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.ALONE)
-    checkable = sum(report.checkable for _, report in made)
+    checkable, captions = (sum(getattr(report, name) for _, report in made) for name in ("checkable", "caption_only"))
     drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
     rows = "".join(
         f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
         f"<td>{escape(report.statement)}</td></tr>"
         for _, report in made
     )
-    without = "" if pictures else f"<p><b>{escape(NO_PICTURES)}</b></p>"
     talk = f' <a href="{TALK}">Its main results then and now, on one page</a>.' if _talk_of(made) else ""
     return (
         f"{_opening('The thesis, rebuilt')}<h1>The thesis, rebuilt</h1>"
@@ -289,33 +212,41 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
         "the captions.</p>"
-        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {len(made) - checkable} "
-        f"ours under a caption or a picture without numbers; {len(DRAWINGS)} drawings of the thesis, not rebuilt. "
-        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>{without}'
+        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {captions} ours under its "
+        f"captions; {len(made) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures of the "
+        "thesis that show nothing of its model, not rebuilt. "
+        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>'
         f"<details open><summary>Contents</summary><table class=toc>{rows}</table>"
-        f"<p class=small>Drawings in the thesis, not rebuilt: figures {escape(drawings)}.</p></details>"
+        f"<p class=small>Not rebuilt: figures {escape(drawings)}.</p></details>"
     )
 
 
-def _article(report: Report, folder: Path, *, pictures: bool) -> str:
-    image = ""
+def _article(report: Report, folder: Path) -> str:
+    image = _image(report, folder) if report.panels else ""
     files = [f'<a href="{csv_name(report, one)}">CSV {escape(one.name.replace("_", " "))}</a>' for one in report.tables]
-    if pictures and report.panels:
-        data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
-        # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
-        field = any(isinstance(panel, DiskPanel) for panel in report.panels)
-        kind = "field" if field else "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
-        image = f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+    if image:
         files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables if not one.shown)
     result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
+    words = (("The thesis", report.statement), ("Ours", report.ours),
+             (report.verdict.value.capitalize(), report.because))  # fmt: skip
+    said = "".join(f"<dt>{escape(head)}</dt><dd>{escape(text)}</dd>" for head, text in words)
+    said = f"<dl>{said}</dl>"
+    if report.caption_only:
+        more = f"<details><summary>more</summary><p>{escape(report.because)} {escape(report.statement)}</p></details>"
+        said = f"<p>{escape(report.ours)}</p>{more}"
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
-        f"<div>{escape(report.caption)}</div>{image}{result}<dl><dt>The thesis</dt><dd>{escape(report.statement)}</dd>"
-        f"<dt>Ours</dt><dd>{escape(report.ours)}</dd>"
-        f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
+        f"<div>{escape(report.caption)}</div>{image}{result}{said}"
         f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
     )
+
+
+def _image(report: Report, folder: Path) -> str:
+    data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
+    # In print a picture of three rows and more is higher.
+    kind = "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
+    return f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
 
 
 def _details(one: ReportTable) -> str:
@@ -353,19 +284,18 @@ def _chip(verdict: Agreement) -> str:
 
 
 @CachedFunction
-def written(number: str, folder: Path, pictures: bool) -> Report:
+def written(number: str, folder: Path) -> Report:
     """The report of an entry, its files written to the folder; for another process."""
     report = find_entry(number).make()
-    write_report(report, folder, pictures=pictures)
+    write_report(report, folder)
     return report
 
 
-def write_report(report: Report, folder: Path, *, pictures: bool) -> None:
+def write_report(report: Report, folder: Path) -> None:
     """CSV per table, SVG and PNG."""
     for one in report.tables:
         write_csv(folder / csv_name(report, one), report, one)
-    if pictures:
-        draw(report, folder)
+    draw(report, folder)
 
 
 def csv_name(report: Report, one: ReportTable) -> str:
@@ -385,13 +315,12 @@ def write_csv(path: Path, report: Report, one: ReportTable) -> None:
 
 def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
-    pictures = can_draw()
     write_misprints(folder)
-    write_talk(made, folder, pictures=pictures)
-    parts = [_head(made, pictures)]
+    write_talk(made, folder)
+    parts = [_head(made)]
     for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
         parts.append(f"<h2>{escape(chapter)}</h2>")
-        parts += [_article(report, folder, pictures=pictures) for _, report in group]
+        parts += [_article(report, folder) for _, report in group]
     path = folder / "index.html"
     path.write_text("\n".join([*parts, "</main></html>\n"]), encoding="utf-8")
     return path

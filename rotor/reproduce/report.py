@@ -27,9 +27,7 @@ _CAPTIONS = {
     "Figure 4.12": "Comparison of flight test data and three linear segments",
     "Figure 4.13": "Twist behaviours compared",
     "Table 4.1": "Reduction of power between fixed linear twist and simulations",
-    "Figure 5.4": "Continuous and interdigitated electrode, electric field",
     "Figure 5.5": "Free strain compared",
-    "Figure 5.7": "Electric field compared",
     "Figure 5.10": "Torsion angle of the thermal analysis",
     "Table 5.1": "Actuator properties",
     "Table 5.2": "Actuators and concepts compared",
@@ -73,31 +71,9 @@ class PlotPanel:
     curves: tuple[Curve, ...]
     title: str = ""
     log: Literal["", "y", "xy"] = ""
-    invert_y: bool = False
-    equal: bool = False
-    """Same scale on both axes, for outlines."""
     y_limits: tuple[float, float] | None = None
-
-
-@dataclass(frozen=True)
-class DiskPanel:
-    """A field over the disk seen from above, nose up, ψ = 0 at the bottom, advancing side right."""
-
-    label: str
-    r: tuple[float, ...]
-    """Element centres y/R."""
-    edges: tuple[float, ...]
-    """Of the elements y/R, (elements + 1,)."""
-    psi: tuple[float, ...]
-    """[rad]"""
-    values: tuple[tuple[float, ...], ...]
-    """(elements, azimuths)"""
-    title: str = ""
-    zero_line: bool = False
-    """Whether the line of zero is drawn (the border of reverse flow, in U_T)."""
-
-
-AnyPanel = PlotPanel | DiskPanel
+    names: tuple[str, ...] = ()
+    """Of the places 0, 1, … of x, which then runs down the left side; y runs across."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +105,7 @@ class Report:
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
     tables: tuple[ReportTable, ...]
-    panels: tuple[AnyPanel, ...] = ()
+    panels: tuple[PlotPanel, ...] = ()
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """Numbers that decide the verdict, by name."""
 
@@ -142,6 +118,11 @@ class Report:
     def checkable(self) -> bool:
         """Whether anything of the thesis was compared or loaded."""
         return self.verdict is not Agreement.ALONE
+
+    @property
+    def caption_only(self) -> bool:
+        """Whether the caption is all that is known of it."""
+        return self.title in _CAPTIONS
 
     @property
     def stem(self) -> str:
@@ -199,16 +180,21 @@ def card(
     ours: str,
     because: str,
     data: ReportTable,
-    panels: tuple[AnyPanel, ...] = (),
+    panels: tuple[PlotPanel, ...] = (),
     numbers: Mapping[str, float] | None = None,
+    summary: ReportTable | None = None,
 ) -> Report:
-    """A figure, or with no panels a table, of which only the caption is known: a picture, a sentence and a table."""
+    """A figure, or with no panels a table, of which only the caption is known.
+
+    A picture, a sentence and a small table, `summary`, or the whole one; the rest folds.
+    """
     kind = "figure" if panels else "table"
+    tables = (data,) if summary is None else (replace(summary, shown=True), data)
     return Report(
         number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
         statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
         "thesis are not.",
-        verdict=Agreement.ALONE, tables=(replace(data, shown=not panels),),
+        verdict=Agreement.ALONE, tables=tables if panels else (replace(data, shown=True),),
     )  # fmt: skip
 
 

@@ -1,9 +1,9 @@
 """Solutions, searches and optima that several figures share, computed once.
 
-Chapter 4 needs the twist of least power for every concept, over speed, in four variants of the two presets. The
-thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its
-parameters, the band within 0.1 % of its power, the power, and the saving relative to the thesis' baseline, a fixed
-linear twist of −16°.
+Chapter 4 needs the twist of least power for every concept, over speed, in both presets. The thesis' own numbers of
+chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its parameters,
+the band within 0.1 % of its power, the power, and the saving relative to the thesis' baseline, a fixed linear twist of
+−16°.
 """
 
 import math
@@ -17,7 +17,6 @@ from rotor.design.design import Design
 from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
-from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.processes import Workers
 from rotor.optimisation.search import Band, Optimum, Search, SearchStatus, run_search
 from rotor.trim.solution import Solution
@@ -89,19 +88,16 @@ THESIS_WAKE = "thesis-wake"
 power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
-THESIS_TRIMMED = "thesis-trimmed"
-"""The `thesis` preset's blade and section with the lifting line and the `flight` preset's trim: cyclic, and µ sin α
-in U_P."""
 
-VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
-"""Each preset with an inflow model that responds to loading, and with one that does not."""
+VARIANTS = ("thesis", "flight")
+"""Those whose optima chapter 4 shows."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the lifting line",
     "flight": "flight preset (lifting line)",
     FLIGHT_LINEAR: "flight preset with linear inflow",
 }
-_INFLOW = {THESIS_WAKE: "lifting-line", THESIS_TRIMMED: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
+_INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 """Inflow model of the variants that do not have their preset's own."""
 
 
@@ -114,8 +110,6 @@ def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float
     """A preset, or a preset with its inflow exchanged."""
     design = make_design(preset=preset_of(name), twist=twist, mu=mu, mass_kg=mass)
     models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
-    if name == THESIS_TRIMMED:
-        models = replace(models, trim="propulsive", disk_axial_flow=True)
     return replace(design, models=models)
 
 
@@ -236,32 +230,6 @@ def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
         return found.power_kw
     decks, polynomials = best(name, SC1095_DECKS, mu, scope), best(name, "two 50-50", mu, scope)
     return polynomials.power_kw * found.power_kw / decks.power_kw
-
-
-@dataclass(frozen=True)
-class FixedBlade:
-    """The linear blade of least mean power over all speeds, each flown equally long."""
-
-    rate_deg: float
-    """[°/R]"""
-    power_kw: float
-    """Mean total power."""
-    baseline_kw: float
-    """Mean total power of `BASELINE`."""
-
-
-@CachedFunction
-def best_fixed(name: str, scope: Scope) -> FixedBlade:
-    """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
-    family = CONCEPTS["linear"][1]
-    design = variant(name, twist=BASELINE, mu=scope.speeds[0])
-    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
-    middle = sum(best(name, "linear", mu, scope).values[0] for mu in scope.speeds) / len(scope.speeds)
-    guess = (math.radians(middle),)
-    found = run_search(Search(design, family, Objective("total", conditions), starts=1, guesses=(guess,), band=False))
-    assert found.best is not None, f"{name}: {found.message}"
-    assert found.baseline_power is not None, f"{name}: the baseline blade does not trim at every speed"
-    return FixedBlade(math.degrees(found.best.parameters[0]), found.best.power / 1e3, found.baseline_power / 1e3)
 
 
 def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:

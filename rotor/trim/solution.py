@@ -430,8 +430,7 @@ class Solution:
     def plot(self, field: str = "alpha", ax: Any = None) -> Any:
         """Draw a field of `disk` over the disk seen from above, nose up; returns the matplotlib axes.
 
-        Raises ValueError for a field that does not exist, RuntimeError when the solution did not converge, and
-        ImportError with the remedy where matplotlib is missing.
+        Raises ValueError for a field that does not exist, and RuntimeError when the solution did not converge.
         """
         if field not in DISK_LABELS:
             raise ValueError(f"field {field!r} is not known: use one of {', '.join(DISK_LABELS)}")

@@ -62,9 +62,9 @@ def beside_model_curve(preset: str) -> tuple[list[float], list[float], list[floa
     return speeds, [HORSEPOWER_KW * power for power in curve["main_rotor_hp"]], ours
 
 
-def model_curve_errors() -> tuple[float, float]:
-    """Root mean square and mean of ours over the model's curve, less one, above `SLOWEST`."""
-    speeds, theirs, ours = map(np.array, beside_model_curve("flight"))
+def model_curve_errors(preset: str = "flight") -> tuple[float, float]:
+    """Root mean square and mean of a preset over the model's curve, less one, above `SLOWEST`."""
+    speeds, theirs, ours = map(np.array, beside_model_curve(preset))
     errors = (ours / theirs - 1.0)[speeds > SLOWEST]
     return float(np.sqrt(np.mean(errors**2))), float(errors.mean())
 

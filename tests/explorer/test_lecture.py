@@ -72,6 +72,17 @@ class TestClaims:
         assert induced > 30e3
         assert induced > 0.5 * (flat.power.total - twisted.power.total)
 
+    def test_the_trim_decides_at_speed(self):
+        """Without drag, which tilts the disk, A needs less than B; without drag rise B stays best."""
+        title = "Which twist is best at speed"
+        weak, strong = both(title)
+        assert strong.power.total < 0.98 * weak.power.total
+        weak, strong = both(title, fuselage=False)
+        assert weak.power.total < strong.power.total
+        assert abs(strong.controls.shaft_tilt) < 0.25 * abs(both(title)[1].controls.shaft_tilt)
+        weak, strong = both(title, compressibility=False)
+        assert strong.power.total < 0.99 * weak.power.total
+
     def test_reverse_flow_drives_the_blade_drags_and_pushes_down(self):
         without, rotor = both("What reverse flow costs")
         assert rotor.power.total - without.power.total > 10e3
@@ -166,8 +177,8 @@ class TestBeside:
 
 
 def test_steps_and_their_keys():
-    assert len(STEPS) == 7
-    assert hint("lecture").startswith("Seven steps")
+    assert len(STEPS) == 8
+    assert hint("lecture").startswith("Eight steps")
     assert {"lecture", "lecture_next", "lecture_previous"} <= set(KEYS)
 
 
@@ -178,11 +189,22 @@ def test_every_case_trims_in_the_documents_preset(inputs: Inputs):
 
 
 def test_only_what_the_document_prints_is_called_its_own():
-    """It gives −16° and −13.5° in hover and −8° from µ 0.18; for low and high speed it prints no advance ratio."""
-    printed = {(0.0, -16.0), (0.0, -13.5), (0.18, -8.0)}
+    """It gives −16° and −13.5° in hover and −8° from µ 0.18; for low and high speed it prints no advance ratio.
+
+    Read as root to tip, over 0.8696 R, they are −18.4°, −15.5° and −9.2° per radius.
+    """
+    printed = {(0.0, -16.0), (0.0, -13.5), (0.18, -8.0), (0.0, -18.4), (0.0, -15.5), (0.18, -9.2)}
     named = {title: (case.advance_ratio, case.linear) for title, case in CASES.items()}
     assert {case for title, case in named.items() if title.startswith("Document: ")} == printed
     assert all(title.startswith("Example: ") for title, case in named.items() if case not in printed)
+
+
+def test_the_menus_hover_optimum_is_one():
+    """The first case, by the reading that gives more of the document's statements: neither less nor more twist."""
+    title, case = next(iter(CASES.items()))
+    assert title == "Document: hover optimum, −13.5° root to tip"
+    power = {change: solved(replace(case, linear=case.linear + change)).power.main_rotor for change in (-1.5, 0.0, 1.5)}
+    assert power[0.0] == min(power.values())
 
 
 class TestStage:

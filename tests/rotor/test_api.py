@@ -5,6 +5,7 @@ import math
 import subprocess
 import sys
 import urllib.request
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -83,12 +84,62 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_the_api_is_small_and_no_module_shadows_a_function():
     assert dir(rotor) == sorted(rotor.__all__)
-    assert len(dir(rotor)) <= 25
-    for name in ("solve", "sweep", "optimise", "make_design", "parse_twist", "load_rotor", "load_design", "plot_power"):
+    assert len(dir(rotor)) <= 27
+    for name in (
+        "solve",
+        "sweep",
+        "optimise",
+        "make_design",
+        "parse_twist",
+        "load_rotor",
+        "load_design",
+        "plot_power",
+        "schedule",
+    ):
         assert callable(getattr(rotor, name))
     assert rotor.__version__[0].isdigit()
     assert (ROOT / "rotor" / "py.typed").exists()
     assert (ROOT / "explorer" / "py.typed").exists()
+
+
+def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(design: rotor.Design):
+    made = replace(design, models=replace(design.models, inflow="uniform"))
+    found = rotor.schedule(made, mu=[0.3, 0.1], hours=[2.0, 1.0])
+    gain = found.in_flight_gain("linear")
+    assert gain is not None
+    assert 0.0 <= gain.gain < 0.05 * gain.fixed
+    alone = rotor.optimise(made.at(mu=0.3), "linear").best
+    at_three = found.at(1, "linear")
+    assert at_three is not None
+    assert at_three.best is not None
+    assert alone is not None
+    assert_allclose(at_three.best.power, alone.power, rtol=1e-6)
+    with pytest.raises(ValueError, match="1 hours for 2 advance ratios: give one for each"):
+        rotor.schedule(made, mu=[0.1, 0.2], hours=[1.0])
+
+
+@pytest.mark.slow
+def test_an_actuator_by_its_name(design: rotor.Design):
+    verdict = rotor.actuator.try_actuator("MFC_P1", design, mu=(0.0, 0.25))
+    assert verdict.net_saving < verdict.gross_saving <= verdict.ideal_saving
+    with pytest.raises(ValueError, match="MFC_P9"):
+        rotor.actuator.try_actuator("MFC_P9", design)
+
+
+@pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
+def test_power_settles_on_finer_grids(inflow: str, tmp_path: Path):
+    """Twice the elements halve the distance to the finest at least; the grid is kept in a design file."""
+    powers = {n: rotor.solve(rotor.make_design(mu=0.3, inflow=inflow, elements=n)).power.total for n in (12, 24, 96)}
+    assert abs(powers[24] - powers[96]) < 0.6 * abs(powers[12] - powers[96])
+    fine = rotor.make_design(mu=0.3, inflow=inflow, elements=32, azimuths=36)
+    assert rotor.solve(fine).disk.alpha.shape == (32, 36)
+    fine.save(tmp_path / "fine.json")
+    assert rotor.load_design(tmp_path / "fine.json") == fine
+    with pytest.raises(ValueError, match="3 blade elements are outside"):
+        rotor.make_design(elements=3)
+    assert rotor.make_design(inflow="pitt-peters", elements=200, azimuths=200).models.elements == 200
+    with pytest.raises(ValueError, match="more than 6000 points: 24 × 24 is enough"):
+        rotor.make_design(elements=200, azimuths=200)
 
 
 class TestDesign:
@@ -168,11 +219,6 @@ class TestSolution:
         other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
         pyplot.close("all")
-
-    def test_plot_without_matplotlib_gives_the_remedy(self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-        with pytest.raises(ImportError, match=r"pip install 'rotor-explorer\[plots\]'"):
-            solution.plot()
 
 
 class TestSweep:

@@ -10,10 +10,8 @@ from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars, write_polars
 from rotor.assets import asset_path
-from rotor.reproduce.sections import PRESSURE_CASES, PressureCase, read_pressure
 from tests.tools.sections import __main__ as command
 from tests.tools.sections import xfoil
-from tests.tools.sections.pressure import run_pressure
 from tests.tools.sections.recipes import (
     NATIVE_MACHS,
     RECIPES,
@@ -72,17 +70,6 @@ def test_bad_input_and_no_xfoil_give_one_sentence(
     assert command.main(list(words)) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert message in line
-
-
-@pytest.mark.xfoil
-@pytest.mark.parametrize("case", PRESSURE_CASES, ids=lambda case: case.section)
-def test_xfoil_reproduces_the_pressure(case: PressureCase) -> None:
-    """Its convergence moves with version and machine: cl to 0.02."""
-    try:
-        require_xfoil()
-    except XfoilMissing as missing:
-        pytest.skip(str(missing))
-    assert_allclose(run_pressure(case).cl, read_pressure(case).cl, atol=0.02)
 
 
 # As XFOIL prints them: a NaN row, a cut row and a negative drag must not come through.

@@ -60,7 +60,7 @@ class LecturePanel(Tab):
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
         gui.add_html(
-            '<div class="rx rx-dim">Seven steps set the page and say what to watch. '
+            '<div class="rx rx-dim">Eight steps set the page and say what to watch. '
             "End gives your own design back.</div>"
         )
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))

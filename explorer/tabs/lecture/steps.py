@@ -16,12 +16,15 @@ FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
 
 _THESIS = Inputs(preset="thesis", law="linear", linear=-16.0, advance_ratio=0.0, **preset_inflow("thesis"))
+_STATED = {"hover optimum, −13.5°": (0.0, -13.5), "hover, −16°": (0.0, -16.0), "from µ 0.18, −8°": (0.18, -8.0)}
+"""What the source document states (chapter 3): advance ratio, linear twist [°]. It does not say of what length."""
+_SPAN = 1.0 - _THESIS.design().rotor.blade.root_cutout
 DOCUMENT: dict[str, Inputs] = {
-    "Document: hover, −16° (baseline)": _THESIS,
-    "Document: hover optimum, −13.5°": replace(_THESIS, linear=-13.5),
-    "Document: from µ 0.18, −8°": replace(_THESIS, linear=-8.0, advance_ratio=0.18),
+    f"Document: {title} {unit}": replace(_THESIS, advance_ratio=mu, linear=round(twist / length, 1))
+    for unit, length in (("root to tip", _SPAN), ("per radius", 1.0))
+    for title, (mu, twist) in _STATED.items()
 }
-"""Designs whose twist and flight condition the source document states (chapter 3): linear twist, its preset."""
+"""In both readings of its twist, in its preset; first the one that gives more of its statements."""
 EXAMPLES: dict[str, Inputs] = {
     "Example: low speed, µ 0.10, −12°": replace(_THESIS, linear=-12.0, advance_ratio=0.1),
     "Example: high speed, µ 0.35, −4°": replace(_THESIS, linear=-4.0, advance_ratio=0.35),
@@ -180,6 +183,14 @@ STEPS: tuple[LectureStep, ...] = (
         _CHANGES,
         against=replace(_LINEAR, linear=0.0),
         difference=True,
+    ),
+    LectureStep(
+        *step_text("fast_twist"),
+        replace(_LINEAR, linear=-11.6, advance_ratio=0.35),
+        "B needs {saving} less than A: {saving_percent} of {total_a}.",
+        (("total_a", "total power, A"), ("total_b", "total power, B"), ("total_percent", "change from A to B")),
+        against=replace(_LINEAR, linear=-4.0, advance_ratio=0.35),
+        field="Thrust dT/dr",
     ),
     LectureStep(
         *step_text("reverse_flow"),

@@ -77,10 +77,6 @@ _LINE = SectionInterface(_line_section, LINE_PAIRS, len(CHANNELS), len(FORCES) +
 class LiftingLineInflow:
     """Lifting lines of the rotor's own blades with the wake along the trim."""
 
-    panels: int = 24
-    azimuths: int = 24
-    """At least so many."""
-
     name = "lifting-line"
     title = "Lifting line"
     explanation = (
@@ -95,9 +91,8 @@ class LiftingLineInflow:
         return self
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
-        """Panels, and azimuths in a multiple of the number of blades, whatever is asked for."""
-        del models
-        return self.panels, -(-self.azimuths // blades) * blades
+        """Panels, and azimuths in a multiple of the number of blades."""
+        return models.panels, -(-models.line_azimuths // blades) * blades
 
     def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LiftingLineTerms":
         """The model on a disk, with the wake on a course."""

@@ -272,6 +272,11 @@ def test_tables():
     assert "MFC_P1" in table_5_1().text()
     table = verdict_table([verdict(), verdict(kind="retrofit")])
     assert all(len(row) == len(table.columns) for row in table.rows)
+    fixed, ideal, gross = (table.columns.index(f"{name} kW") for name in ("fixed", "ideal", "gross"))
+    for row in table.rows:  # Against one blade, a bound saves no more than what it bounds: free twist most of all.
+        assert float(row[ideal]) >= float(row[fixed])
+        assert float(row[ideal]) >= float(row[gross]) - 0.1
+    assert float(table.rows[0][fixed]) == 0.0  # A new blade is compared with the best fixed one itself.
 
 
 # Command

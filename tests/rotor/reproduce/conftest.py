@@ -5,7 +5,8 @@ from functools import cache
 
 import pytest
 
-from rotor.reproduce import Report, find_entry
+from rotor.reproduce.catalogue import find_entry
+from rotor.reproduce.report import Report
 
 
 @cache

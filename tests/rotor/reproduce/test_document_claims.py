@@ -40,7 +40,7 @@ def test_hover_optimum_of_linear_twist(preset: str):
         f"the thesis' −13.5° costs {100 * cost:.2f} %"
     )
     assert -19.0 < rates[k] < -12.0
-    assert cost < {"thesis": 3e-3, "flight": 6e-3}[preset]  # Drag rise by angle of attack moves it to −18°.
+    assert cost < {"thesis": 3e-3, "flight": 6e-3}[preset]
     assert power_kw(preset, 0, 0.0) > 1.05 * powers[k]
     assert (np.diff(powers[:k]) < 0.0).all()  # Past the optimum more twist costs again, as fig. 3.11 says.
 
@@ -58,7 +58,7 @@ def test_best_of_five_twists(preset: str):
         for mu in (0.18, 0.25):  # Where our best differs from −8°, −8° costs less than half a per cent.
             assert power_kw(preset, -8, mu) < 1.005 * power_kw(preset, best(preset, mu), mu)
     else:
-        # With drag rise by Mach the advancing tip must be unloaded: the untwisted blade pays, unlike in the thesis.
+        # With cyclic and µ sin α the untwisted blade pays, unlike in the thesis: `python -m rotor ladder`.
         assert power_kw(preset, 0, 0.35) > 1.05 * power_kw(preset, best(preset, 0.35), 0.35)
 
 

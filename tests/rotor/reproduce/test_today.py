@@ -1,19 +1,19 @@
 """Quoted literature and the last chapter: conditions that hold whatever the numbers are."""
 
+import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.__main__ import main
 from rotor.files.make_design import make_design
-from rotor.reproduce import find_entry
-from rotor.reproduce import today as then_and_now
-from rotor.reproduce.page import TALK, write_talk
-from rotor.reproduce.report import PlotPanel
-from rotor.reproduce.runs import QUICK, best
+from rotor.reproduce.catalogue import find_entry
+from rotor.reproduce.ladder import RUNGS, STRONG, TRIM, WEAK, Ladder, built, climb
+from rotor.reproduce.page import TALK, write_report, write_talk
 from rotor.reproduce.today import gain_of_2_per_rev, mass_for_equal_power
-from rotor.reproduce.twist_effect import STRONG, WEAK
 from rotor.trim.solve import solve
 
 
@@ -38,20 +38,70 @@ def test_gain_of_2_per_rev_is_small_and_its_phase_between_the_six():
     assert abs(gain_of_2_per_rev(0.0)[0]) < 1e-9
 
 
+@pytest.fixture(scope="module")
+def ladder() -> Ladder:
+    return climb((0.0, 0.35))
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2, 0.35])
+def test_the_ladder_begins_at_thesis_and_ends_at_flight(mu: float):
+    thesis = make_design(preset="thesis", twist="linear:-16", mu=mu)
+    assert_allclose(solve(built((), mu)).require().power.total, solve(thesis).require().power.total, rtol=1e-12)
+    assert built(tuple(RUNGS), mu) == make_design(twist="linear:-16", mu=mu)
+
+
+@pytest.mark.parametrize("name", RUNGS)
+def test_each_rung_changes_something(name: str):
+    """Each is a change of its own, by its power at µ 0.35 in the ladder."""
+    place = tuple(RUNGS).index(name)
+    before, after = (solve(built(tuple(RUNGS)[: place + k], 0.35)).require().power.total for k in (0, 1))
+    assert abs(after / before - 1.0) > 1e-4
+
+
+def test_the_moves_add_up_and_the_best_is_a_least(ladder: Ladder):
+    first, last = ladder.steps[0], ladder.steps[-1]
+    moved = sum(one.moves_deg or 0.0 for one in ladder.steps)
+    assert_allclose(moved, last.best[-1].rate_deg - first.best[-1].rate_deg, atol=1e-9)
+    assert ladder.trim.moves_deg is not None
+    assert_allclose(ladder.trim.moves_deg, sum(ladder.step(name).moves_deg or 0.0 for name in TRIM), atol=1e-9)
+    for one in (first, ladder.step("axial"), last):  # By trims of their own, without the search.
+        rates = np.array(one.best[-1].band_deg)
+        on = tuple(RUNGS)[: len(RUNGS) if one is last else 5 if one.name == "axial" else 0]
+        edges = [solve(built(on, 0.35, f"linear:{rate:.9f}")).require().power.total / 1e3 for rate in rates]
+        assert_allclose(edges, 1.001 * one.best[-1].power_kw, rtol=2e-4)
+    assert all(-1e-9 <= one.worth.gain < 0.02 for one in ladder.steps)
+
+
+def test_the_ladder_on_the_command_line(ladder: Ladder, capsys: pytest.CaptureFixture[str]):
+    assert main(["ladder", "--mu", "0,0.35", "--processes", "1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["speeds_mu"] == [0.0, 0.35]
+    assert [one["step"] for one in found["steps"]] == ["thesis", *RUNGS]
+    assert_allclose(
+        [one["best_twist_deg"][1] for one in found["steps"]], [one.best[1].rate_deg for one in ladder.steps]
+    )
+    assert main(["ladder", "--mu", "0,0.35", "--processes", "1"]) == 0
+    printed = capsys.readouterr().out
+    assert all(words in printed for words in RUNGS.values())
+    assert main(["ladder", "--mu", "0.03,0.2"]) == 2
+    assert "0.03 is outside 0.075…0.45" in capsys.readouterr().err
+    assert main(["ladder", "--mu", "0.2"]) == 2
+    assert "two speeds" in capsys.readouterr().err
+
+
 @pytest.mark.slow
-def test_then_and_now(tmp_path: Path):
-    """A moving blade is never worse than the best fixed one, and three segments never worse than one."""
-    report = then_and_now.today(QUICK)
-    numbers = report.numbers
-    for name in then_and_now.TWO:
-        assert numbers[f"{name}_hover"] == best(name, "linear", 0.0, QUICK).values[0]
-        assert -1e-6 <= numbers[f"{name}_beyond_fixed"] <= numbers[f"{name}_saving"] + 1e-6
-        assert numbers[f"{name}_three"] >= numbers[f"{name}_saving"] - 1e-6
-    hover = report.panels[0]
-    assert isinstance(hover, PlotPanel)
-    for one in hover.curves:
-        assert np.min(one.y) == 0.0
-    write_talk([(find_entry("today"), report)], tmp_path, pictures=False)
+def test_the_page_of_one_screen(tmp_path: Path):
+    """Every number of the page is the ladder's; the quotations are the thesis' words."""
+    report = find_entry("today").make()
+    numbers, found = report.numbers, climb()
+    assert numbers["flight_fast"] == found.at("elastic", 0.35).rate_deg
+    assert numbers["thesis_hover"] == found.at("thesis", 0.0).rate_deg
+    assert 0.0 < numbers["flight_beyond_fixed"] < numbers["thesis_beyond_fixed"]
+    write_report(report, tmp_path)
+    write_talk([(find_entry("today"), report)], tmp_path)
     page = (tmp_path / TALK).read_text(encoding="utf-8")
+    words = re.sub(r"<[^>]+>", " ", page[page.index("<dl>") : page.index("</dl>")])
     assert "What the thesis would have found" in page
+    assert "the optimized solution is −13.5°" in words
+    assert len(words.split()) < 200  # Read aloud in about a minute.
     assert 'src="http' not in page

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from rotor.reproduce import ENTRIES, Report
-from rotor.reproduce.catalogue import trust_sets
+from rotor.reproduce.catalogue import ENTRIES, trust_sets
+from rotor.reproduce.report import Report
 from rotor.validation.trust import trust_rows
 from tests.shipped_rows import still_true
 

@@ -1,7 +1,6 @@
 """Trims with the lifting line: converged on its grid, one answer from any start, exact gradient, no step to hover."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -9,8 +8,7 @@ import numpy as np
 import pytest
 
 from rotor.aero.elements import disk_sums
-from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow
+from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS
 from rotor.aero.section import UP, UT
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -37,15 +35,6 @@ def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 
     return replace(design, condition=condition, models=replace(design.models, **{"inflow": "lifting-line"} | models))
 
 
-@pytest.fixture
-def panels() -> Iterator[type[LiftingLineInflow]]:
-    """Put another grid in the place of the model's own; it is restored afterwards."""
-    own = INFLOW_MODELS["lifting-line"]
-
-    yield LiftingLineInflow
-    INFLOW_MODELS["lifting-line"] = own
-
-
 def by_linear_twist(solution: Solution) -> float:
     """dP/dθ_1 [W/deg], the tip against the root."""
     gradient = power_gradient(solution)
@@ -70,14 +59,13 @@ def near_the_tip(solution: Solution) -> float:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("mu", "power"), [(0.2, 1e-3), (0.3, 3.5e-3)])
-def test_twice_the_panels_change_little(mu: float, power: float, panels: type[LiftingLineInflow]):
+def test_twice_the_panels_change_little(mu: float, power: float):
     """24 → 48: the targets of the model; Richardson's estimate of what remains is half as much."""
     coarse, best = solve(line(mu, elastic_twist=False)), best_linear(mu, elastic_twist=False)
-    INFLOW_MODELS["lifting-line"] = panels(panels=48)
-    fine = solve(line(mu, elastic_twist=False))
+    fine = solve(line(mu, elastic_twist=False, panels=48))
     assert coarse.power.total == pytest.approx(fine.power.total, rel=power)
     assert near_the_tip(coarse) == pytest.approx(near_the_tip(fine), rel=0.04)
-    assert best == pytest.approx(best_linear(mu, elastic_twist=False), abs=0.3)
+    assert best == pytest.approx(best_linear(mu, elastic_twist=False, panels=48), abs=0.3)
 
 
 def test_lift_falls_towards_the_tip():

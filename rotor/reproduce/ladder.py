@@ -1,0 +1,284 @@
+"""From the preset `thesis` to the preset `flight`, one assumption at a time: how far each moves the best linear twist.
+
+`python -m rotor ladder`. The move of an assumption depends on those changed before it, so it is also computed alone on
+the preset `thesis`, and taken back alone from `flight`. Beside it the value of a twist that moves with speed, and the
+power of twist −17.3° over −11.5° at 330 km/h, which was measured on another rotor (Keys et al. 1987, thesis p. 26, 28).
+"""
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.airfoil.polynomial import THESIS_NAME
+from rotor.design.blade import Rotor, with_airfoils
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.objective import Objective, WeightedCondition
+from rotor.optimisation.search import Search, run_search
+from rotor.reproduce.runs import CachedFunction, Call
+from rotor.trim.solve import solve
+from rotor.validation.uh60a import SLOWEST
+
+RUNGS = {
+    "table": "section table at Mach 0.3 for polynomials",
+    "mach": "section data follow the Mach number: drag rise",
+    "wake": "lifting line for linear inflow",
+    "cyclic": "trim by cyclic for free flapping",
+    "axial": "µ sin α in U_P, eq. (3.6)",
+    "blade": "blade as built: SC1094 R8, hinge, masses",
+    "losses": "swirl, skin friction, swept tip, download",
+    "elastic": "blade elastic in torsion",
+}
+"""Assumptions by name, in the order of the ladder: what takes the place of what."""
+TRIM = ("cyclic", "axial")
+"""Counted as one change too: the trim of an aircraft has both."""
+SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
+STRONG, WEAK = -17.3, -11.5
+"""Twists of Keys et al. [°], read per radius."""
+HOVER, FAST, FAST_KMH = -0.024, 0.05, 330.0
+"""Measured by Keys et al.: power of −17.3° over −11.5° in hover and at 330 km/h, as the thesis quotes it."""
+NOTHING = 1e-6
+"""Moves below this are none [°]: the assumption has nothing to act on there."""
+_LOSSES = ("swirl", "radial_friction", "surface_drag", "swept_tip", "download", "tail_rotor_solved")
+_LINEAR = find_concept("linear")
+
+
+def built(on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str | None = None) -> Design:
+    """The UH-60A with these of `RUNGS`: none gives the power of the preset `thesis`, all are the preset `flight`."""
+    thesis, flight = (make_design(preset=preset, twist=twist, mu=mu) for preset in ("thesis", "flight"))
+    rotor = flight.rotor if "blade" in on else thesis.rotor
+    if ("table" in on) != ("blade" in on):
+        rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_NAME,), ())
+    wake, stated = flight.models, thesis.models
+    models = replace(
+        flight.models,
+        inflow=inflow or (wake if "wake" in on else stated).inflow,
+        low_speed=(wake if "wake" in on else stated).low_speed,
+        # Equation (3.3) has one lift-curve slope, which a table over angle of attack does not.
+        hover_inflow=(wake if "table" in on else stated).hover_inflow,
+        trim="propulsive" if "cyclic" in on else "thrust",
+        disk_axial_flow="axial" in on,
+        blade_weight="blade" in on,
+        compressibility="mach" in on,
+        elastic_twist="elastic" in on,
+        **dict.fromkeys(_LOSSES, "losses" in on),
+    )
+    return replace(flight, rotor=rotor, models=models)
+
+
+@dataclass(frozen=True)
+class Least:
+    """The linear twist of least total power at one speed."""
+
+    mu: float
+    rate_deg: float
+    """[°/R]"""
+    band_deg: tuple[float, float]
+    """Within 0.1 % of that power."""
+    power_kw: float
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What a linear twist that moves with speed saves beyond the best fixed one, equal time at each speed."""
+
+    fixed_deg: float
+    """[°/R]"""
+    fixed_kw: float
+    """Its mean total power."""
+    baseline_kw: float
+    """That of a fixed −16°."""
+    gain: float
+    """What moving saves, as a part of the fixed blade's power."""
+
+
+@CachedFunction
+def least(on: tuple[str, ...], mu: float, inflow: str | None) -> Least:
+    """The best linear twist; ValueError where the blade does not trim."""
+    return _least(built(on, mu, inflow=inflow))
+
+
+def _least(design: Design) -> Least:
+    found = run_search(Search(design, _LINEAR, starts=2))
+    mu = design.condition.advance_ratio
+    if found.best is None:
+        raise ValueError(f"no linear twist trims at advance ratio {mu:g} with {design.models.inflow}: leave it out")
+    band = (found.band[0].low, found.band[0].high) if found.band else (math.nan, math.nan)
+    low, high = map(math.degrees, band)
+    return Least(mu, math.degrees(found.best.parameters[0]), (low, high), found.best.power / 1e3)
+
+
+@CachedFunction
+def worth(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) -> Worth:
+    """The best fixed blade, and what moving saves beyond it."""
+    moving = [least(on, mu, inflow) for mu in speeds]
+    design = built(on, speeds[0], inflow=inflow)
+    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds)
+    guess = (math.radians(sum(one.rate_deg for one in moving) / len(moving)),)
+    search = Search(design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False)
+    found = run_search(search)
+    fixed, baseline = found.best, found.baseline_power
+    if fixed is None or baseline is None:
+        raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
+    mean = 1e3 * sum(one.power_kw for one in moving) / len(moving)
+    return Worth(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
+
+
+@CachedFunction
+def strong_over_weak(on: tuple[str, ...], kmh: float, inflow: str | None) -> float:
+    """Part by which twist −17.3° needs more main-rotor power than −11.5°."""
+    mu = kmh / 3.6 / make_design().rotor.tip_speed
+    strong, weak = (
+        solve(built(on, mu, f"linear:{rate}", inflow)).require().power.main_rotor for rate in (STRONG, WEAK)
+    )
+    return strong / weak - 1.0
+
+
+@CachedFunction
+def without_drag(mu: float) -> Least:
+    """The best twist of the preset `flight` without fuselage drag, which is what tilts the disk."""
+    design = built(tuple(RUNGS), mu)
+    return _least(replace(design, models=replace(design.models, fuselage=False)))
+
+
+@CachedFunction
+def twice_the_blades(mu: float) -> Least:
+    """The best twist of a rigid blade, as one of eight of half the chord and mass."""
+    design = built([name for name in RUNGS if name != "elastic"], mu)
+    rotor, blade = design.rotor, design.rotor.blade
+    half = replace(
+        blade, chords=tuple(chord / 2.0 for chord in blade.chords), mass=blade.mass / 2.0,
+        flap_inertia=blade.flap_inertia / 2.0, flap_static_moment=blade.flap_static_moment / 2.0,
+    )  # fmt: skip
+    many: Rotor = replace(rotor, blades=2 * rotor.blades, reference_chord=rotor.reference_chord / 2.0, blade=half)
+    return _least(replace(design, rotor=many))
+
+
+PARTS = (least, worth, strong_over_weak, twice_the_blades, without_drag)
+"""What a ladder is made of."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One rung: the blade with this assumption changed, and all before it."""
+
+    name: str
+    words: str
+    best: tuple[Least, ...]
+    """By speed."""
+    moves_deg: float | None
+    """Best twist at the fastest speed less that of the rung before; None for the first."""
+    alone_on_thesis_deg: float | None
+    """The same, changed alone on the preset `thesis`; None for the first."""
+    alone_off_flight_deg: float | None
+    """The best twist of `flight` less that of `flight` without this."""
+    worth: Worth
+    strong_over_weak: tuple[float, float]
+    """In hover and at 330 km/h."""
+
+
+@dataclass(frozen=True)
+class WakeRow:
+    """The preset `flight` with another inflow model."""
+
+    inflow: str
+    best: tuple[Least, ...]
+    worth: Worth
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """All rungs, the trim as one, and other wakes and blades at the top."""
+
+    speeds: tuple[float, ...]
+    steps: tuple[Step, ...]
+    trim: Step
+    """Both of `TRIM` as one change."""
+    eight_blades_deg: float
+    """Best twist of eight rigid blades less that of four, at the fastest speed."""
+    without_drag_deg: float
+    """Best twist of `flight` without fuselage drag, at the fastest speed [°/R]."""
+    wakes: tuple[WakeRow, ...]
+
+    def step(self, name: str) -> Step:
+        """A rung by name; `trim` is both of `TRIM`."""
+        return next(one for one in (*self.steps, self.trim) if one.name == name)
+
+    def at(self, name: str, mu: float) -> Least:
+        """The best twist of a rung at a speed of the ladder."""
+        return self.step(name).best[self.speeds.index(mu)]
+
+    def moves(self, name: str) -> tuple[float, float]:
+        """The smallest and the largest move by this change, of the three ways to count it [°]."""
+        one = self.step(name)
+        ways = [one.moves_deg, one.alone_on_thesis_deg, one.alone_off_flight_deg]
+        known = sorted((way for way in ways if way is not None and abs(way) > NOTHING), key=abs)
+        return known[0], known[-1]
+
+
+def check_speeds(speeds: Sequence[float]) -> tuple[float, ...]:
+    """Hover and advance ratios in order; ValueError for what no inflow model here is proven for."""
+    kept = tuple(sorted(set(speeds)))
+    for mu in kept:
+        if mu != 0.0 and not SLOWEST <= mu <= 0.45:
+            raise ValueError(f"advance ratio {mu:g} is outside {SLOWEST:g}…0.45: give 0 for hover, or a value inside")
+    if len(kept) < 2:
+        raise ValueError("a moving twist needs two speeds: give for example 0,0.2,0.35")
+    return kept
+
+
+def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
+    """Compute the ladder; ValueError where a blade does not trim."""
+    names = tuple(RUNGS)
+    fast = speeds[-1]
+
+    def rate(on: tuple[str, ...]) -> float:
+        return least(on, fast, None).rate_deg
+
+    def step(name: str, words: str, changed: tuple[str, ...], count: int) -> Step:
+        on, before = names[:count], names[: count - len(changed)]
+        return Step(
+            name, words, tuple(least(on, mu, None) for mu in speeds),
+            rate(on) - rate(before) if changed else None,
+            rate(changed) - rate(()) if changed else None,
+            rate(names) - rate(tuple(one for one in names if one not in changed)) if changed else None,
+            worth(on, speeds, None),
+            (strong_over_weak(on, 0.0, None), strong_over_weak(on, FAST_KMH, None)),
+        )  # fmt: skip
+
+    steps = [step("thesis", "preset thesis: what the document states", (), 0)]
+    steps += [step(name, words, (name,), k) for k, (name, words) in enumerate(RUNGS.items(), start=1)]
+    trim = step("trim", "trim by cyclic together with µ sin α", TRIM, names.index(TRIM[-1]) + 1)
+    rigid = least(tuple(name for name in names if name != "elastic"), fast, None)
+    return Ladder(
+        speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rigid.rate_deg,
+        without_drag(fast).rate_deg,
+        tuple(
+            WakeRow(name, tuple(least(names, mu, name) for mu in speeds), worth(names, speeds, name))
+            for name in INFLOW_MODELS
+        ),
+    )  # fmt: skip
+
+
+def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
+    """What `climb` needs, in lists that can be made in different processes."""
+    names = tuple(RUNGS)
+    ladder = [names[:count] for count in range(len(names) + 1)]
+    alone = [on for name in (*((one,) for one in names), TRIM) for on in (name, _without(names, name))]
+    return [
+        *([(least, (names, mu, wake)) for mu in speeds] + [(worth, (names, speeds, wake))] for wake in INFLOW_MODELS),
+        *(
+            [(least, (on, mu, None)) for mu in speeds]
+            + [(worth, (on, speeds, None))]
+            + [(strong_over_weak, (on, kmh, None)) for kmh in (0.0, FAST_KMH)]
+            for on in ladder
+        ),
+        [(least, (on, speeds[-1], None)) for on in alone],
+        [(twice_the_blades, (speeds[-1],)), (without_drag, (speeds[-1],))],
+    ]
+
+
+def _without(names: tuple[str, ...], left: Collection[str]) -> tuple[str, ...]:
+    return tuple(name for name in names if name not in left)
