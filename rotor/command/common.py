@@ -71,6 +71,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False
     helps = {name: " ".join(text.split()).removesuffix(".") for name, text in words}
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
+    _add_allow_outside(parser)
     for name, hint in _ARGUMENTS.items():
         if name == "stand" or (name in _SPEED and not speed):
             continue
@@ -106,8 +107,15 @@ def _unit(name: str) -> str:
 
 
 def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
-    """`--rotor` alone."""
+    """`--rotor` without the rest of a design."""
     parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(_LISTED['rotor'])} or a rotor file")
+    _add_allow_outside(parser)
+
+
+def _add_allow_outside(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
+    )
 
 
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
@@ -115,7 +123,7 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     given = {name: getattr(args, name, None) for name in _ARGUMENTS if name not in ("stand", *_SPEED)}
     speed = {name: getattr(args, name, None) for name in _SPEED} if mu is None else {"mu": mu}
     case = load_design(args.case) if args.case else None
-    rotor = find_aircraft(args.rotor) if args.rotor else None
+    rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
     stand = {key: value for key in _STAND if (value := getattr(args, key)) is not None}
     known = case is not None and rotor is None and case.condition.stand is not None
     isolated = (rotor or (case and case.aircraft) or find_aircraft(SHIPPED_ROTORS[0])).isolated
