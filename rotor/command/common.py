@@ -3,6 +3,7 @@
 import argparse
 import csv
 import inspect
+import io
 import math
 import re
 import signal
@@ -10,7 +11,6 @@ import sys
 import time
 from collections.abc import Callable, Generator, Iterable
 from contextlib import contextmanager
-from pathlib import Path
 from types import FrameType
 from typing import Any, get_args
 
@@ -29,6 +29,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
+from rotor.user_input import write_whole
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -136,11 +137,12 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines; ValueError when the file cannot be written."""
+    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails."""
+    text = io.StringIO()
+    text.write(heading)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            file.write(heading)
-            csv.writer(file, lineterminator="\n").writerows(rows)
+        write_whole(path, text.getvalue())
     except OSError as error:
         raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 

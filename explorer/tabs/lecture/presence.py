@@ -38,7 +38,9 @@ _WORDS = (
 
 
 _FOLLOWING = "Following a presentation: controlled by the presenter."
-_DUPLICATE = "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
+_DUPLICATE = (
+    "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
+)
 
 
 class Presence(Tab):
