@@ -172,7 +172,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="address of a running Dask cluster, tls://… outside a trusted network (default: the cores of this machine)",
+        help="address of a running Dask cluster, tls://… outside trusted networks (default: this machine's cores)",
     )
     parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (default: one per core)")
     parser.add_argument("--out", metavar="DIR", help="results folder (default: the file's name); resumed if it exists")

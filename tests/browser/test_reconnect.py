@@ -166,3 +166,42 @@ def test_a_change_that_did_not_arrive_is_named(page: "Page", proxy: Proxy):
     assert "Δ inboard [°/R] was -7.3, is -7.9. Set it again." in page.locator("#rx-lost").inner_text()
     page.mouse.click(5, 5)
     page.wait_for_selector("#rx-lost", state="detached")
+
+
+def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", proxy: Proxy):
+    """The machine sleeps, its connection ends without a word, and the clocks of page and day have gone on."""
+    page.clock.install()
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    Watched(page).type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    devtools = page.context.new_cdp_session(page)
+    devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
+    proxy.cut()
+    proxy.cut(off=False)
+    time.sleep(1.0)
+    page.clock.fast_forward("24:00:00")
+    devtools.send("Page.setWebLifecycleState", {"state": "active"})
+    page.wait_for_function(
+        "() => !document.querySelector('#rx-gone') && !document.documentElement.hasAttribute('data-held')"
+    )
+    page.wait_for_function(OPEN)
+    assert "-7.9" in page.evaluate("() => location.search")
+    Watched(page).type("Δ inboard", -7.3)
+    page.wait_for_function("() => location.search.includes('-7.3')")
+
+
+def test_a_clock_set_back_by_a_day_stops_nothing(page: "Page", proxy: Proxy, monkeypatch: pytest.MonkeyPatch):
+    """viser's frames carry the time of day, by which its client smooths their arrival."""
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    watched, clock = Watched(page), time.time
+    watched.type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    for hours, value in ((-24, -7.3), (0, -6.5)):  # Back, and forward again.
+        monkeypatch.setattr(time, "time", lambda hours=hours: clock() + 3600.0 * hours)
+        begin = time.monotonic()
+        watched.type("Δ inboard", value)
+        page.wait_for_function(f"() => location.search.includes('{value}')")
+        watched.answered()
+        assert time.monotonic() - begin < 30.0

@@ -192,8 +192,10 @@ def main() -> int:
     outcomes = run(args.count, args.seed)
     kinds = Counter(one.kind for one in outcomes)
     print(f"{args.count} designs in {time.perf_counter() - begin:.0f} s: {dict(kinds)}")
+    shares = [share(outcomes), share(outcomes, below=BEYOND), share(outcomes, plain=True)]
+    whole, attached, plain = (f"{100 * one:.2f} %" for one in shares)
     print(
-        f"first attempt: {100 * share(outcomes):.2f} % of the trimmed, {100 * share(outcomes, plain=True):.2f} % of plain level flight"
+        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter stalled, {plain} of level flight"
     )
     for one in outcomes:
         if one.kind not in RIGHT or one.kind == "in deep stall":
