@@ -158,6 +158,7 @@ def _wrong(solution: Solution) -> str:
 
 def _open(solution: Solution) -> str:
     """The equations built anew and evaluated at the solution; nothing where they hold."""
+    assert solution.linear is not None
     problem, options = solution.linear.problem, DEFAULT_OPTIONS
     if problem.design.hovering:
         system = hover_system(problem)
