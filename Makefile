@@ -46,6 +46,7 @@ slow-page: setup-dev browser $(WARM)
 nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
+	$(BIN)/python -m tests.tools.mutation
 
 check-all: lint docs test slow ## everything CI checks
 

@@ -83,7 +83,7 @@ class Page:
         client.gui.set_panel_label("Rotor explorer")
         context = self.context = TabContext(client, shared.pool, callbacks)
         bridge = context.bridge
-        self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""))
+        self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""), facts.page)
         layout = context.layout = self.layout = Layout(client.gui, bridge)
         layout.watchers.append(callbacks.wake)
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)

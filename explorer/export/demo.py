@@ -39,6 +39,7 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.trim.validity import LOW_SPEED
 from rotor.units import KNOT
+from rotor.user_input import write_whole
 
 TWISTS = tuple(float(rate) for rate in range(-20, 1))
 """Linear twist [degrees per radius]."""
@@ -200,7 +201,7 @@ def _run(options: argparse.Namespace) -> int:
     design = load_design(options.design) if options.design else make_design()
     text = demo_html(design, view=ViewState(field=options.field), quiet=not sys.stderr.isatty())
     try:
-        target.write_text(text, encoding="utf-8")
+        write_whole(target, text)
     except OSError as error:
         raise ValueError(f"cannot write {str(target)!r} ({error.strerror}): give a writable file") from None
     print(f"{target}: {len(TWISTS)} twists at {len(SPEEDS)} speeds, {target.stat().st_size / 1e6:.1f} MB")

@@ -26,6 +26,8 @@ class PageFacts:
     """Of its address, from the question mark on; None where the browser did not tell."""
     kept: Mapping[str, str] = field(default_factory=dict[str, str])
     """Texts that it was given to keep by name: see `keep`."""
+    page: str = ""
+    """Another one each time that a tab is loaded; the same when a page connects again."""
 
 
 def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
@@ -37,7 +39,7 @@ def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
         client.local_storage.remove_item(key)
         found = json.loads(text or "{}")
         kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
-        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
+        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept, str(found.get("page", ""))[:40])
     except (TimeoutError, RuntimeError, ValueError, AttributeError):
         return PageFacts(query=None)
 

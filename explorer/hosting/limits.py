@@ -164,8 +164,9 @@ def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low
         fits = _is_number(value)
         if fits and low is not None and high is not None:
             value = min(max(value, low), high)
-    else:
-        fits = isinstance(value, (list, tuple)) and len(value) == len(current) and all(map(_is_number, value))
+    else:  # Numbers; an upload button's value is a file, which comes in another way.
+        pairs = isinstance(value, (list, tuple)) and isinstance(current, (list, tuple)) and len(value) == len(current)
+        fits = pairs and all(map(_is_number, value))
     if not fits:
         raise ValueError(f"A field of this page cannot hold {brief(repr(value))[:LONGEST_SHOWN]}: it stays as it was.")
     return value

@@ -118,7 +118,10 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
             if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
                 return _served(self.page, request, self._headers)
-            answer = inner(connection, request)
+            try:
+                answer = inner(connection, request)
+            except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
+                answer = _plain(http.HTTPStatus.NOT_FOUND, "There is no such page.")
             if answer is not None:
                 for name, value in self._headers.items():
                     answer.headers[name] = value

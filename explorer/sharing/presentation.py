@@ -55,7 +55,29 @@ class Presentations:
         self._shown: dict[str, PresentedView] = {}
         self._listeners: dict[str, dict[int, Listener]] = {}
         self._watchers: dict[str, Callable[[int], None]] = {}
+        self._presenters: dict[str, tuple[str, object]] = {}
+        """Page and session that present, by name."""
         self._next = 0
+
+    def claim(self, secret: str, page: str, session: object) -> bool:
+        """Whether this session may present: no other page does, or it is the same one, connected again.
+
+        A tab that the browser duplicates has the same secret as the first; `page` tells them apart, and is "" where
+        the browser did not say.
+        """
+        name = follow_name(secret)
+        with self._lock:
+            if name in self._presenters and (not page or self._presenters[name][0] != page):
+                return False
+            self._presenters[name] = page, session
+            return True
+
+    def release(self, session: object) -> None:
+        """This session has ended: another page with the secret may present."""
+        with self._lock:
+            for name, (_, own) in tuple(self._presenters.items()):
+                if own is session:
+                    del self._presenters[name]
 
     def watch(self, secret: str, watcher: Callable[[int], None]) -> None:
         """Tell a presenter how many follow, now and whenever that changes."""

@@ -23,8 +23,7 @@ from rotor.airfoil.wrap import on_run_time_grid
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design
 from rotor.files.design_file import parse_design
-from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft
-from rotor.files.toml_table import read_toml
+from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft, rotor_toml
 from rotor.user_input import refusing, shorten
 
 SUFFIXES = (".toml", ".c81", ".txt", ".csv", ".pol", ".dat")
@@ -77,7 +76,7 @@ class UploadedFiles:
 
     def _rotor(self, name: str, text: str) -> UploadResult:
         """A rotor file, when all that it names is here."""
-        missing = [file for file in named_files(read_toml(name, text)) if _is_file(file) and file not in self.texts]
+        missing = [file for file in named_files(rotor_toml(name, text)) if _is_file(file) and file not in self.texts]
         if missing:
             self.texts[name], self.waiting = text, name
             also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""

@@ -1,10 +1,10 @@
 // The veil goes when the page has an answer and its layout is at rest, and comes back when the server returns.
 (() => {
-  const SLOW = 6000, ENOUGH = 25000, BRIEF = 1200;  // [ms]
+  const SLOW = 6000, ENOUGH = 25000, BRIEF = 300;  // [ms]
   const page = document.documentElement, veil = document.getElementById('rx-veil'), words = veil.querySelector('p');
   const asked = new URLSearchParams(location.search).has('darkMode');
   const sign = '[data-explorer=status], [data-explorer=lobby]';
-  let begun = 0, calm = 0, last = '', down = false;
+  let begun = 0, calm = 0, last = '', down = false, shown = null;
 
   function lay() {
     begun = performance.now(); calm = 0; last = '';
@@ -31,8 +31,36 @@
 
   function lift() {
     page.classList.remove('rx-veiled');
+    hold(false);
+    tellLost();
     veil.classList.add('rx-lifting');
     setTimeout(() => { if (veil.classList.contains('rx-lifting')) veil.style.display = 'none'; }, 200);
+  }
+
+  // Without a server nothing can be changed, so that no change is lost: what is under way ends.
+  function hold(held) {
+    if (held) for (const end of ['pointerup', 'mouseup', 'touchend', 'pointercancel']) document.dispatchEvent(new Event(end, {bubbles: true}));
+    for (const part of [document.getElementById('root'), document.getElementById('rx')]) if (part) part.inert = held;
+    page.toggleAttribute('data-held', held);
+  }
+  // Sliders by name: the value that was set when the connection broke may not have arrived.
+  function sliders() {
+    const found = new Map();
+    for (const one of document.querySelectorAll('[data-dock-region=right] .mantine-Slider-root [role=slider]')) if (one.ariaLabel) found.set(one.ariaLabel, one.ariaValueNow);
+    return found;
+  }
+  function tellLost(tries = 50) {
+    const now = sliders();
+    if (shown && tries && [...shown.keys()].some(name => !now.has(name))) { setTimeout(tellLost, 100, tries - 1); return; }
+    const lost = [...shown ?? []].filter(([name, value]) => now.has(name) && now.get(name) !== value);
+    shown = null;
+    if (!lost.length) return;
+    const note = document.createElement('div');
+    note.id = 'rx-lost';
+    note.setAttribute('role', 'alert');
+    note.textContent = `The last change did not arrive before the connection was lost: ${lost.map(([name, value]) => `${name} was ${value}, is ${now.get(name)}`).join('; ')}. Set it again.`;
+    document.body.append(note);
+    addEventListener('pointerdown', () => note.remove(), {once: true, capture: true});
   }
 
   function say(gone) {
@@ -41,14 +69,18 @@
     const note = document.createElement('div');
     note.id = 'rx-gone';
     note.setAttribute('role', 'alert');
-    note.textContent = 'Connection lost; retrying. The address of this page holds your design.';
+    note.textContent = 'Connection lost; retrying. Nothing can be changed meanwhile. The address of this page holds your design.';
     document.body.append(note);
   }
 
   window.addEventListener('rx-connection', ({detail: open}) => {
     const was = down;
     down = !open;
-    if (down && !was) setTimeout(() => say(down), BRIEF);
+    if (down && !was) {
+      shown ??= sliders();
+      hold(true);
+      setTimeout(() => say(down), BRIEF);
+    }
     if (open) { say(false); if (was) lay(); }
   });
   lay();

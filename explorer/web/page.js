@@ -3,6 +3,7 @@
   const KEPT = 'rx-kept', page = document.documentElement;
   const kept = () => JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
   const answer = (key, text) => localStorage.setItem(`viser-user:${key}`, text);  // Where the server reads it.
+  const loaded = Array.from(crypto.getRandomValues(new Uint32Array(4)), n => n.toString(36)).join('');
   let asked = false;
 
   // As if typed, into a text widget of viser's that hears of it.
@@ -31,13 +32,14 @@
   });
 
   Object.assign(RX, {
-    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep. A page that
-    // was open before, and whose server has come back, stays as it was.
+    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep, which page
+    // it is: a tab that is duplicated keeps the same. A page that was open before, and whose server has come back,
+    // stays as it was.
     facts(key) {
       const wished = matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode');
       const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;
       asked = true;
-      answer(key, JSON.stringify({dark, query: location.search, kept: kept()}));
+      answer(key, JSON.stringify({dark, query: location.search, kept: kept(), page: loaded}));
     },
     // A text too long for the browser's store (some megabytes) is not kept, nor what stood there before.
     keep(name, text) {

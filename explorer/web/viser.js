@@ -1,8 +1,33 @@
-// What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py.
+// What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py
+// or test_reconnect.py, and a proposal to its authors in docs/upstream.
 (() => {
   // In a narrow window the client would leave its docks for a sheet of its own; ours are drawers by style sheet.
   const media = window.matchMedia.bind(window);
   window.matchMedia = query => media(/max-width:\s*36em/.test(query) ? 'not all' : query);
+
+  // The client asks its worker every second to connect, which closes a socket that is still connecting, and after five
+  // seconds the worker closes it anyway: over a slow network it never connects. So it asks again only when the last
+  // attempt has ended, and an attempt may take PATIENCE.
+  const PATIENCE = 30000;  // [ms]
+  const patient = `const Own = WebSocket;
+    self.WebSocket = class extends Own {
+      constructor(...where) { super(...where); setTimeout(() => { if (this.readyState === Own.CONNECTING) super.close(); }, ${PATIENCE}); }
+      close(...why) { if (this.readyState !== Own.CONNECTING) super.close(...why); }
+    };`;
+  const first = URL.createObjectURL(new Blob([patient], {type: 'text/javascript'}));
+  window.Worker = class extends Worker {
+    constructor(script, options) {
+      // Imports run in their order.
+      const both = new Blob([`import ${JSON.stringify(first)}; import ${JSON.stringify(String(script))};`], {type: 'text/javascript'});
+      super(options?.type === 'module' ? URL.createObjectURL(both) : script, options);
+      this.addEventListener('message', ({data}) => { if (['connected', 'closed'].includes(data?.type)) this.trying = false; });
+    }
+    postMessage(message, ...rest) {
+      if (message?.type === 'retry' && this.trying) return;
+      if (['retry', 'set_server'].includes(message?.type)) this.trying = true;
+      super.postMessage(message, ...rest);
+    }
+  };
 
   // The client replaces the function that sends when its connection opens and when it ends: then we hear of it.
   let client;

@@ -20,6 +20,7 @@ from rotor.arrays import Array
 from rotor.assets import asset_path
 
 POINTS = 161
+_MOST_POINTS = 2000
 _THICKNESS = (0.2969, -0.1260, -0.3516, 0.2843, -0.1015)
 _FIVE_DIGIT = {  # Middle digits: where the camber is: (m, k1) for a design lift coefficient of 0.3.
     "10": (0.0580, 361.4),
@@ -116,8 +117,8 @@ def parse_contour(text: str, name: str) -> Contour:
             raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line") from None
         rows.append((x, y))
     points = np.array(rows, dtype=np.float64)
-    if len(rows) < 20:
-        raise ValueError(f"{name} has {len(rows)} points: a section outline needs at least 20")
+    if not 20 <= len(rows) <= _MOST_POINTS:
+        raise ValueError(f"{name} has {len(rows)} points: a section outline needs 20 to {_MOST_POINTS}")
     if points[:5, 1].mean() < points[-5:, 1].mean():
         raise ValueError(f"{name} starts on the lower side: order the points from the upper trailing edge")
     if not (np.isfinite(points).all() and 0.9 < np.ptp(points[:, 0]) < 1.1 and np.abs(points).max() < 1.5):

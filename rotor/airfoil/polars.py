@@ -74,7 +74,10 @@ def parse_polars(text: str, name: str) -> PolarSet:
         raise ValueError(f"{name} holds no polar: give one row at least")
     data = np.array(rows, dtype=np.float64)
     polars: list[Polar] = []
-    for mach in np.unique(data[:, 0]):
+    machs = np.unique(data[:, 0])
+    if len(machs) > _MOST_MACHS:
+        raise ValueError(f"{name} holds polars at {len(machs)} Mach numbers: {_MOST_MACHS} are allowed")
+    for mach in machs:
         part = data[data[:, 0] == mach]
         part = part[np.argsort(part[:, 2])]
         polars.append(Polar(float(mach), float(part[0, 1]), part[:, 2], part[:, 3], part[:, 4], part[:, 5]))
@@ -82,6 +85,9 @@ def parse_polars(text: str, name: str) -> PolarSet:
 
 
 _MOST_ANGLES = 2000
+_MOST_MACHS = 30
+_HEAD, _LONGEST_HEAD = 40, 8000
+"""Lines and characters above the columns that are looked at; XFOIL writes twelve lines."""
 
 
 def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
@@ -92,7 +98,7 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
     if COLUMNS in text:
         return tuple(_checked(name, polar) for polar in parse_polars(text, name).polars)
     lines = text.splitlines()
-    dashes = next((k for k, line in enumerate(lines) if re.match(r"\s*-{4,}[\s-]+$", line)), None)
+    dashes = next((k for k, line in enumerate(lines) if re.match(r"\s*-{4}[\s-]+$", line)), None)
     if dashes is None or dashes == 0:
         raise ValueError(
             f"{name} is not an XFOIL polar file: save it with PACC in XFOIL's OPER menu, or write a CSV headed "
@@ -103,7 +109,7 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
         raise ValueError(
             f"{name}, line {dashes}: the columns begin {' '.join(heads[:3])!r}, not alpha CL CD: use XFOIL's order"
         )
-    head = " ".join(lines[:dashes])
+    head = " ".join(" ".join(lines[max(dashes - _HEAD, 0) : dashes]).split())[-_LONGEST_HEAD:]
     mach = _value(name, head, r"Mach\s*=\s*([0-9.]+)", "Mach =")
     reynolds = _value(name, head, r"Re\s*=\s*([0-9.]+(?:\s*e\s*[+-]?\s*[0-9]+)?)", "Re =")
     moment = heads.index("cm") if "cm" in heads else None

@@ -3,6 +3,7 @@
 import argparse
 import csv
 import inspect
+import io
 import math
 import re
 import signal
@@ -10,7 +11,6 @@ import sys
 import time
 from collections.abc import Callable, Generator, Iterable
 from contextlib import contextmanager
-from pathlib import Path
 from types import FrameType
 from typing import Any, get_args
 
@@ -30,6 +30,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
+from rotor.user_input import write_whole
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -72,6 +73,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False
     helps = {name: " ".join(text.split()).removesuffix(".") for name, text in words}
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
+    _add_allow_outside(parser)
     for name, hint in _ARGUMENTS.items():
         if name == "stand" or (name in _SPEED and not speed):
             continue
@@ -109,8 +111,15 @@ def _unit(name: str) -> str:
 
 
 def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
-    """`--rotor` alone."""
+    """`--rotor` without the rest of a design."""
     parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(_LISTED['rotor'])} or a rotor file")
+    _add_allow_outside(parser)
+
+
+def _add_allow_outside(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
+    )
 
 
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
@@ -118,7 +127,7 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     given = {name: getattr(args, name, None) for name in _ARGUMENTS if name not in ("stand", *_SPEED)}
     speed = {name: getattr(args, name, None) for name in _SPEED} if mu is None else {"mu": mu}
     case = load_design(args.case) if args.case else None
-    rotor = find_aircraft(args.rotor) if args.rotor else None
+    rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
     stand = {key: value for key in _STAND if (value := getattr(args, key)) is not None}
     known = case is not None and rotor is None and case.condition.stand is not None
     isolated = (rotor or (case and case.aircraft) or find_aircraft(SHIPPED_ROTORS[0])).isolated
@@ -131,11 +140,12 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines; ValueError when the file cannot be written."""
+    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails."""
+    text = io.StringIO()
+    text.write(heading)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            file.write(heading)
-            csv.writer(file, lineterminator="\n").writerows(rows)
+        write_whole(path, text.getvalue())
     except OSError as error:
         raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 

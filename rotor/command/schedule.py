@@ -1,12 +1,10 @@
 """`schedule`: optimum twist at each flight condition, best fixed blade, and the gain of in-flight twist change."""
 
 import argparse
-import csv
 import json
 import os
 import sys
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from rotor.command.common import (
@@ -20,6 +18,7 @@ from rotor.command.common import (
     interruptible,
     limits_from,
     parse_division,
+    write_table,
 )
 from rotor.command.optimise import named
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
@@ -76,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
         schedule = run_plan(plan, found, add, stop, processes if total - len(found) > 2 else 1)
         stopped = stop()
     if args.csv:
-        _write(args.csv, schedule)
+        write_table(args.csv, [COLUMNS, *_rows(schedule)])
     print(json.dumps(record(schedule), indent=2, allow_nan=False) if args.json else report(schedule))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
@@ -205,11 +204,3 @@ def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
             "" if one.best is None else one.best.twist,
         ))  # fmt: skip
     return rows
-
-
-def _write(path: str, schedule: Schedule) -> None:
-    try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([COLUMNS, *_rows(schedule)])
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None

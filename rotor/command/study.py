@@ -151,6 +151,10 @@ def _shown(number: float, unit: str) -> str:
     return f"{number:.6g}{' ' if unit not in ('', '°', '%') else ''}{unit}"
 
 
+_PLAIN = (
+    "has no encryption and no password: whoever can reach it can run programs on its workers and here; use it on a "
+    "trusted network only, or give tls://… (docs/scale.md)"
+)
 _SAY_EVERY = 60.0
 """[s] between lines of progress without a terminal."""
 
@@ -168,7 +172,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="address of a running Dask cluster (default: the cores of this machine)",
+        help="address of a running Dask cluster, tls://… outside trusted networks (default: this machine's cores)",
     )
     parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (default: one per core)")
     parser.add_argument("--out", metavar="DIR", help="results folder (default: the file's name); resumed if it exists")
@@ -227,6 +231,8 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
 
             try:
                 with connected(args.scheduler, args.workers) as client:
+                    if args.scheduler and not args.scheduler.startswith("tls://"):
+                        print(f"rotor: {args.scheduler} {_PLAIN}", file=sys.stderr)
                     if not client.nthreads():
                         words = f"no workers yet; start some with `dask worker {args.scheduler}`"
                         print(f"rotor: {words}", file=sys.stderr)

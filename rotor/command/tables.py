@@ -287,7 +287,7 @@ def add_ideal(commands: Any) -> None:
 
 def run_ideal(args: argparse.Namespace) -> int:
     """0; bad input is for the caller."""
-    craft = find_aircraft(args.rotor or SHIPPED_ROTORS[0])
+    craft = find_aircraft(args.rotor or SHIPPED_ROTORS[0], allow_outside=args.allow_outside)
     speeds = parse_range(args.mu)
     masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
     if min(speeds) < 0.02:

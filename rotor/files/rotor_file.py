@@ -28,7 +28,7 @@ from rotor.design.blade import Blade, Rotor, Span
 from rotor.design.structure import BladeStructure
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
-from rotor.files.section_file import read_section
+from rotor.files.section_file import check_section_name, read_section
 from rotor.files.toml_table import TomlTable, read_toml
 from rotor.units import GRAVITY
 from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten
@@ -44,19 +44,66 @@ LARGEST_FILE = 2_000_000
 """[bytes], of a rotor file or of a file it names; a deck has about 40 000."""
 
 
+MOST_SECTIONS = 12
+"""Sections of its own that a blade may use: each takes some 0.1 s to build."""
+MOST_NAMED = 40
+"""Files that the sections in use may name."""
+
+
+_LONGEST, _LONGEST_LINE = 200_000, 20_000
+"""Characters of a rotor file and of a line of it."""
+_MOST_DOTS = 100
+"""A dotted name takes the square of its length to read: 8000 dots on each of eleven lines took 18 s."""
+
+
+def rotor_toml(file: str, text: str) -> TomlTable:
+    """The top table of a rotor file; ValueError with one sentence for one too long, or that is not TOML."""
+    if len(text) > _LONGEST:
+        raise ValueError(f"{file} has {len(text):,} characters: a rotor file has {_LONGEST:,} at most")
+    for number, line in enumerate(text.splitlines(), start=1):
+        if len(line) > _LONGEST_LINE:
+            raise ValueError(f"{file}, line {number}: {len(line):,} characters: break lines of {_LONGEST_LINE:,}")
+        if any(part.count(".") > _MOST_DOTS for part in re.split("[,=]", line)):
+            raise ValueError(f"{file}, line {number}: a name has more than {_MOST_DOTS} dots: shorten it")
+    return read_toml(file, text)
+
+
 def named_files(top: TomlTable) -> list[str]:
-    """The section files that a rotor file names, even where the rest of it has errors."""
+    """The files of the sections in use, even where the rest of a rotor file has errors.
+
+    Raises ValueError with one sentence for too many.
+    """
     names: list[str] = []
-    for own in _as_table(top.values.get("sections")).values():
+    sections = _as_table(top.values.get("sections"))
+    for own in _in_use(top):
         for key in ("deck", "polars", "outline"):
-            value: Any = _as_table(own).get(key, [])
-            items: list[Any] = cast(list[Any], value) if isinstance(value, list) else [value]
-            names += [item for item in items if isinstance(item, str)]
-    return list(dict.fromkeys(names))
+            value: Any = _as_table(sections.get(own)).get(key, [])
+            names += [item for item in _as_list(value) if isinstance(item, str)]
+    names = list(dict.fromkeys(names))
+    if len(names) > MOST_NAMED:
+        raise top.fail("sections", f"the sections in use name {len(names)} files: {MOST_NAMED} are allowed")
+    return names
+
+
+def _in_use(top: TomlTable) -> list[str]:
+    """Tables of `sections` that a span of the main rotor names, in the order of the file."""
+    main = _as_table(top.values.get("main_rotor"))
+    used: set[str] = set()
+    for given in (main, *(_as_table(main.get(key)) for key in ("flown", "document"))):
+        spans = [_as_table(span).get("section") for span in _as_list(given.get("spans", []))]
+        used |= {one for one in (given.get("section"), *spans) if isinstance(one, str)}
+    own = [name for name in _as_table(top.values.get("sections")) if name in used]
+    if len(own) > MOST_SECTIONS:
+        raise top.fail("sections", f"the blade uses {len(own)} sections of its own: {MOST_SECTIONS} are allowed")
+    return own
 
 
 def _as_table(value: Any) -> dict[str, Any]:
     return cast(dict[str, Any], value) if isinstance(value, dict) else {}
+
+
+def _as_list(value: Any) -> list[Any]:
+    return cast(list[Any], value) if isinstance(value, list) else [value]
 
 
 def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraft:
@@ -64,7 +111,7 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
 
     Raises ValueError with one sentence that names file, line and remedy.
     """
-    top = read_toml(main, texts[main])
+    top = rotor_toml(main, texts[main])
     name = top.string("name")
     if not re.fullmatch(_NAME, name):
         raise top.fail("name", f"name is {name[:60]!r}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -")
@@ -341,9 +388,13 @@ def _own_sections(
     sections = top.table("sections", None)
     if sections is None:
         return ()
-    own = tuple(read_section(sections.table(name), name, texts, used, remarks) for name in sections.values)
-    sections.finish()
-    return own
+    for name in sections.values:
+        check_section_name(sections.table(name), name)
+    own = _in_use(top)
+    if spare := [name for name in sections.values if name not in own]:
+        more = f" and {len(spare) - 1} more" if len(spare) > 1 else ""
+        remarks.append(f"Section {shorten(spare[0])}{more} is left out: no span of the blade uses it.")
+    return tuple(read_section(sections.table(name), name, texts, used, remarks) for name in own)
 
 
 @cache
@@ -360,30 +411,41 @@ def shipped_aircraft(name: str) -> Aircraft:
     return read_aircraft(file, {file: path.read_text(encoding="utf-8")}, key=name)
 
 
-def find_aircraft(name: str) -> Aircraft:
-    """The aircraft of a shipped rotor's name or of the path of a rotor file; ValueError with one sentence otherwise."""
+def find_aircraft(name: str, *, allow_outside: bool = False) -> Aircraft:
+    """The aircraft of a shipped rotor's name or of the path of a rotor file; ValueError with one sentence otherwise.
+
+    `allow_outside` as in `load_rotor`.
+    """
     if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS) or not ("." in name or "/" in name or is_file(name)):
         return shipped_aircraft(name)
-    return load_rotor(name)
+    return load_rotor(name, allow_outside=allow_outside)
 
 
-def load_rotor(path: str | Path) -> Aircraft:
-    """The aircraft of a rotor file on disk, with the section files in the same folder.
+def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
+    """The aircraft of a rotor file on disk, with the section files in its folder and the folders in that.
 
-    Raises ValueError with one sentence that names file, line and remedy.
+    `allow_outside`: it may name files anywhere. A rotor file may come from others, and what it names is kept in saved
+    designs. Raises ValueError with one sentence that names file, line and remedy.
     """
     path = Path(path)
     with refusing(f"rotor file {shorten(path.name)!r}", "check its values, see docs/rotor_file.md"):
-        return _load(path)
+        return _load(path, allow_outside)
 
 
-def _load(path: Path) -> Aircraft:
+def _load(path: Path, allow_outside: bool) -> Aircraft:
     texts = {path.name: _read(path)}
-    top = read_toml(path.name, texts[path.name])
+    top = rotor_toml(path.name, texts[path.name])
     for name in named_files(top):
         beside = path.parent / name
-        if is_file(beside):
-            texts[name] = _read(beside)
+        if not is_file(beside):
+            continue
+        if not allow_outside and not beside.resolve().is_relative_to(path.parent.resolve()):
+            raise top.fail(
+                None,
+                f"{path.name} names {shorten(name)!r}, which is outside its folder: copy it there, "
+                "or allow it with --allow-outside",
+            )
+        texts[name] = _read(beside)
     return read_aircraft(path.name, texts)
 
 

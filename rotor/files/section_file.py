@@ -16,6 +16,15 @@ UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
 
 
+def check_section_name(table: TomlTable, name: str) -> None:
+    """ValueError with one sentence for a name that no section of a rotor file may have."""
+    if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
+        raise table.fail(
+            None,
+            f"section name {name!r} is taken or has other characters: use letters a-z, digits and -, as my-section",
+        )
+
+
 def read_section(
     table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> OwnSection:
@@ -23,11 +32,6 @@ def read_section(
 
     Raises ValueError with one sentence that names file, line and remedy.
     """
-    if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
-        raise table.fail(
-            None,
-            f"section name {name!r} is taken or has other characters: use letters a-z, digits and -, as my-section",
-        )
     outline, thickness = _outline(table, name, texts, used, remarks)
     if table.has("deck") == table.has("polars"):
         raise table.fail(None, f'section {name} needs either deck = "file.c81" or polars = ["file.txt", …]: give one')

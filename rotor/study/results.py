@@ -41,6 +41,10 @@ class StoreError(RuntimeError):
     """A chunk could not be written; earlier chunks are kept."""
 
 
+_LOCK = "_lock"
+"""Left behind by a run that found no room for more."""
+
+
 class Store:
     """The folder of one study, open for writing."""
 
@@ -50,13 +54,13 @@ class Store:
         try:
             make_folder(self.folder)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
-            if known is None and any(self.folder.iterdir()):
+            if known is None and any(one.name != _LOCK for one in self.folder.iterdir()):
                 raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
             if known is not None:
                 self._check(known, provenance)
             self._lock = _hold(self.folder)
+            self._write(ABOUT, _about(file.study, provenance, known))  # First: a folder without it is not a study's.
             self._write(SOURCE, file.text.encode())
-            self._write(ABOUT, _about(file.study, provenance, known))
             for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()
         except OSError as error:
@@ -92,8 +96,6 @@ class Store:
         try:
             self._write(name, content)
         except OSError as error:
-            with suppress(OSError):
-                (self.folder / f".{name}.part").unlink()
             raise StoreError(
                 f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
                 "run the same "
@@ -114,11 +116,16 @@ class Store:
 
     def _write(self, name: str, content: bytes) -> None:
         part = self.folder / f".{name}.part"
-        with part.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(self.folder / name)
+        try:
+            with part.open("wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            part.replace(self.folder / name)
+        except OSError:
+            with suppress(OSError):
+                part.unlink()
+            raise
 
 
 def read_about(folder: str | Path) -> dict[str, Any]:
@@ -163,7 +170,7 @@ def _hold(folder: Path) -> int | None:
         import fcntl
     except ImportError:
         return None
-    handle = os.open(folder / "_lock", os.O_RDWR | os.O_CREAT, 0o644)
+    handle = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

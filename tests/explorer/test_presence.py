@@ -73,3 +73,47 @@ def test_a_secret_in_a_link_of_an_earlier_version_gives_no_control():
     assert address[PRESENT] is None
     kept = Presence(Handle(), Presentations(), FakeAddress(), "a-secret")  # pyright: ignore[reportArgumentType]
     assert kept._secret
+
+
+def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
+    """A browser that duplicates a tab copies what it was given to keep, with the secret."""
+
+    async def arrive(page: str) -> Visitor:
+        visitor = Visitor(kept={PRESENT: "a-secret"}, page=page)
+        await visitor.open(app.address)
+        await visitor.until(lambda: "resent" in visitor.text("presence"))
+        return visitor
+
+    async def visit() -> list[str]:
+        async with asyncio.timeout(240.0):
+            first = await arrive("one")
+            second = await arrive("two")
+            said = [first.text("presence"), second.text("presence")]
+            again = await arrive("one")  # Connected again, before the server knows that it was gone.
+            said.append(again.text("presence"))
+            for visitor in (first, again):
+                await visitor.close()
+            while len(app.sessions) > 1:
+                await asyncio.sleep(0.05)
+            third = await arrive("three")  # Loaded again after the first was closed.
+            said.append(third.text("presence"))
+            for visitor in (second, third):
+                await visitor.close()
+            return said
+
+    with ThreadPoolExecutor(1) as thread:
+        first, second, again, third = thread.submit(lambda: asyncio.run(visit())).result()
+    assert first.startswith("Presenting: 1 follower")  # The second.
+    assert second.startswith("Another tab of this browser presents already: this one follows it.")
+    assert again.startswith("Presenting: 1 follower")
+    assert third.startswith("Presenting: 1 follower")
+
+
+def test_a_presentation_has_one_presenter():
+    presentations, one, two = Presentations(), object(), object()
+    assert presentations.claim("s", "page", one)
+    assert not presentations.claim("s", "other", two)
+    assert not presentations.claim("s", "", two)
+    assert presentations.claim("other", "other", two)
+    presentations.release(one)
+    assert presentations.claim("s", "other", two)

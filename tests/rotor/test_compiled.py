@@ -10,6 +10,7 @@ from typing import Any
 import numba
 import pytest
 from numba.core import caching
+from numba.core.codegen import CPUCodegen
 
 import rotor
 from rotor.compiled import compiled
@@ -84,6 +85,30 @@ def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, s
     assert (damaged(1.0), hits(damaged)) == (2.0, 0)
     again = module(source).kernel
     assert (again(1.0), hits(again)) == (2.0, 1)
+
+
+def test_code_of_another_version_of_numba_is_compiled_anew(source: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(numba, "__version__", "0.1.0")
+    assert module(source).kernel(1.0) == 2.0
+    monkeypatch.undo()
+    other = module(source).kernel
+    assert (other(1.0), hits(other)) == (2.0, 0)
+    again = module(source).kernel
+    assert (again(1.0), hits(again)) == (2.0, 1)
+
+
+def test_code_for_another_processor_is_not_run(source: Path, monkeypatch: pytest.MonkeyPatch):
+    """A home folder may be shared by machines. Both kinds of code are then kept beside each other."""
+    monkeypatch.setattr(CPUCodegen, "magic_tuple", lambda self: ("x86_64-unknown-linux-gnu", "other", "+other"))
+    assert module(source).kernel(1.0) == 2.0
+    monkeypatch.undo()
+    ours = module(source).kernel
+    assert (ours(1.0), hits(ours)) == (2.0, 0)
+    for tuple_of in (None, lambda self: ("x86_64-unknown-linux-gnu", "other", "+other")):
+        if tuple_of:
+            monkeypatch.setattr(CPUCodegen, "magic_tuple", tuple_of)
+        again = module(source).kernel
+        assert (again(1.0), hits(again)) == (2.0, 1)
 
 
 def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):

@@ -37,18 +37,31 @@ _WORDS = (
 )
 
 
+_FOLLOWING = "Following a presentation: controlled by the presenter."
+_DUPLICATE = (
+    "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
+)
+
+
 class Presence(Tab):
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
     _lecture: LecturePanel
     _hold: Callable[[bool], None]
 
-    def __init__(self, context: TabContext, presentations: Presentations, address: Address, secret: str = "") -> None:
-        """The page's address says whom it follows; `secret` is what the page kept where it presents."""
-        self._context, self._presentations, self._address = context, presentations, address
-        self._secret = secret[:_LONGEST]
+    def __init__(
+        self, context: TabContext, presentations: Presentations, address: Address, secret: str = "", page: str = ""
+    ) -> None:
+        """The page's address says whom it follows; `secret` is what the page kept where it presents.
+
+        `page`: of which there is one for each time that a tab is loaded.
+        """
+        self._context, self._presentations, self._address, self._page = context, presentations, address, page
+        self._secret, self._duplicate = secret[:_LONGEST], False
         address[PRESENT] = None  # Earlier versions kept the secret there, so it came with every link.
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
+        if self._secret and not presentations.claim(self._secret, page, self):
+            self._name, self._secret, self._duplicate = follow_name(self._secret), "", True
         self._lock, self._publishing = threading.Lock(), threading.Lock()
         self._unfollow: Callable[[], None] | None = None
         self._shown: PresentedView | None = None
@@ -76,7 +89,7 @@ class Presence(Tab):
         self._context.client.camera.on_update(self._looked_round)
         if self._name:
             hold(True)
-            self._say("Following a presentation: controlled by the presenter.", leave=True)
+            self._say(_DUPLICATE if self._duplicate else _FOLLOWING, leave=True)
             self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
             self._presentations.watch(self._secret, self._announce)
@@ -91,6 +104,7 @@ class Presence(Tab):
             self.leave()
         if not self._secret:
             self._secret = new_secret()
+            self._presentations.claim(self._secret, self._page, self)
             browser.keep(self._context.client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
@@ -102,6 +116,7 @@ class Presence(Tab):
         """Stop presenting."""
         if self._secret:
             self._presentations.end(self._secret)
+            self._presentations.release(self)
             self._secret = ""
             browser.keep(self._context.client, PRESENT, "")
             self._say("")
@@ -112,6 +127,9 @@ class Presence(Tab):
         unfollow, self._unfollow, self._name = self._unfollow, None, ""
         if unfollow is not None:
             unfollow()
+        if self._duplicate:
+            self._duplicate = False
+            browser.keep(self._context.client, PRESENT, "")
         self._hold(False)
         self._address[FOLLOW] = None
         self._say("")
@@ -128,6 +146,7 @@ class Presence(Tab):
 
     def stop(self) -> None:
         """The browser has left. A presenter may come back by the same address, so followers wait."""
+        self._presentations.release(self)
         if self._unfollow is not None:
             self._unfollow()
 

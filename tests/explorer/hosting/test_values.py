@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
+from viser import UploadedFile
 from viser.infra import Message
 
 from explorer.app import App
@@ -31,6 +32,7 @@ DIGITS = "9" * 400
     [
         (math.nan, 1.0, {}), (math.inf, 1.0, {}), ("1", 1.0, {}), (True, 1.0, {}), (None, 1.0, {}), ([1], 1.0, {}),
         ({}, 1, {}), (int(DIGITS), 1.0, {}), ("c", "a", {"choices": ("a", "b")}), (1, "a", {}), ("x", True, {}),
+        ([1, 2], UploadedFile("", b""), {}), ([], UploadedFile("", b""), {}), (1.0, (1.0, 2.0), {}),
         ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0,), (1.0, 2.0), {}), ((1.0, math.nan), (1.0, 2.0), {}),
     ],
 )  # fmt: skip
@@ -107,6 +109,15 @@ def test_an_address_beyond_every_limit_gets_a_sentence(app: App):
         assert "shorter link" in answer.read().decode()
 
 
+@pytest.mark.parametrize(
+    "path", ["x" * 7000, "x/" * 3000, "%00", "a" * 300, "..%2f..%2fetc/passwd"], ids=lambda path: path[:8]
+)
+def test_a_path_that_no_file_can_have_is_not_found(app: App, path: str):
+    with pytest.raises(urllib.error.HTTPError, match="404") as refusal:
+        urllib.request.urlopen(f"{app.address}/{path}", timeout=60)
+    refusal.value.close()
+
+
 def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App, caplog: pytest.LogCaptureFixture):
     async def flood() -> None:
         async with asyncio.timeout(240.0):
@@ -116,7 +127,13 @@ def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App,
             power = visitor.text("total-power")
             for uuid, widget in list(visitor.widgets.items()):
                 await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"max": math.nan})
-                if widget.get("label") in ("Δ inboard [°/R]", "Δ outboard [°/R]", "Law", "Inflow", "Preset"):
+                if "mime_type" in widget or widget.get("label") in (
+                    "Δ inboard [°/R]",
+                    "Δ outboard [°/R]",
+                    "Law",
+                    "Inflow",
+                    "Preset",
+                ):
                     for value in ("nan", math.nan, None, {}, [1.0], "x" * 100) * 20:
                         await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
             await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)

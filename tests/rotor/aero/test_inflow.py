@@ -8,6 +8,8 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import Wake, inflow_model
 from rotor.aero.inflow.linear import LINEAR_MODELS, LinearInflow
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
@@ -85,3 +87,14 @@ def test_upwash_at_the_front_downwash_at_the_back():
 def test_unknown_model_is_one_sentence():
     with pytest.raises(ValueError, match=r"'drela' is not known: use one of uniform, coleman"):
         inflow_model("drela")
+
+
+def test_a_trim_has_the_first_harmonics_of_its_model():
+    """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29); Drees: k_x = 4/3 (1 − cos χ − 1.8 µ²)/sin χ, k_y = −2µ."""
+    solution = solve(make_design(mu=0.2, inflow="drees"))
+    disk, state = solution.disk, solution.controls
+    mu_x, mu_z = 0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt)
+    skew = math.atan2(mu_x, mu_z + state.lambda0)
+    k_x = 4.0 / 3.0 * (1.0 - math.cos(skew) - 1.8 * mu_x**2) / math.sin(skew)
+    for wave, strength in ((np.cos(disk.psi), k_x), (np.sin(disk.psi), -2.0 * mu_x)):
+        assert_allclose(2.0 * (disk.induced * wave).mean(axis=1), state.lambda0 * strength * disk.r, atol=1e-9)

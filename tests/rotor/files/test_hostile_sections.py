@@ -2,20 +2,27 @@
 
 import random
 import re
+import sys
+import threading
+import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from test_rotor_file import GOOD, polar_file
 
+from explorer.tabs.design_files import UploadedFiles
+from rotor.__main__ import main
 from rotor.airfoil.c81 import format_c81, parse_c81
-from rotor.airfoil.polars import Polar, parse_polar_file, read_polars
+from rotor.airfoil.polars import COLUMNS, Polar, parse_polar_file, read_polars
 from rotor.airfoil.sections import load_section
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
+from rotor.files import rotor_file
 from rotor.files.make_design import make_design
-from rotor.files.rotor_file import read_aircraft
+from rotor.files.rotor_file import load_rotor, named_files, read_aircraft, rotor_toml
 from rotor.trim.solve import solve
 
 POLAR = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
@@ -118,3 +125,125 @@ def test_a_heading_with_a_wrong_digit_is_refused(heading: str, says: str):
 @pytest.mark.parametrize("name", ["sc1095", "sc1094r8", "naca0012", "naca63a015"])
 def test_shipped_sections_pass_the_same_checks(name: str):
     assert np.all(load_section(name).lift_slope(np.linspace(0.0, 0.9, 10)) > 2.0)
+
+
+def test_only_sections_in_use_are_built(monkeypatch: pytest.MonkeyPatch):
+    """2000 sections beside the one in use took over a minute: each is a deck from polars on the grid."""
+    built = list[str]()
+    read = rotor_file.read_section
+    monkeypatch.setattr(
+        rotor_file, "read_section", lambda table, name, *rest: built.append(name) or read(table, name, *rest)
+    )
+    text = GOOD.replace('"naca0012"', '"s0"', 1) + "".join(f'[sections.s{k}]\npolars = "a.txt"\n' for k in range(2000))
+    craft = read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
+    assert built == ["s0"]
+    assert "Section s1 and 1998 more is left out: no span of the blade uses it." in craft.remarks
+    assert named_files(rotor_toml("my.toml", text.replace("a.txt", "b.txt", 1))) == ["b.txt"]
+
+
+def test_the_number_of_sections_and_files_is_bounded():
+    own = "".join(f'[sections.s{k}]\npolars = "a.txt"\n' for k in range(13))
+    spans = ", ".join(
+        f'{{ start_r = {0.2 + 0.06 * k:.2f}, end_r = {0.26 + 0.06 * k:.2f}, section = "s{k}" }}' for k in range(13)
+    )
+    text = GOOD.replace('section = "naca0012"', f"spans = [{spans}]", 1) + own
+    with pytest.raises(ValueError, match="uses 13 sections of its own: 12 are allowed"):
+        read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
+    files = ", ".join(f'"{k}.txt"' for k in range(41))
+    with pytest.raises(ValueError, match="name 41 files: 40 are allowed"):
+        named_files(rotor_toml("my.toml", GOOD.replace('"naca0012"', '"s"', 1) + f"[sections.s]\npolars = [{files}]\n"))
+
+
+LONG = 15_000
+HEAD = "\n alpha cl cd\n ---- ----\n 1 2 3"
+WORK = {
+    "dotted names": ("a.toml", "\n".join(".".join(["a"] * 8000) + " = 1" for _ in range(11))),
+    "a header that never ends": ("a.toml", f'x = """\n[{" " * LONG}x\n"""\n' + GOOD.replace("= 5.0", "= 5000.0", 1)),
+    "dashes": ("a.txt", "\n" + "-" * 1_900_000 + "x"),
+    "blanks in a number": ("a.txt", f"Mach = 0.1 Re = 1e{' ' * 1_900_000}x{HEAD}"),
+    "Mach numbers": (
+        "a.csv",
+        f"{COLUMNS}\n" + "".join(f"{k * 1e-6:g},1e6,{k % 20},0.1,0.01,0\n" for k in range(60_000)),
+    ),
+    "points": ("a.dat", "\n".join(f"{k / 9e4:.5f} 0.0" for k in range(120_000))),
+    "keys": ("a.toml", GOOD + "".join(f"x{k} = 1\n" for k in range(18_000))),
+    "a long file": ("a.toml", GOOD + "#" * 200_000),
+}
+"""What a file may hold that took seconds to hours, or held the interpreter, and is none that can be used."""
+
+
+@pytest.mark.parametrize("kind", WORK)
+def test_no_upload_holds_the_interpreter(kind: str):
+    """Another thread waits 0.2 s at most for its turn, of which a page would see a still picture."""
+    name, text = WORK[kind]
+    longest = 0.0
+    for _ in range(3):  # A busy machine may keep any thread waiting, but not every time.
+        longest, took = longest_wait(name, text)
+        assert took < 3.0
+        if longest < 0.2:
+            return
+    raise AssertionError(f"{longest:.2f} s")
+
+
+def longest_wait(name: str, text: str) -> tuple[float, float]:
+    """Of another thread for the interpreter [s] while a file is refused, and the processor time of that [s]."""
+    before, longest, done = sys.getswitchinterval(), 0.0, threading.Event()
+
+    def watch() -> None:
+        nonlocal longest
+        last = time.perf_counter()
+        while not done.wait(0.002):
+            now = time.perf_counter()
+            longest, last = max(longest, now - last), now
+
+    sys.setswitchinterval(1e-3)  # As the server does.
+    watcher, begin = threading.Thread(target=watch), time.process_time()
+    watcher.start()
+    try:
+        with pytest.raises(ValueError, match=re.escape(name)) as refusal:
+            UploadedFiles().add(name, text.encode())
+    finally:
+        done.set()
+        watcher.join()
+        sys.setswitchinterval(before)
+    assert len(str(refusal.value)) < 300
+    return longest, time.process_time() - begin
+
+
+OUTSIDE = GOOD.replace('"naca0012"', '"mine"', 1) + '[sections.mine]\ndeck = "NAME"\n'
+
+
+@pytest.mark.parametrize("name", ["../mine.c81", "ABSOLUTE", "link.c81", "sub/../../mine.c81"])
+def test_names_stay_inside_the_folder(name: str, tmp_path: Path):
+    """A rotor file may come from others; what it names is carried into saved designs and exports."""
+    folder = tmp_path / "rotor"
+    (folder / "sub").mkdir(parents=True)
+    (tmp_path / "mine.c81").write_text(DECK, encoding="utf-8")
+    (folder / "link.c81").symlink_to(tmp_path / "mine.c81")
+    named = str(tmp_path / "mine.c81") if name == "ABSOLUTE" else name
+    (folder / "my.toml").write_text(OUTSIDE.replace("NAME", named), encoding="utf-8")
+    with pytest.raises(ValueError, match=r"outside its folder: copy it there, or allow it with --allow-outside"):
+        load_rotor(folder / "my.toml")
+    assert load_rotor(folder / "my.toml", allow_outside=True).rotor.blade.own_sections[0].name == "mine"
+
+
+def test_a_folder_below_is_inside(tmp_path: Path):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "mine.c81").write_text(DECK, encoding="utf-8")
+    (tmp_path / "my.toml").write_text(OUTSIDE.replace("NAME", "sub/mine.c81"), encoding="utf-8")
+    assert load_rotor(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
+
+
+def test_no_line_of_a_foreign_file_is_quoted(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """On the command line too, where `--allow-outside` is for those who want it."""
+    secret = tmp_path / "secret"
+    secret.write_text("root:x:0:0:very secret\n", encoding="utf-8")
+    (tmp_path / "own").mkdir()
+    path = tmp_path / "own" / "my.toml"
+    path.write_text(OUTSIDE.replace("NAME", str(secret)), encoding="utf-8")
+    assert main(["solve", "--rotor", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "outside its folder" in said
+    assert "very secret" not in said
+    assert main(["solve", "--rotor", str(path), "--allow-outside"]) == 2
+    assert "outside its folder" not in capsys.readouterr().err

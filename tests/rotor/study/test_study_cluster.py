@@ -313,4 +313,5 @@ def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: 
     _, complained = run.communicate(timeout=PATIENCE)
     assert run.returncode == 1
     assert "the Dask scheduler is gone" in complained.decode()
+    assert f"{cluster.address} has no encryption and no password: whoever can reach it" in complained.decode()
     assert read_results(out).rows >= 125

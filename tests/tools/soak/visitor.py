@@ -36,11 +36,15 @@ class Visitor:
     """One connection, from `open` to `close`."""
 
     def __init__(
-        self, seen: Callable[[bytes], None] = lambda vertices: None, query: str = "", kept: dict[str, str] | None = None
+        self,
+        seen: Callable[[bytes], None] = lambda vertices: None,
+        query: str = "",
+        kept: dict[str, str] | None = None,
+        page: str = "",
     ) -> None:
         self._seen = seen
         """Called with the reference blade's vertices whenever a frame brings them."""
-        self._facts = {"dark": False, "query": query, "kept": kept or {}}
+        self._facts = {"dark": False, "query": query, "kept": kept or {}, "page": page}
         """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None

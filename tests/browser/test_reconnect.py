@@ -1,0 +1,207 @@
+"""Connections that take long, break and come back: a proxy between browser and server delays and cuts them."""
+
+import asyncio
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+import pytest
+from chromium import DRAW_NOTHING
+from watched import COARSE, OPEN, WAIT, Watched
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+pytestmark = pytest.mark.browser
+
+
+class Proxy:
+    """Passes bytes between a browser and a server; a WebSocket's handshake is answered after `delay` [s]."""
+
+    def __init__(self, address: str) -> None:
+        self.delay, self.handshakes = 0.0, 0
+        self.cut_off = self.deaf = False
+        self._target = urlsplit(address)
+        self._open: set[asyncio.StreamWriter] = set()
+        self._begun, self._thread = threading.Event(), threading.Thread(target=lambda: asyncio.run(self._serve()))
+        self._thread.start()
+        self._begun.wait()
+
+    async def _serve(self) -> None:
+        self._loop, self._ended = asyncio.get_running_loop(), asyncio.Event()
+        server = await asyncio.start_server(self._pass, "127.0.0.1", 0)
+        self.address = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+        self._begun.set()
+        await self._ended.wait()
+        server.close()
+        self._abort()
+        await asyncio.sleep(0.2)  # So that what passes bytes ends by itself.
+
+    async def _pass(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        if self.cut_off:
+            writer.transport.abort()
+            return
+        server_reader, server = await asyncio.open_connection(self._target.hostname, self._target.port)
+        self._open |= {writer, server}
+        with suppress(OSError, asyncio.IncompleteReadError):
+            head = await reader.readuntil(b"\r\n\r\n")
+            if b"Upgrade: websocket" in head:
+                self.handshakes += 1
+                await asyncio.sleep(self.delay)
+            server.write(head)
+            await asyncio.gather(self._copy(reader, server, sent=True), self._copy(server_reader, writer))
+        for one in (writer, server):
+            self._open.discard(one)
+            one.close()
+
+    async def _copy(self, source: asyncio.StreamReader, to: asyncio.StreamWriter, sent: bool = False) -> None:
+        with suppress(OSError):
+            while data := await source.read(2**16):
+                if not (sent and self.deaf):
+                    to.write(data)
+                    await to.drain()
+        to.close()
+
+    def cut(self, off: bool = True) -> None:
+        """End all connections, and refuse new ones until they are allowed again."""
+        self.cut_off = off
+        if off:
+            self._loop.call_soon_threadsafe(self._abort)
+
+    def _abort(self) -> None:
+        for one in tuple(self._open):
+            one.transport.abort()
+
+    def stop(self) -> None:
+        self._loop.call_soon_threadsafe(self._ended.set)
+        self._thread.join()
+
+
+@pytest.fixture
+def proxy(app: App) -> Iterator[Proxy]:
+    proxy = Proxy(app.address)
+    yield proxy
+    proxy.stop()
+
+
+@pytest.fixture
+def page(browser: "Browser") -> "Iterator[Page]":
+    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context.add_init_script(DRAW_NOTHING)
+    context.set_default_timeout(WAIT)
+    yield context.new_page()
+    context.close()
+
+
+@pytest.mark.parametrize("delay", [0.3, 1.6, 5.5])
+def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", proxy: Proxy, delay: float):
+    """viser's client alone tries again every second, closing the socket that connects, and gives up after five."""
+    proxy.delay = delay
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    assert proxy.handshakes == 1
+    proxy.cut()
+    page.wait_for_selector("#rx-gone")
+    begin = time.monotonic()
+    proxy.cut(off=False)
+    page.wait_for_selector("#rx-gone", state="detached")
+    page.wait_for_function(OPEN)
+    assert proxy.handshakes == 2
+    assert time.monotonic() - begin < delay + 30.0
+
+
+def test_nothing_can_be_changed_while_the_server_is_away(page: "Page", proxy: Proxy):
+    """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    watched = Watched(page)
+    watched.type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    field = watched.row("Δ inboard").locator("input:not([type=hidden])").last
+    thumb = watched.row("Δ inboard").get_by_role("slider").bounding_box()
+    assert thumb is not None
+    page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
+    page.mouse.down()  # The drag that is under way ends with the connection.
+    page.wait_for_function("() => location.search.includes(':-8,')")
+    proxy.cut()
+    page.wait_for_selector("#rx-gone")
+    said = page.locator("#rx-gone").inner_text()
+    assert "Nothing can be changed meanwhile" in said
+    before = field.input_value()
+    page.mouse.move(thumb["x"] + 90, thumb["y"])
+    page.mouse.up()
+    page.mouse.click(thumb["x"] + 60, thumb["y"] + 4)
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("() => document.activeElement === document.body")
+    assert field.input_value() == before
+    proxy.cut(off=False)
+    page.wait_for_selector("#rx-gone", state="detached")
+    page.wait_for_function("() => !document.documentElement.hasAttribute('data-held')")
+    assert field.input_value() == before
+    watched.type("Δ inboard", -7.3)
+    page.wait_for_function("() => location.search.includes('-7.3')")
+
+
+def test_a_change_that_did_not_arrive_is_named(page: "Page", proxy: Proxy):
+    """Sent in the moment in which the connection breaks."""
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    watched = Watched(page)
+    watched.type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    proxy.deaf = True  # What the browser sends goes nowhere.
+    watched.type("Δ inboard", -7.3)
+    proxy.cut()
+    page.wait_for_selector("#rx-gone")
+    proxy.deaf = False
+    proxy.cut(off=False)
+    page.wait_for_selector("#rx-lost")
+    assert "Δ inboard [°/R] was -7.3, is -7.9. Set it again." in page.locator("#rx-lost").inner_text()
+    page.mouse.click(5, 5)
+    page.wait_for_selector("#rx-lost", state="detached")
+
+
+def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", proxy: Proxy):
+    """The machine sleeps, its connection ends without a word, and the clocks of page and day have gone on."""
+    page.clock.install()
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    Watched(page).type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    devtools = page.context.new_cdp_session(page)
+    devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
+    proxy.cut()
+    proxy.cut(off=False)
+    time.sleep(1.0)
+    page.clock.fast_forward("24:00:00")
+    devtools.send("Page.setWebLifecycleState", {"state": "active"})
+    page.wait_for_function(
+        "() => !document.querySelector('#rx-gone') && !document.documentElement.hasAttribute('data-held')"
+    )
+    page.wait_for_function(OPEN)
+    assert "-7.9" in page.evaluate("() => location.search")
+    Watched(page).type("Δ inboard", -7.3)
+    page.wait_for_function("() => location.search.includes('-7.3')")
+
+
+def test_a_clock_set_back_by_a_day_stops_nothing(page: "Page", proxy: Proxy, monkeypatch: pytest.MonkeyPatch):
+    """viser's frames carry the time of day, by which its client smooths their arrival."""
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    watched, clock = Watched(page), time.time
+    watched.type("Δ inboard", -7.9)
+    page.wait_for_function("() => location.search.includes('-7.9')")
+    for hours, value in ((-24, -7.3), (0, -6.5)):  # Back, and forward again.
+        monkeypatch.setattr(time, "time", lambda hours=hours: clock() + 3600.0 * hours)
+        begin = time.monotonic()
+        watched.type("Δ inboard", value)
+        page.wait_for_function(f"() => location.search.includes('{value}')")
+        watched.answered()
+        assert time.monotonic() - begin < 30.0

@@ -1,0 +1,93 @@
+"""Nothing that is written is half written: full disks and folders that are read-only, whatever the command."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import rotor
+
+ROOT = Path(__file__).parent.parent
+LIMITED = """
+import ctypes, os, resource, signal, sys
+package, most, *arguments = sys.argv[1:]
+if package == "save":
+    import rotor
+    def main(given): rotor.make_design().save(given[0])
+else:
+    main = __import__(package + ".__main__", fromlist=["main"]).main
+if most == "folder":  # Root writes anywhere, without its capabilities only where it may.
+    ctypes.CDLL(None).capset((ctypes.c_uint32 * 2)(0x20080522, 0), (ctypes.c_uint32 * 6)())
+else:
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (int(most), int(most)))
+sys.exit(main(arguments))
+"""
+STUDY = 'title = "small"\n[axes]\nmu = [0.1, 0.2]\n[fixed]\ntwist = "linear:-8"\n'
+COMMANDS = {
+    "sweep": ("rotor", "sweep", "--mu", "0.1:0.2:0.1", "--csv", "OUT/out.file"),
+    "schedule": ("rotor", "schedule", "--concept", "linear", "--mu", "0.1,0.2", "--csv", "OUT/out.file"),
+    "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.file"),
+    "blade": ("explorer", "blade", "--out", "OUT/blade"),
+    "demo": ("explorer", "demo", "OUT/out.file"),
+    "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
+    "save": ("save", "OUT/out.file"),
+}
+
+
+def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """The command in a process that cannot write a file of more than `most` bytes, or not into the folder."""
+    package, *arguments = COMMANDS[name]
+    (folder / "in").mkdir()
+    rotor.make_design(twist="linear:-8").save(folder / "in" / "a.json")
+    (folder / "in" / "small.toml").write_text(STUDY, encoding="utf-8")
+    given = [word.replace("OUT", str(folder / "out")).replace("IN", str(folder / "in")) for word in arguments]
+    return subprocess.run(
+        [sys.executable, "-c", LIMITED, package, most, *given],
+        cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=600,
+    )  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="this system has no limit on files")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(name: str, tmp_path: Path):
+    """A limit of 100 bytes a file stands for the disk: the write that exceeds it fails as one without room does."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "out.file").write_text("precious", encoding="utf-8")
+    done = limited(name, "100", tmp_path)
+    assert (tmp_path / "out" / "out.file").read_text(encoding="utf-8") == "precious"
+    assert not list((tmp_path / "out").rglob("*.part"))
+    if name == "save":  # A function of Python's own kind of error.
+        assert "OSError" in done.stderr
+        return
+    assert done.returncode in (1, 2)
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert "File too large" in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="folders of this system have other rights, or root has them")
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "save"])
+def test_a_read_only_folder_gets_a_sentence(name: str, tmp_path: Path):
+    (tmp_path / "out").mkdir(0o555)
+    done = limited(name, "folder", tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert "Permission denied" in done.stderr
+    assert not list((tmp_path / "out").iterdir())
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="this system has no limit on files")
+def test_a_study_that_found_no_room_goes_on_once_there_is_some(tmp_path: Path):
+    (tmp_path / "out").mkdir()
+    assert limited("study", "100", tmp_path).returncode == 2
+    (tmp_path / "in" / "small.toml").unlink()
+    (tmp_path / "in" / "a.json").unlink()
+    (tmp_path / "in").rmdir()
+    done = limited("study", "10000000", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "2 of 2 points, 0 failed" in done.stdout
