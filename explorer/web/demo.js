@@ -113,7 +113,7 @@
     }
     const power = total(point), least = Math.min(...row.filter(value => value !== null)), best = data.twists[row.indexOf(least)];
     $('total').textContent = `${power.toFixed(0)} kW`;
-    $('change').textContent = power > 1.0005 * least ? `+${(100 * (power / least - 1)).toFixed(1)} % above the least` : 'the least at this speed';
+    $('change').textContent = power > 1.0005 * least ? `+${(100 * (power / least - 1)).toFixed(1)} % above the least` : power > least ? 'within 0.05 % of the least' : 'the least at this speed';
     status.textContent = `Least at this speed: ${minus(best)}°. Stalled: ${point.stall} % of the disk.`;
     const drawn = point.power.reduce((sum, part) => sum + Math.max(part, 0), 0);
     box.querySelector('.bar').innerHTML = point.power.map((part, k) => `<i style="width:${100 * Math.max(part, 0) / drawn}%;background:${data.parts[k][2]}"></i>`).join('');
