@@ -3,7 +3,7 @@
 numba itself ends the program where it has no folder to write to (a read-only installation without a home), where the
 disk is full, and where a kept file was cut short. The kernels then compile anew, in some seconds, and nothing is kept.
 
-The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr then counts the kernels.
+The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
 import logging
@@ -82,7 +82,7 @@ class _Watch(event.Listener):
         if not self.open:
             return ""
         ready = sum(bool(kernel.overloads) for kernel in self.kernels)
-        return f"compiling, once: {min(ready + 1, len(self.kernels))} of {len(self.kernels)}"
+        return f"Compiling, once: {min(ready + 1, len(self.kernels))} of {len(self.kernels)}"
 
     def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         kernel = event.data["dispatcher"]
@@ -111,7 +111,7 @@ event.register("numba:compile", _watch)  # pyright: ignore[reportUnknownMemberTy
 
 
 def compiling() -> str:
-    """What is compiled at this moment, "compiling, once: 7 of 40"; empty where nothing is."""
+    """What is compiled at this moment, "Compiling, once: 7 of 40"; empty where nothing is."""
     return _watch.words
 
 

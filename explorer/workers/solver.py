@@ -10,9 +10,9 @@ from rotor.trim.solve import solve
 
 
 def warm() -> None:
-    """Compile and load everything that the first solution and its gradient would wait for."""
+    """Compile and load everything that a solution and its gradient would wait for, the default's first."""
     for preset in PRESETS:
-        for advance_ratio in (0.0, 0.2):
+        for advance_ratio in (0.2, 0.0):
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
 
 
@@ -20,6 +20,7 @@ def compile_all() -> None:
     """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
     warm()
     power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
+    power_gradient(solve(make_design(mu=0.2, bending=True)))
 
 
 @dataclass
