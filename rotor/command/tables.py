@@ -50,7 +50,8 @@ def run_sweep(args: argparse.Namespace) -> int:
         table = sweep(design, advance_ratios)
         converged = converged and all(solution.converged for solution in table)
         for cells in table.rows:
-            row = tuple(_text(name, cell) for name, cell in zip(SWEEP_COLUMNS, cells, strict=True))
+            named = dict(zip(table.columns, cells, strict=True))
+            row = tuple(_text(name, named[name]) for name in SWEEP_COLUMNS)
             rows.append(row)
             print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
     if args.csv:
