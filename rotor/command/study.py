@@ -302,13 +302,14 @@ def _dry_run(file: StudyFile) -> int:
     runs = [(one, min(one + 1 + few, study.count)) for one in first]
     for one, _ in runs:
         evaluate_points(study, one, one + 1)  # Compiles kernels and builds grids.
-    # What a neighbour follows is less than a start: a run of neighbours less its first point.
-    each = sum(_seconds(study, one, end) - _seconds(study, one, one + 1) for one, end in runs)
-    count = sum(end - one - 1 for one, end in runs)
-    each = each / count if count else _seconds(study, 0, 1)
+    # The first point of a chunk starts cold, the others at their neighbours.
+    start = sum(_seconds(study, one, one + 1) for one, _ in runs) / len(runs)
+    count = sum(end - one for one, end in runs)
+    follow = (sum(_seconds(study, one, end) for one, end in runs) - start * len(runs)) / max(count - len(runs), 1)
+    each = (start + follow * (study.chunk - 1)) / study.chunk
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
     print(
-        f"{1e3 * each:.1f} ms a point on this core (mean of {max(count, 1)} from all over the study), "
+        f"{1e3 * each:.1f} ms a point on this core (mean of {count} from all over the study), "
         f"{_span(each * study.count)} on one core"
     )
     return 0
