@@ -1,6 +1,7 @@
 """`python -m explorer`: start the page, print its address, open a browser where there is one."""
 
 import argparse
+import os
 import sys
 import webbrowser
 from collections.abc import Sequence
@@ -9,6 +10,7 @@ from pathlib import Path
 from explorer.hosting.allowed_hosts import host_name
 from explorer.hosting.limits import SESSIONS
 from rotor import __version__
+from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command
 
 
@@ -32,7 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             return _run(_parser().parse_args(given))
         except KeyboardInterrupt:
-            print()
+            print(flush=True)
+            if compiling():  # LLVM aborts where a process ends in the usual way under a thread of it.
+                os._exit(0)
             return 0
 
     return run_command("explorer", run)
@@ -44,11 +48,13 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.hosting.limits import ServerLimits, few_pools, limit_log
     from explorer.model.inputs import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
+    from rotor.compiled import tell_in_a_log
     from rotor.files.design_file import load_design
 
     few_pools()
     keep_one_blas_thread()
     limit_log()
+    tell_in_a_log()
     try:
         start = inputs_of(load_design(options.design)) if options.design is not None else OPENING
         limits = ServerLimits(

@@ -128,8 +128,8 @@ class App:
 
     def _warm(self) -> None:
         try:
+            picture.warm()  # With the trim that a page opens on; then what only later steps need.
             solver.warm()
-            picture.warm()
         except Exception:  # The sessions will meet the same error and show it.
             _log.exception("warming the solver and the picture failed")
         self.pool.warm()  # Only now, so that it does not compete with the first page.

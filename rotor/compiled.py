@@ -2,9 +2,12 @@
 
 numba itself ends the program where it has no folder to write to (a read-only installation without a home), where the
 disk is full, and where a kept file was cut short. The kernels then compile anew, in some seconds, and nothing is kept.
+
+The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
 import logging
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -12,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
+from numba.core import event  # pyright: ignore[reportMissingTypeStubs]
 from numba.core.caching import FunctionCache  # pyright: ignore[reportMissingTypeStubs]
 
 _log = logging.getLogger(__name__)
@@ -60,6 +64,62 @@ def _called(function: Any, found: set[Any]) -> set[Any]:
     return found
 
 
+class _Watch(event.Listener):
+    """Counts the kernels that numba compiles, and says so to whoever waits; numba calls it within its lock."""
+
+    def __init__(self) -> None:
+        self.kernels: list[Any] = []
+        self.open: list[Any] = []
+        """Under way: each was begun by the one before it."""
+        self.told = True
+        """Whether a stderr that is no terminal has its line, or is to have none."""
+        self._width = 0
+        """Of the line on the terminal."""
+
+    @property
+    def words(self) -> str:
+        """Empty where nothing is compiled."""
+        if not self.open:
+            return ""
+        ready = sum(bool(kernel.overloads) for kernel in self.kernels)
+        return f"Compiling, once: {min(ready + 1, len(self.kernels))} of {len(self.kernels)}"
+
+    def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        kernel = event.data["dispatcher"]
+        if any(kernel is known for known in self.kernels):  # Others are numba's own.
+            self.open.append(kernel)
+            self._show()
+
+    def on_end(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        if self.open and self.open[-1] is event.data["dispatcher"]:
+            self.open.pop()
+            self._show()
+
+    def _show(self) -> None:
+        stream, words = sys.stderr, self.words
+        with suppress(Exception):  # Closed, or none: nobody looks.
+            if stream.isatty() or "ipykernel" in sys.modules:
+                print(f"\r{words:<{self._width}}\r{words}", end="", file=stream, flush=True)
+                self._width = len(words)
+            elif not self.told:
+                self.told = True
+                print("Compiling kernels, once: some 20 s of processor time", file=stream, flush=True)
+
+
+_watch = _Watch()
+event.register("numba:compile", _watch)  # pyright: ignore[reportUnknownMemberType]
+
+
+def compiling() -> str:
+    """What is compiled at this moment, "Compiling, once: 7 of 40"; empty where nothing is."""
+    return _watch.words
+
+
+def tell_in_a_log() -> None:
+    """Say once that kernels are compiled also where stderr is no terminal: for a server and a set-up."""
+    _watch.told = False
+
+
 def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """A decorator: the function compiled with these options of `numba.njit`, without the interpreter lock."""
 
@@ -69,6 +129,8 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
             made._cache = _ForgivingCache(function)  # What `cache=True` does, with numba's own class.
         except Exception as error:  # No folder to write to, or a source without a file.
             _log.debug("no place to keep %s (%s)", function.__name__, error)
+        if options.get("inline") != "always":  # Such a one is part of those that call it.
+            _watch.kernels.append(made)
         return made
 
     return compile_function

@@ -136,6 +136,15 @@ def check_writable(path: str | Path) -> None:
         raise ValueError(f"cannot write {str(path)!r} ({reason}): give a writable file") from None
 
 
+def check_suffix(path: str | Path, suffix: str) -> None:
+    """ValueError where a file's name says that it holds another format; a name without suffix says nothing."""
+    if Path(path).suffix.lower() not in ("", suffix):
+        raise ValueError(
+            f"{str(path)!r} ends in {Path(path).suffix}, but what is written is {suffix[1:].upper()}: "
+            f"write {str(Path(path).with_suffix(suffix))!r}"
+        )
+
+
 def write_whole(path: str | Path, text: str) -> None:
     """Write a text file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
 

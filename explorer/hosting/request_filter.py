@@ -21,6 +21,7 @@ from websockets.http11 import Request, Response
 from explorer import web
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.limits import LARGEST_MESSAGE, RateLimiter
+from rotor.compiled import compiling
 
 TITLE = "Rotor explorer"
 _SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = "<script", "</head>", "<body>"
@@ -118,6 +119,8 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
             if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
                 return _served(self.page, request, self._headers)
+            if not upgrade and request.path == "/compiling":  # The loading screen asks.
+                return _plain(http.HTTPStatus.OK, compiling())
             try:
                 answer = inner(connection, request)
             except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.

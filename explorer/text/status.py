@@ -13,6 +13,7 @@ from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.readout import open_drag_area
 from rotor.aero.problem import grid_of
+from rotor.compiled import compiling
 from rotor.reproduce.report import typographic
 from rotor.trim.solution import Solution
 from rotor.validation.airloads import REPORTS
@@ -33,7 +34,7 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         sentence = f"{escape(problem.rstrip('.'))}. Greyed: last converged solution."
         return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
     if solution is None:
-        return _status("waiting", "Computing the first trim …")
+        return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = "".join(
         f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
         for sentence in cautions(solution, pinned)

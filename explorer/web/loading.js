@@ -1,10 +1,11 @@
 // The veil goes when the page has an answer and its layout is at rest, and comes back when the server returns.
 (() => {
-  const SLOW = 6000, ENOUGH = 25000, BRIEF = 300;  // [ms]
+  const SLOW = 6000, ENOUGH = 25000, BRIEF = 300, ASK = 500;  // [ms]
   const page = document.documentElement, veil = document.getElementById('rx-veil'), words = veil.querySelector('p');
   const asked = new URLSearchParams(location.search).has('darkMode');
   const sign = '[data-explorer=status], [data-explorer=lobby]';
-  let begun = 0, calm = 0, last = '', down = false, shown = null;
+  const unanswered = '[data-explorer=status][data-kind=waiting]';
+  let begun = 0, calm = 0, last = '', down = false, held = 0, shown = null;
 
   function lay() {
     begun = performance.now(); calm = 0; last = '';
@@ -13,7 +14,20 @@
     veil.classList.remove('rx-lifting');
     veil.style.display = '';
     page.classList.add('rx-veiled');
+    held = begun + ASK;
+    ask();
     requestAnimationFrame(look);
+  }
+
+  // The first start of all compiles the server's kernels: the veil counts them until there is an answer.
+  async function ask() {
+    const reply = await fetch('compiling').catch(() => null);
+    const said = reply && reply.ok ? (await reply.text()).trim() : '';
+    if (said) {
+      held = performance.now() + 3 * ASK;
+      words.textContent = said;
+    }
+    if (page.classList.contains('rx-veiled')) setTimeout(ask, ASK);
   }
 
   // At rest: there is an answer, and the picture has kept its place for some frames.
@@ -22,7 +36,9 @@
     const place = canvas ? JSON.stringify(canvas.getBoundingClientRect()) : '';
     calm = place && place === last ? calm + 1 : 0;
     last = place;
-    const took = performance.now() - begun;
+    const now = performance.now(), answered = document.querySelector(sign) && !document.querySelector(unanswered);
+    if (!answered && now < held) { begun = now; calm = 0; }
+    const took = now - begun;
     if (calm >= 3 || took > ENOUGH) return lift();
     if (took > SLOW) words.textContent = 'This takes longer than it should: the server is busy, or cannot be reached. '
       + 'The page goes on trying.';

@@ -10,9 +10,9 @@ from rotor.trim.solve import solve
 
 
 def warm() -> None:
-    """Compile and load everything that the first solution and its gradient would wait for."""
+    """Compile and load everything that a solution and its gradient would wait for, the default's first."""
     for preset in PRESETS:
-        for advance_ratio in (0.0, 0.2):
+        for advance_ratio in (0.2, 0.0):
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
 
 

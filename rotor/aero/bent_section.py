@@ -65,9 +65,10 @@ def _turn(c: Any, slope: int, out: Any) -> None:
 def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> None:
     """All forces in axes of the hub, with those of bending."""
     coupling, reference, share = data
-    out[:forces] = f
     for i in range(c.shape[1]):
         for j in range(c.shape[2]):
+            for o in range(forces):
+                out[o, i, j] = f[o, i, j]
             w, v, kw, kv, b = (
                 c[first, i, j], c[first + 1, i, j], c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
             )  # fmt: skip
@@ -97,10 +98,8 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data:
         stiff, row = coupling[i], made[M, channels + 1] + 1
         for o in range(forces):
             for k in range(channels):
-                if rows[o, k] >= 0:
-                    full[o, k] = d[rows[o, k], i]
-                else:
-                    full[o, k] = 0.0
+                for j in range(len(t)):
+                    full[o, k, j] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
             for j in range(len(t)):
                 by_t, by_p, by_r = full[o, UT, j], full[o, UP, j], full[o, UR, j]
                 full[o, UT, j] = by_t - w[j] * v[j] * by_p - v[j] * by_r

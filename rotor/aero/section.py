@@ -130,7 +130,9 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
             if slopes:
                 d[_R:, i] = 0.0
         if flow:
-            s[ALPHA, i], s[MACH, i], s[CL, i], s[CD, i], s[CD_MACH, i] = alpha, mach, found[0], found[3], found[5]
+            for j in range(m):  # Rows assigned as a whole take numba two seconds more to compile.
+                s[ALPHA, i, j], s[MACH, i, j] = alpha[j], mach[j]
+                s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = found[0, j], found[3, j], found[5, j]
         if masked:
             _unload(data.unloaded[i], c[TH, i], data.inertia[i] if elastic else 0.0, i, f, d, s)
     return f, d, s

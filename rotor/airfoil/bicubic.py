@@ -8,8 +8,8 @@ everywhere, periodic in alpha, without overshoot, and reproduces every deck valu
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from rotor.airfoil.c81 import C81Block
 from rotor.arrays import Array
@@ -37,7 +37,7 @@ def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
         raise ValueError("an angle is no multiple of 0.5 deg: move it, the run-time grid has half-degree steps")
     # Two knots of the next turn on each side make the slopes at +-180 deg periodic.
     longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
-    curve = PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
+    curve = scipy.interpolate.PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
     nodes = np.arange(N_ALPHA + 1) * 0.5 - 180.0
     slope: Callable[[Array], Array] = curve.derivative()
     return np.asarray(curve(nodes)), np.asarray(slope(nodes)) * 0.5
@@ -47,10 +47,10 @@ def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
     """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), constant outside."""
     nodes = mach_nodes()
     inside = np.clip(nodes, mach[0], mach[-1])
-    own = np.asarray(PchipInterpolator(mach, values, axis=1).derivative()(mach))
+    own = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach))
     own[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
     own[:, 0] = 0.0
-    curve = CubicHermiteSpline(mach, values, own, axis=1)
+    curve = scipy.interpolate.CubicHermiteSpline(mach, values, own, axis=1)
     slope: Callable[[Array], Array] = curve.derivative()
     flat = (nodes > mach[0]) & (nodes < mach[-1])
     return np.asarray(curve(inside)), np.asarray(slope(inside)) * MACH_STEP * flat

@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from rotor.arrays import Array
 from rotor.assets import asset_path
@@ -179,5 +179,5 @@ def resample(contour: Contour, n: int) -> Contour:
     nose = arc[leading_edge_index(contour)]
     fraction = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, (n + 1) // 2)))
     where = np.concatenate((nose * fraction, nose + (arc[-1] - nose) * fraction[1:]))
-    spline = CubicSpline(arc, contour.points, axis=0)
+    spline = scipy.interpolate.CubicSpline(arc, contour.points, axis=0)
     return Contour(contour.name, np.asarray(spline(where), dtype=np.float64))

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.polars import Polar
@@ -63,7 +63,7 @@ class SectionTraits:
 
 def lift_cap(mach: float, traits: SectionTraits) -> float:
     """Largest positive lift coefficient [-] at `mach`, monotone between the read-off values."""
-    return float(PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
+    return float(scipy.interpolate.PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
 
 
 def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
@@ -191,7 +191,8 @@ def _at(polar: Polar, alpha_deg: Array) -> Columns:
     """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
     where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
     cl, log_cd, cm = (
-        np.asarray(PchipInterpolator(polar.alpha_deg, y)(where)) for y in (polar.cl, np.log(polar.cd), polar.cm)
+        np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where))
+        for y in (polar.cl, np.log(polar.cd), polar.cm)
     )
     # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
     beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))

@@ -10,7 +10,7 @@ Decks of other codes have their own knots, and some end at stall. Values between
 """
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from rotor.airfoil.bicubic import MACH_STEP, N_MACH
 from rotor.airfoil.c81 import C81Block, C81Deck
@@ -105,7 +105,7 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
         )
         if len(grid) < 2:
             raise ValueError(f"{title}: Mach {mach[0]:g}…{mach[-1]:g} covers too little: give at least 0.1 of Mach")
-        values = np.asarray(PchipInterpolator(mach, values, axis=1)(grid))
+        values = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1)(grid))
         mach = grid.astype(np.float64)
     return C81Block(mach, alpha, values)
 
@@ -113,7 +113,7 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
 def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]:
     """Values at every half degree: the deck within its angles, blended into the closed form beyond them."""
     nodes = np.linspace(-180.0, 180.0, 721)
-    curve = PchipInterpolator(alpha, values, axis=0)
+    curve = scipy.interpolate.PchipInterpolator(alpha, values, axis=0)
     own = np.asarray(curve(np.clip(nodes, alpha[0], alpha[-1])), dtype=np.float64)
     edge = np.where(nodes < 0.0, float(-alpha[0]), float(alpha[-1])).astype(np.float64)
     fade = np.maximum(edge + BLEND_END_DEG - BLEND_START_DEG, BLEND_END_DEG) - edge

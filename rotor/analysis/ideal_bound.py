@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
+import scipy
 from numpy.polynomial.chebyshev import chebvander
-from scipy.optimize import nnls
 
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
@@ -204,7 +204,7 @@ def _minimise_within(form: Array, equations: Array, wanted: Array, bounds: Array
     size = np.linalg.norm(system[:-1], axis=0)
     target = np.zeros(len(system))
     target[-1] = 1.0
-    weights, left = nnls(system / size, target, maxiter=20 * len(system))
+    weights, left = scipy.optimize.nnls(system / size, target, maxiter=20 * len(system))
     if left < 1e-9:
         raise ValueError("no circulation within the lift limit makes this thrust without moments: allow a higher C_l")
     residual = system / size @ weights - target

@@ -3,14 +3,18 @@
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
 
+import csv
 import importlib
+import io
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
 from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
 from rotor.columns.bending import LOADS
+from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import Quantity, WeightedCondition
@@ -21,18 +25,20 @@ from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
+from rotor.user_input import check_suffix, write_whole
 
 COLUMNS = (
     "twist", "mu", "speed_kt", "climb_m_s", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw",
     "parasite_kw", "climb_kw", "tail_kw", "message",
 )  # fmt: skip
-"""The unit is the end of the name; without one a column is a text or a ratio."""
+"""The unit is the end of the name; without one a column is a text or a ratio. Those of one rotor at one setting."""
 VIBRATION = (
     "index_percent", "least_index_percent", "largest_index_percent", *(f"hub_{name}_n" for name in LOADS[:3]),
     *(f"hub_{name}_nm" for name in LOADS[3:]), "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev",
 )  # fmt: skip
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
 amplitudes, and frequencies of the blade."""
+_COLUMNS = ("rotor", "twist", "pitch_per_rev", "twist_per_rev", *COLUMNS[1:])
 POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
 
 
@@ -56,17 +62,22 @@ class SweepTable:
             return "SweepTable(empty)"
         good = sum(solution.converged for solution in self.solutions)
         speeds = [solution.design.condition.advance_ratio for solution in self.solutions]
-        twist = self.solutions[0].design.twist.spec()
-        return f"SweepTable({len(self)} rows, twist {twist}, mu {min(speeds):g} to {max(speeds):g}, {good} converged)"
+        names = ", ".join(dict.fromkeys(self.labels))
+        return f"SweepTable({len(self)} rows, {names:.200}, mu {min(speeds):g} to {max(speeds):g}, {good} converged)"
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns, with the unit at the end of the name."""
-        return (*COLUMNS, *VIBRATION) if self._bends else COLUMNS
+        return (*_COLUMNS, *VIBRATION) if self._bends else _COLUMNS
 
     @property
     def _bends(self) -> bool:
         return any(solution.design.models.bending for solution in self.solutions)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Rotor, twist and n/rev of each row, as in "UH-60A, linear:-12"."""
+        return tuple(_label(solution.design) for solution in self.solutions)
 
     @property
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
@@ -79,6 +90,13 @@ class SweepTable:
         rows = self.rows
         return {name: [row[k] for row in rows] for k, name in enumerate(self.columns)}
 
+    def to_csv(self, path: str | Path) -> None:
+        """Write the table to a CSV file, with empty cells for what does not exist; ValueError for another suffix."""
+        check_suffix(path, ".csv")
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows([self.columns, *self.rows])
+        write_whole(path, text.getvalue())
+
     def to_dataframe(self) -> Any:
         """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""
         try:
@@ -88,21 +106,24 @@ class SweepTable:
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
-def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) -> SweepTable:
-    """Solve the design at each advance ratio in order, each started from the last that converged.
+def sweep(design: Design | Iterable[Design], mu: Iterable[float], start: Solution | None = None) -> SweepTable:
+    """Solve the design, or each of several, at each advance ratio in order, each started from the last that converged.
 
-    `start`: an earlier solution to begin from. Raises TypeError or ValueError with one sentence before anything is
-    solved when an advance ratio cannot be used.
+    `start`: an earlier solution to begin from, for designs of the same rotor. Raises TypeError or ValueError with one
+    sentence before anything is solved when a design or an advance ratio cannot be used.
     """
     if isinstance(mu, int | float | str):
         raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu=[0.1, 0.2, 0.3]")
-    require_design(design)
+    several, speeds = hasattr(design, "__iter__") and not isinstance(design, str), list(mu)
+    designs = [require_design(one) for one in cast(Iterable[Design], design if several else (design,))]
     solutions: list[Solution] = []
-    for point in [design.at(mu=one) for one in mu]:
-        solution = solve(point, start)
-        if solution.converged:
-            start = solution
-        solutions.append(solution.without_factors())
+    for points in [[one.at(mu=speed) for speed in speeds] for one in designs]:
+        last = start if start and points and start.design.rotor == points[0].rotor else None
+        for point in points:
+            solution = solve(point, last)
+            if solution.converged:
+                last = solution
+            solutions.append(solution.without_factors())
     return SweepTable(tuple(solutions))
 
 
@@ -142,7 +163,7 @@ def schedule(
 
 
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
-    """Draw power over advance ratio: the parts of one sweep, or the totals of several. Returns the matplotlib axes.
+    """Draw power over advance ratio: the parts for one design, or the totals of several. Returns the matplotlib axes.
 
     Raises TypeError for anything but sweeps.
     """
@@ -155,14 +176,23 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
             "give what rotor.sweep returns, one table or several"
         )
     labels = "Advance ratio µ", "Power [kW]"
-    if len(tables) == 1:
+    labelled = [pair for table in tables for pair in zip(table.labels, table, strict=True)]
+    curves = {name: [one for other, one in labelled if other == name] for name, _ in labelled}
+    if len(tables) == 1 and len(curves) == 1:
         return plot_lines(
             _speeds(tables[0]), {part: _kilowatts(tables[0], part) for part in _drawn(tables[0])}, labels, ax
         )
-    for table in tables:
-        name = table[0].design.twist.spec() if len(table) else "empty"
+    for name, solutions in curves.items():
+        table = SweepTable(tuple(solutions))
         ax = plot_lines(_speeds(table), {name: _kilowatts(table, "total")}, labels, ax)
     return ax
+
+
+def _label(design: Design) -> str:
+    """Rotor, twist, and what of pitch and twist follows the azimuth."""
+    waves = {"pitch": design.pitch_per_rev, "active twist": design.linear_active_twist}
+    parts = [f"{name} {harmonics_text(own)}" for name, own in waves.items() if own]
+    return ", ".join([design.rotor.name, design.twist.spec(), *parts])
 
 
 def _drawn(table: SweepTable) -> list[str]:
@@ -184,7 +214,10 @@ def _row(solution: Solution) -> tuple[float | str | None, ...]:
     reason = why_no_hub_loads(design) if design.models.bending else None
     powers = [getattr(solution.power, part) / 1e3 if solution.converged else None for part in POWERS]
     return (
+        design.rotor.name,
         design.twist.spec(),
+        harmonics_text(design.pitch_per_rev),
+        harmonics_text(design.linear_active_twist),
         design.condition.advance_ratio,
         design.airspeed / KNOT,
         design.condition.climb_speed,

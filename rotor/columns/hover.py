@@ -127,6 +127,7 @@ _ROW = {pair: k for k, pair in enumerate(PAIRS)}
 _FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
+_inline = compiled(error_model="numpy", fastmath={"contract"}, inline="always")
 
 
 def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
@@ -160,13 +161,15 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
     return own, turning
 
 
-@_compile
+@_inline
 def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
     """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch, (4, elements)."""
     out = np.empty((4, len(theta)))
     own, turning = _channels(theta, inflow, annuli)
     closed = len(annuli.slope) > 0
-    f, d, _ = section(own, data, not closed, False)
+    slopes = not closed
+    flow = closed and slopes  # False. As a constant it would be a type of its own, and the section compiled twice.
+    f, d, _ = section(own, data, slopes, flow)
     for i in range(len(theta)):
         r, total = annuli.r[i], inflow[i] + annuli.climb
         (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
@@ -188,12 +191,12 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
 @_compile
 def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
     """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket."""
-    inflow, bracket = start.copy(), bracket_of(len(start))
-    found = _balance(theta, inflow, annuli, data)
-    for _ in range(MOST_PASSES):
-        if not balancing_step(inflow, bracket, found[0], found[1], found[2]):
+    inflow, bracket, left = start.copy(), bracket_of(len(start)), MOST_PASSES
+    while True:
+        found = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
+        if left == 0 or not balancing_step(inflow, bracket, found[0], found[1], found[2]):
             break
-        found = _balance(theta, inflow, annuli, data)
+        left -= 1
     return inflow, found[3] / np.maximum(found[1], 1e-12)
 
 

@@ -17,7 +17,7 @@ from rotor.command.common import STOPPED, add_command, interruptible
 from rotor.study.chunks import ClusterLost, FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
 from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
 from rotor.study.results import Results, Store, StoreError, read_results, sha256
-from rotor.study.study import check_uncertain
+from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
 _SENTENCES = 3
@@ -157,6 +157,8 @@ _PLAIN = (
 )
 _SAY_EVERY = 60.0
 """[s] between lines of progress without a terminal."""
+_PLACES = 8
+"""All over a study at which a dry run takes the time of some points."""
 
 
 def add_parser(commands: Any) -> None:
@@ -301,16 +303,29 @@ def _show(args: argparse.Namespace) -> int:
 def _dry_run(file: StudyFile) -> int:
     """Estimates the time of a study from a few of its points."""
     study = file.study
-    few = min(study.chunk, 4 if study.optimum is not None else 40)
-    evaluate_points(study, 0, few)  # Compiles kernels and builds grids.
-    begin = time.process_time()
-    evaluate_points(study, 0, few)
-    each = (time.process_time() - begin) / few
+    few = 1 if study.optimum is not None else 10
+    first = sorted({min(study.count * k // _PLACES, max(study.count - 1 - few, 0)) for k in range(_PLACES)})
+    runs = [(one, min(one + 1 + few, study.count)) for one in first]
+    for one, _ in runs:
+        evaluate_points(study, one, one + 1)  # Compiles kernels and builds grids.
+    # The first point of a chunk starts cold, the others at their neighbours.
+    start = sum(_seconds(study, one, one + 1) for one, _ in runs) / len(runs)
+    count = sum(end - one for one, end in runs)
+    follow = (sum(_seconds(study, one, end) for one, end in runs) - start * len(runs)) / max(count - len(runs), 1)
+    each = (start + follow * (study.chunk - 1)) / study.chunk
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
     print(
-        f"{1e3 * each:.1f} ms a point on this core (mean of the first {few}), {_span(each * study.count)} on one core"
+        f"{1e3 * each:.1f} ms a point on this core (mean of {count} from all over the study), "
+        f"{_span(each * study.count)} on one core"
     )
     return 0
+
+
+def _seconds(study: Study, first: int, last: int) -> float:
+    """Processor time of these points."""
+    begin = time.process_time()
+    evaluate_points(study, first, last)
+    return time.process_time() - begin
 
 
 @contextmanager

@@ -66,7 +66,8 @@ def run_sweep(args: argparse.Namespace) -> int:
         table = sweep(design, advance_ratios)
         converged = converged and all(solution.converged for solution in table)
         for cells in table.rows:
-            row = tuple(_text(name, cell) for name, cell in zip(columns, cells, strict=True))
+            named = dict(zip(table.columns, cells, strict=True))
+            row = tuple(_text(name, named[name]) for name in columns)
             rows.append(row)
             print("".join(f"{row[k]:<{width}}" for k, width in zip(shown, widths, strict=True)).rstrip())
     if args.csv:

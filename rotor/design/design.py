@@ -26,7 +26,7 @@ from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.stand import STAND_TRIMS, Stand, StandTrim
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
-from rotor.user_input import write_whole
+from rotor.user_input import check_suffix, write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -289,7 +289,8 @@ class Design:
         return {"trim": self.models.trim, "stand": stand.record()}
 
     def save(self, path: str | Path) -> None:
-        """Write a design file, which `load_design` reads."""
+        """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
+        check_suffix(path, ".json")
         write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
 
     @property

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS, asset_path
@@ -211,8 +211,8 @@ def spline_basis(knots: tuple[float, ...], x: ArrayLike, *, derivative: int = 0)
 
 
 @lru_cache(maxsize=32)
-def _spline(knots: tuple[float, ...]) -> CubicSpline:
-    return CubicSpline(knots, np.eye(len(knots)))
+def _spline(knots: tuple[float, ...]) -> "scipy.interpolate.CubicSpline":
+    return scipy.interpolate.CubicSpline(knots, np.eye(len(knots)))
 
 
 _LAWS = ("linear", "quadratic", "segments", "spline", "points", "ideal", "builtin", "table", *SHIPPED_ROTORS)

@@ -425,7 +425,8 @@ def _through_section(
         for k in range(len(rows)):
             _add_product(slopes[rows[k, 0], i], force[rows[k, 1]], by_channel[rows[k, 2]])
         if field.shape[0] > 0:
-            field[i] = by_channel[kept]
+            for j in range(m):
+                field[i, j] = by_channel[kept, j]
         for c in range(len(by_channel)):
             by_element[c, i] = by_channel[c].sum()
             for row in range(first[c], first[c + 1]):

@@ -17,15 +17,12 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
-from scipy import optimize
+import scipy
 
 from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
 from rotor.optimisation.objective import Measured, Quantity
 from rotor.optimisation.results import Band
-
-_minimize = cast(Callable[..., Any], optimize.minimize)
-
 
 BAND = 1e-3
 """Relative rise of the objective that defines the band of each parameter."""
@@ -196,7 +193,8 @@ class Model:
             return found, slope @ stretch
 
         limits = [self.margins] if len(self.margins(centre)[0]) else []
-        end = _minimize(
+        minimize = cast(Callable[..., Any], scipy.optimize.minimize)
+        end = minimize(
             both,
             np.linalg.solve(stretch, np.clip(start, low, high) - centre),
             jac=True,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
@@ -158,7 +158,7 @@ class _Run:
 
     def look_elsewhere(self) -> None:
         """Descend where the model foresees less than the best: laws with movable breaks have many minima."""
-        places = qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_PLACES)
+        places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_PLACES)
         for _ in range(_PLACES):
             if self.best is None:
                 return
@@ -269,7 +269,7 @@ def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
         points.append(evaluate.scaled(nearest(search.concept, search.design.twist)))
     left = search.starts - len(points)
     if left > 0:
-        points.extend(qmc.Halton(len(evaluate.span), seed=search.seed).random(left))
+        points.extend(scipy.stats.qmc.Halton(len(evaluate.span), seed=search.seed).random(left))
     return points
 
 

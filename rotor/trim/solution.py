@@ -26,7 +26,7 @@ from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess, LinearisedTrim
-from rotor.user_input import write_whole
+from rotor.user_input import check_suffix, write_whole
 
 
 class Status(Enum):
@@ -423,7 +423,11 @@ class Solution:
         }
 
     def save(self, path: str | Path) -> None:
-        """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back."""
+        """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back.
+
+        ValueError for the suffix of another format.
+        """
+        check_suffix(path, ".json")
         record = {**self.design.to_dict(), "solution": self.to_dict()}
         write_whole(path, json.dumps(record, indent=2, allow_nan=False) + "\n")
 

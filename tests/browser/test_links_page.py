@@ -62,7 +62,8 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App, designs:
 
 
 @pytest.mark.parametrize(
-    "count", [pytest.param(12, marks=pytest.mark.slow), pytest.param(1000, marks=[pytest.mark.slow, pytest.mark.nightly])]
+    "count",
+    [pytest.param(12, marks=pytest.mark.slow), pytest.param(1000, marks=[pytest.mark.slow, pytest.mark.nightly])],
 )
 def test_random_designs_survive_link_reload_and_back(browser: "Browser", app: App, count: int):
     """Without waiting for their trims: what a page makes of its address is done before. Browsers keep 50 pages."""

@@ -1,5 +1,6 @@
 """The public API: the notebook example, errors for wrong arguments, and no side effects of importing."""
 
+import csv
 import json
 import math
 import subprocess
@@ -217,7 +218,10 @@ class TestSolution:
         drawn = {line.get_label(): line.get_ydata() for line in axes.lines}
         assert_allclose(drawn["total"], [one.power.total / 1e3 for one in table])
         other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
-        assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
+        wanted = ["UH-60A, linear:-12", "UH-60A, linear:-4"]
+        assert [line.get_label() for line in rotor.plot_power(table, other).lines] == wanted
+        several = rotor.sweep([design, design.with_twist("linear:-4")], [0.1, 0.2])
+        assert [line.get_label() for line in rotor.plot_power(several).lines] == wanted
         pyplot.close("all")
 
 
@@ -242,6 +246,30 @@ class TestSweep:
         assert str(read.schema.field("total_kw").type) == str(read.schema.field("mu").type) == "double"
         assert read.column("total_kw").null_count == 1
         assert read.column("total_kw")[0].as_py() == table[0].power.total / 1e3
+
+    def test_several_designs_and_rotors_are_told_apart(self, design: rotor.Design):
+        table = rotor.sweep([design, rotor.make_design(rotor="r22")], [0.1, 0.2])
+        assert [row[:2] for row in table.rows[:2]] == [("UH-60A", "linear:-12")] * 2
+        assert len(set(table.labels)) == 2
+        assert "Robinson R22" in table.labels[2]
+        for one in table:
+            assert_allclose(one.power.total, rotor.solve(one.design).power.total, rtol=1e-8)
+
+    def test_a_sweep_over_phases_of_pitch_at_3_per_rev(self):
+        """Two lines of a user."""
+        designs = [rotor.make_design(mu=0.3, pitch_per_rev=f"3:1:{phase}") for phase in (0, 120, 240)]
+        table = rotor.sweep(designs, mu=[0.3])
+        assert [row[table.columns.index("pitch_per_rev")] for row in table.rows] == ["3:1:0", "3:1:120", "3:1:240"]
+        assert len({one.power.total for one in table}) == len(set(table.labels)) == 3
+
+    def test_a_csv_file_holds_the_table(self, design: rotor.Design, tmp_path: Path):
+        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
+        table.to_csv(tmp_path / "p.csv")
+        with (tmp_path / "p.csv").open(encoding="utf-8", newline="") as file:
+            read = list(csv.DictReader(file))
+        assert tuple(read[0]) == table.columns
+        assert float(read[0]["total_kw"]) == table[0].power.total / 1e3
+        assert (read[1]["total_kw"], read[1]["status"]) == ("", table[1].status.value)
 
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         table = rotor.sweep(design, [0.2])
@@ -300,6 +328,10 @@ WRONG = {
     "rotor.load_design('none.json')": (ValueError, "'none.json' does not exist"),
     "rotor.load_rotor('none.toml')": (ValueError, "'none.toml' does not exist"),
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
+    "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
+    "solution.save('a.csv')": (ValueError, "'a.csv' ends in .csv, but what is written is JSON: write 'a.json'"),
+    "rotor.sweep(design, [0.2]).to_csv('a.json')": (ValueError, "write 'a.csv'"),
+    "rotor.sweep([design, 'uh60a'], mu=[0.2])": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "solution.plot('noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
     "explorer.show('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
 }

@@ -2,6 +2,7 @@
 
 import errno
 import importlib.util
+import io
 import re
 import sys
 from pathlib import Path
@@ -13,7 +14,7 @@ from numba.core import caching
 from numba.core.codegen import CPUCodegen
 
 import rotor
-from rotor.compiled import compiled
+from rotor.compiled import compiled, compiling, tell_in_a_log
 
 SOURCE = """
 import numba
@@ -145,3 +146,34 @@ def test_every_kernel_is_compiled_here():
     compiles = re.compile(r"\b(njit|jit|vectorize|guvectorize|stencil)\(")
     users = [path.name for path in home.rglob("*.py") if compiles.search(path.read_text(encoding="utf-8"))]
     assert users == ["compiled.py"]
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monkeypatch: pytest.MonkeyPatch):
+    said = Terminal()
+    monkeypatch.setattr(sys, "stderr", said)
+    assert module(source).kernel(1.0) == 2.0
+    shown = [line for line in said.getvalue().split("\r") if line.strip()]
+    assert len(shown) == 2  # Padded over the line before, and as it stays.
+    assert re.fullmatch(r"Compiling, once: \d+ of \d+", shown[-1])
+    assert said.getvalue().endswith(f"{' ' * len(shown[-1])}\r")
+    assert compiling() == ""
+    said.truncate(0)
+    assert module(source).kernel(1.0) == 2.0
+    assert said.getvalue() == ""  # Kept code.
+
+
+def test_elsewhere_one_line_tells_it_where_that_is_asked_for(source: Path, monkeypatch: pytest.MonkeyPatch):
+    said = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", said)
+    assert module(source).kernel(1.0) == 2.0
+    assert said.getvalue() == ""
+    tell_in_a_log()
+    kernel = module(source).plain
+    assert [compiled()(kernel)(one) for one in (1.0, 2)] == [2.0, 3.0]
+    assert said.getvalue().count("\n") == 1
+    assert "Compiling kernels, once" in said.getvalue()

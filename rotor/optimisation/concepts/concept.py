@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -140,7 +140,7 @@ def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float,
     inside = np.asarray(middle + np.clip(step, -0.5, 0.5), dtype=np.float64)
     if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:  # A law that is linear in its values, within the bounds.
         return tuple((low + span * inside).tolist())
-    found = least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
+    found = scipy.optimize.least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
     return tuple((low + span * np.clip(found.x, 0.0, 1.0)).tolist())
 
 

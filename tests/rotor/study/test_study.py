@@ -508,3 +508,31 @@ def test_a_billion_points_are_counted_not_made(tmp_path: Path, capsys: pytest.Ca
     finally:
         tracemalloc.stop()
     assert "1,208,604,000 points in 20,000 chunks" in capsys.readouterr().out
+
+
+SMALLER = {
+    "hover_cruise.toml": {},
+    "hundred_thousand.toml": {"100_000": "48"},
+    "two_segment.toml": {
+        '"0.10:0.35:0.05"': "[0.1, 0.35]", "[0, 1000, 2000]": "[2000]", "[7000, 8322.4, 9500]": "[7000, 9500]",
+    },
+}  # fmt: skip
+"""What makes a shipped study shorter, its limits kept: 3468, 48 and 20 points."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SMALLER)
+def test_shipped_studies_run_to_their_end(name: str, tmp_path: Path):
+    """Exit code 0: every point converged."""
+    text = asset_path("studies").joinpath(name).read_text(encoding="utf-8")
+    for long, short in SMALLER[name].items():
+        assert long in text
+        text = text.replace(long, short)
+    file = tmp_path / name
+    file.write_text(text, encoding="utf-8")
+    assert main(["study", str(file), "--out", str(tmp_path / "out"), "--workers", "1"]) == 0
+    assert read_results(tmp_path / "out").good.all()
+
+
+def test_every_shipped_study_is_among_those_that_run():
+    assert set(SMALLER) == {path.name for path in asset_path("studies").glob("*.toml")}
