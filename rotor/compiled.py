@@ -30,9 +30,8 @@ class _ForgivingCache(FunctionCache):
     def _index_key(self, sig: Any, codegen: Any) -> Any:
         """What numba finds kept code by, with the times and sizes of those files."""
         files = sorted({function.__code__.co_filename for function in _called(self._py_func, set())})
-        stamps = [Path(file).stat() for file in files]
         own: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
-        return *own, tuple((stamp.st_mtime, stamp.st_size) for stamp in stamps)
+        return *own, tuple(_stamps.get(file) or _stamp(file) for file in files)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kept code; None where there is none that can be read."""
@@ -50,6 +49,16 @@ class _ForgivingCache(FunctionCache):
             super().save_overload(sig, data)  # pyright: ignore[reportUnknownMemberType]
         except Exception as error:
             _log.debug("%r cannot be kept (%s)", self, error)
+
+
+_stamps: dict[str, tuple[float, int]] = {}
+"""Time and size of each file when it was read: a program that goes on while another version takes the place of its
+files compiles what it has read, and must not keep that as the code of the other version."""
+
+
+def _stamp(file: str) -> tuple[float, int]:
+    stat = Path(file).stat()
+    return stat.st_mtime, stat.st_size
 
 
 def _called(function: Any, found: set[Any]) -> set[Any]:
@@ -124,6 +133,8 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """A decorator: the function compiled with these options of `numba.njit`, without the interpreter lock."""
 
     def compile_function(function: Callable[..., Any]) -> Any:
+        with suppress(OSError):
+            _stamps[function.__code__.co_filename] = _stamp(function.__code__.co_filename)
         made: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
         try:
             made._cache = _ForgivingCache(function)  # What `cache=True` does, with numba's own class.

@@ -76,6 +76,25 @@ def test_kept_code_follows_the_functions_it_calls(tmp_path: Path, monkeypatch: p
     assert (changed(1.0), hits(changed)) == (220.0, 0)
 
 
+def test_code_compiled_after_its_files_were_replaced_is_not_kept_as_theirs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """A server goes on through an update, and compiles what it had read before."""
+    monkeypatch.syspath_prepend(tmp_path)
+    inner, outer = tmp_path / "replaced_in_a_test.py", tmp_path / "kernels.py"
+    inner.write_text("from rotor.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
+    outer.write_text(
+        "import replaced_in_a_test\nfrom rotor.compiled import compiled\n\n"
+        "@compiled()\ndef kernel(x):\n    return 10.0 * replaced_in_a_test.by(x)\n"
+    )
+    running = module(outer).kernel
+    inner.write_text(inner.read_text().replace("x + 1.0", "x + 21.0"))
+    assert running(1.0) == 20.0
+    monkeypatch.delitem(sys.modules, "replaced_in_a_test")
+    updated = module(outer).kernel
+    assert (updated(1.0), hits(updated)) == (220.0, 0)
+
+
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.97])
 def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, share: float):
