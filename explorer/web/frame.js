@@ -257,7 +257,7 @@
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
       let seen = Boolean(node);
-      for (let one = node; one; one = one.parent) seen &&= one.visible;
+      for (let above = node; above; above = above.parent) seen &&= above.visible;
       if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
@@ -265,7 +265,7 @@
         const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
         left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);
         top += label.offsetHeight / 2;
-        for (const [x, y, wide, high] of taken) if (left < x + wide && x < left + label.offsetWidth && top < y + high && y < top + high) top = y + high + 2;
+        for (const [near, over, wide, high] of taken) if (left < near + wide && near < left + label.offsetWidth && top < over + high && over < top + high) top = over + high + 2;
       }
       taken.push([left, top, label.offsetWidth, label.offsetHeight]);
       label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';

@@ -54,10 +54,10 @@
   }
 
   // Without a server nothing can be changed, so that no change is lost: what is under way ends.
-  function hold(held) {
-    if (held) for (const end of ['pointerup', 'mouseup', 'touchend', 'pointercancel']) document.dispatchEvent(new Event(end, {bubbles: true}));
-    for (const part of [document.getElementById('root'), document.getElementById('rx')]) if (part) part.inert = held;
-    page.toggleAttribute('data-held', held);
+  function hold(inert) {
+    if (inert) for (const end of ['pointerup', 'mouseup', 'touchend', 'pointercancel']) document.dispatchEvent(new Event(end, {bubbles: true}));
+    for (const part of [document.getElementById('root'), document.getElementById('rx')]) if (part) part.inert = inert;
+    page.toggleAttribute('data-held', inert);
   }
   // Sliders by name: the value that was set when the connection broke may not have arrived.
   function sliders() {
