@@ -105,7 +105,8 @@ def test_runs_with_a_read_only_root_and_without_home_network_and_rights():
     )
     assert done.returncode == 0, done.stderr
     facts = json.loads(done.stdout)
-    assert (facts["code"], facts["errors"]) == (0, "")
+    assert facts["code"] == 0
+    assert re.fullmatch(r"(Compiling kernels, once: .*\n)?", facts["errors"])
     assert facts["writable"] == []
     assert facts["home"] is None
     assert re.fullmatch(r"\d+ kW", facts["power"])

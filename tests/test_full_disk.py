@@ -33,7 +33,7 @@ COMMANDS = {
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
     "demo": ("explorer", "demo", "OUT/out.file"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
-    "save": ("save", "OUT/out.file"),
+    "save": ("save", "OUT/out.json"),
 }
 
 
@@ -56,9 +56,11 @@ def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[s
 def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(name: str, tmp_path: Path):
     """A limit of 100 bytes a file stands for the disk: the write that exceeds it fails as one without room does."""
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "out.file").write_text("precious", encoding="utf-8")
+    there = [tmp_path / "out" / file for file in ("out.file", "out.json")]
+    for file in there:
+        file.write_text("precious", encoding="utf-8")
     done = limited(name, "100", tmp_path)
-    assert (tmp_path / "out" / "out.file").read_text(encoding="utf-8") == "precious"
+    assert [file.read_text(encoding="utf-8") for file in there] == ["precious"] * 2
     assert not list((tmp_path / "out").rglob("*.part"))
     if name == "save":  # A function of Python's own kind of error.
         assert "OSError" in done.stderr

@@ -147,7 +147,8 @@ def test_two_workers_give_the_results_of_one_process(cluster: Cluster, tmp_path:
     done = subprocess.run(
         command(file, out, "--scheduler", cluster.address), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
     )
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, done.stderr.count("\n")) == (0, 1)
+    assert "has no encryption and no password" in done.stderr
     assert "1,860 of 1,860 points, 0 failed" in done.stdout
     same_as_serial(file, read_results(out))
     assert len(workers_of(out)) == 2
