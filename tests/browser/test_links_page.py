@@ -66,12 +66,19 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App, designs:
     [pytest.param(12, marks=pytest.mark.slow), pytest.param(1000, marks=[pytest.mark.slow, pytest.mark.nightly])],
 )
 def test_random_designs_survive_link_reload_and_back(browser: "Browser", app: App, count: int):
-    """Without waiting for their trims: what a page makes of its address is done before. Browsers keep 50 pages."""
+    """Without waiting for their trims: what a page makes of its address is done before. A window for each forty: it
+    keeps the addresses of 50 pages, and on a busy machine the memory of some 200 that it has left."""
     chance = random.Random(count)
     designs = [random_inputs(chance) for _ in range(count)]
-    context = browser.new_context(viewport={"width": 400, "height": 300})
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
+    for first in range(0, count, 40):
+        context = browser.new_context(viewport={"width": 400, "height": 300})
+        context.add_init_script(DRAW_NOTHING)
+        there_and_back(app, Watched(context.new_page()), designs[first : first + 40])
+        context.close()
+
+
+def there_and_back(app: App, watched: Watched, designs: list[Inputs]) -> None:
+    """Each by its link and F5, then all again by the back button."""
 
     def arrived(inputs: Inputs, before: object) -> bool:
         """Whether a new session and the address of its page hold this design."""
@@ -83,14 +90,11 @@ def test_random_designs_survive_link_reload_and_back(browser: "Browser", app: Ap
         step()
         watched.until(lambda: arrived(inputs, before))
 
-    for first in range(0, count, 40):
-        some = designs[first : first + 40]
-        for inputs in some:
-            goes(partial(watched.page.goto, f"{app.address}?d={code_of(inputs.design())}", wait_until="commit"), inputs)
-            goes(partial(watched.page.reload, wait_until="commit"), inputs)
-        for inputs in some[-2::-1]:
-            goes(partial(watched.page.go_back, wait_until="commit"), inputs)
-    context.close()
+    for inputs in designs:
+        goes(partial(watched.page.goto, f"{app.address}?d={code_of(inputs.design())}", wait_until="commit"), inputs)
+        goes(partial(watched.page.reload, wait_until="commit"), inputs)
+    for inputs in designs[-2::-1]:
+        goes(partial(watched.page.go_back, wait_until="commit"), inputs)
 
 
 def test_a_link_that_names_a_retired_model_opens_and_says_so(visit: Visit, app: App):
