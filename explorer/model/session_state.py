@@ -1,7 +1,6 @@
 """What one update of a session reads, solves and shows, as values; and how a part of the page moves the design."""
 
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.pinned import Pinned
@@ -85,24 +84,3 @@ class Failure:
     def message(self) -> str:
         """Why there is no solution, in one sentence."""
         return self.reading.problem if self.solution is None else self.solution.message
-
-
-class DesignAccess(Protocol):
-    """The design on the sliders as a drag reads and moves it; safe from any thread."""
-
-    @property
-    def held(self) -> bool:
-        """Whether a presenter moves the page, so that the design is not the user's to move."""
-        ...
-
-    def state(self) -> SessionState | None:
-        """The last converged state; None before the first."""
-        ...
-
-    def inputs(self) -> Inputs:
-        """What the sliders hold."""
-        ...
-
-    def drag_to(self, inputs: Inputs) -> None:
-        """Move the sliders as a hand does."""
-        ...

@@ -32,9 +32,9 @@
   });
 
   Object.assign(RX, {
-    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep, which page
-    // it is: a tab that is duplicated keeps the same. A page that was open before, and whose server has come back,
-    // stays as it was.
+    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep, which a
+    // duplicated tab has too, and a name that it does not share. A page that was open before, and whose server has come
+    // back, stays as it was.
     facts(key) {
       const wished = matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode');
       const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;

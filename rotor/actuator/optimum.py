@@ -10,13 +10,11 @@ twist p within the concept, so only differences of v matter. A retrofit keeps it
 zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, cast
 
 import numpy as np
-from scipy import optimize
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
@@ -25,11 +23,10 @@ from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest, restrict
+from rotor.optimisation.descent import slsqp
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-_minimize = cast(Callable[..., Any], optimize.minimize)  # scipy-stubs know no function with its gradient.
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
@@ -192,7 +189,7 @@ class _Task:
 
         bounds = [(0.0, float(f)) for f in free]
         options = {"maxiter": 60, "ftol": 1e-9}
-        ended = _minimize(scaled, x0, jac=True, method="SLSQP", bounds=bounds, options=options)
+        ended = slsqp(scaled, x0, bounds=bounds, options=options)
         x = np.asarray(np.clip(ended.x, 0.0, 1.0), dtype=np.float64)
         final = self._power(x)
         if final is None or final[0] > unit:

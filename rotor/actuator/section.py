@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
@@ -151,7 +151,7 @@ def _calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | N
             f"the plies alone are stiffer than the GJ of {spec.stiffness:.0f} N·m² required: "
             "use fewer plies or a stiffer blade"
         )
-    return float(brentq(excess, thinnest, thickest, xtol=1e-8))
+    return float(scipy.optimize.brentq(excess, thinnest, thickest, xtol=1e-8))
 
 
 def _panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:

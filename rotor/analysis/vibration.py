@@ -14,11 +14,10 @@ least.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize
 
 from rotor.aero.problem import given_torsion
 from rotor.aero.section import RATE, TH
@@ -31,6 +30,7 @@ from rotor.engine.linearise import jacobian
 from rotor.engine.linearise import response as linear_response
 from rotor.engine.terms import Terms
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.descent import slsqp
 from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, WeightedCondition, check_index
@@ -308,9 +308,6 @@ def _ends(values: Sequence[float]) -> tuple[float, float] | None:
     return (min(known), max(known)) if known else None
 
 
-_minimize = cast(Any, optimize.minimize)
-
-
 def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
     """Cosines and sines [rad] of least power for limits of the index, by the T-matrix."""
     size, start = 2 * len(matrix.harmonics), matrix.power_and_index(np.zeros(2 * len(matrix.harmonics)))[0]
@@ -343,7 +340,7 @@ def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
         limits: list[dict[str, Any]] = [{"type": "ineq", "fun": within, "jac": within_slopes}]
         limits += [] if limit is None else [{"type": "ineq", "fun": room, "jac": room_slopes}]
         options = {"maxiter": 200, "ftol": 1e-9}
-        found = [_minimize(cost, u, jac=True, method="SLSQP", constraints=limits, options=options) for u in starts]
+        found = [slsqp(cost, u, constraints=limits, options=options) for u in starts]
         ends = [*(np.asarray(one.x, dtype=np.float64) for one in found), *starts]
         return min((u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0])
 

@@ -21,8 +21,8 @@ from rotor.reproduce.ladder import (
     TRIM,
     Ladder,
     Least,
+    MovingTwist,
     Step,
-    Worth,
     calls,
     check_speeds,
     climb,
@@ -139,12 +139,12 @@ def ladder_text(found: Ladder) -> str:
     wide = 46
     lines = [
         "UH-60A, 8322.4 kg, sea level: linear twist of least total power [°/R]; each line changes one assumption more.",
-        f"Moves, at {fast}: in the ladder, changed alone on thesis, taken back alone from flight. Worth: what a moving",
+        f"Moves, at {fast}: in the ladder, changed alone on thesis, taken back alone from flight. Saves: what a moving",
         "twist saves beyond the best fixed one, equal time at each speed.",
         f"−17.3° over −11.5°: main-rotor power at {FAST_KMH:.0f} km/h; Keys et al. measured {100 * FAST:+.0f} %.",
         "",
         f"{'':<{wide}}" + "".join(f"{head:>8}" for head in heads)
-        + f"{'moves':>9}{'on thesis':>11}{'off flight':>12}{'worth':>9}{'−17.3/−11.5':>13}",
+        + f"{'moves':>9}{'on thesis':>11}{'off flight':>12}{'saves':>9}{'−17.3/−11.5':>13}",
     ]  # fmt: skip
     for one in found.steps:
         lines.append(f"{one.words:<{wide}}{_rates(one.best)}{_moves(one)}{_end(one)}")
@@ -156,7 +156,7 @@ def ladder_text(found: Ladder) -> str:
         "",
         "flight with each inflow model",
     ]
-    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.worth.gain:7.2f} %" for one in found.wakes]
+    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.moving.gain:7.2f} %" for one in found.wakes]
     return "\n".join(lines)
 
 
@@ -170,7 +170,7 @@ def _moves(one: Step) -> str:
 
 
 def _end(one: Step) -> str:
-    return f"{100 * one.worth.gain:7.2f} %{100 * one.strong_over_weak[1]:+11.1f} %"
+    return f"{100 * one.moving.gain:7.2f} %{100 * one.strong_over_weak[1]:+11.1f} %"
 
 
 def ladder_record(found: Ladder) -> dict[str, Any]:
@@ -181,7 +181,9 @@ def ladder_record(found: Ladder) -> dict[str, Any]:
         "trim": _step_record(found.trim),
         "eight_blades_deg": found.eight_blades_deg,
         "without_drag_deg": found.without_drag_deg,
-        "wakes": [{"inflow": one.inflow, **_least_record(one.best), **_worth_record(one.worth)} for one in found.wakes],
+        "wakes": [
+            {"inflow": one.inflow, **_least_record(one.best), **_moving_record(one.moving)} for one in found.wakes
+        ],
         "measured": {"hover_percent": 100 * HOVER, "fast_percent": 100 * FAST, "fast_km_h": FAST_KMH},
     }
 
@@ -195,7 +197,7 @@ def _step_record(one: Step) -> dict[str, Any]:
         "moves_deg": one.moves_deg,
         "alone_on_thesis_deg": one.alone_on_thesis_deg,
         "alone_off_flight_deg": one.alone_off_flight_deg,
-        **_worth_record(one.worth),
+        **_moving_record(one.moving),
         "strong_over_weak_percent": {"hover": 100 * hover, "fast": 100 * fast},
     }
 
@@ -208,5 +210,5 @@ def _least_record(best: Sequence[Least]) -> dict[str, Any]:
     }
 
 
-def _worth_record(one: Worth) -> dict[str, float]:
+def _moving_record(one: MovingTwist) -> dict[str, float]:
     return {"best_fixed_deg": one.fixed_deg, "moving_saves_percent": 100.0 * one.gain}

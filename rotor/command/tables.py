@@ -170,7 +170,8 @@ def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> 
     if found.preview_error is not None:
         lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*found.preview_error))
     lines.append(
-        "index: per cent of the weight, force weights 0.5, 0.67 and 1 (aft, side, up): trade-offs, not a level"
+        "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
+        "trade-offs, not a level"
     )
     return "\n".join(lines)
 

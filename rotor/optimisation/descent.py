@@ -193,16 +193,19 @@ class Model:
             return found, slope @ stretch
 
         limits = [self.margins] if len(self.margins(centre)[0]) else []
-        minimize = cast(Callable[..., Any], scipy.optimize.minimize)
-        end = minimize(
+        end = slsqp(
             both,
             np.linalg.solve(stretch, np.clip(start, low, high) - centre),
-            jac=True,
-            method="SLSQP",
             constraints=[inequality(one) for one in (box, *limits, *more)],
             options={"maxiter": _MODEL_ITERATIONS, "ftol": _MODEL_TOLERANCE},
         )
         return np.asarray(np.clip(centre + stretch @ end.x, low, high), dtype=np.float64)
+
+
+def slsqp(cost: Callable[[Array], tuple[float, Array]], start: Any, **named: Any) -> Any:
+    """scipy's minimum of a cost that comes with its gradient, which its stubs do not know."""
+    minimize = cast(Callable[..., Any], scipy.optimize.minimize)
+    return minimize(cost, start, jac=True, method="SLSQP", **named)
 
 
 TOLERANCE: dict[Quantity, float] = {"total": 1e-7, "induced": 1e-7, "vibration": 1e-5}

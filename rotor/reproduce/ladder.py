@@ -81,8 +81,8 @@ class Least:
 
 
 @dataclass(frozen=True)
-class Worth:
-    """What a linear twist that moves with speed saves beyond the best fixed one, equal time at each speed."""
+class MovingTwist:
+    """A linear twist that moves with speed, and what it saves beyond the best fixed one, equal time at each speed."""
 
     fixed_deg: float
     """[°/R]"""
@@ -111,7 +111,7 @@ def _least(design: Design) -> Least:
 
 
 @CachedFunction
-def worth(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) -> Worth:
+def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) -> MovingTwist:
     """The best fixed blade, and what moving saves beyond it."""
     moving = [least(on, mu, inflow) for mu in speeds]
     design = built(on, speeds[0], inflow=inflow)
@@ -123,7 +123,7 @@ def worth(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) ->
     if fixed is None or baseline is None:
         raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
     mean = 1e3 * sum(one.power_kw for one in moving) / len(moving)
-    return Worth(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
+    return MovingTwist(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
 
 
 @CachedFunction
@@ -156,7 +156,7 @@ def twice_the_blades(mu: float) -> Least:
     return _least(replace(design, rotor=many))
 
 
-PARTS = (least, worth, strong_over_weak, twice_the_blades, without_drag)
+PARTS = (least, moving_twist, strong_over_weak, twice_the_blades, without_drag)
 """What a ladder is made of."""
 
 
@@ -174,7 +174,7 @@ class Step:
     """The same, changed alone on the preset `thesis`; None for the first."""
     alone_off_flight_deg: float | None
     """The best twist of `flight` less that of `flight` without this."""
-    worth: Worth
+    moving: MovingTwist
     strong_over_weak: tuple[float, float]
     """In hover and at 330 km/h."""
 
@@ -185,7 +185,7 @@ class WakeRow:
 
     inflow: str
     best: tuple[Least, ...]
-    worth: Worth
+    moving: MovingTwist
 
 
 @dataclass(frozen=True)
@@ -244,7 +244,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
             rate(on) - rate(before) if changed else None,
             rate(changed) - rate(()) if changed else None,
             rate(names) - rate(tuple(one for one in names if one not in changed)) if changed else None,
-            worth(on, speeds, None),
+            moving_twist(on, speeds, None),
             (strong_over_weak(on, 0.0, None), strong_over_weak(on, FAST_KMH, None)),
         )  # fmt: skip
 
@@ -256,7 +256,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
         speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rigid.rate_deg,
         without_drag(fast).rate_deg,
         tuple(
-            WakeRow(name, tuple(least(names, mu, name) for mu in speeds), worth(names, speeds, name))
+            WakeRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
             for name in INFLOW_MODELS
         ),
     )  # fmt: skip
@@ -268,10 +268,13 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
     ladder = [names[:count] for count in range(len(names) + 1)]
     alone = [on for name in (*((one,) for one in names), TRIM) for on in (name, _without(names, name))]
     return [
-        *([(least, (names, mu, wake)) for mu in speeds] + [(worth, (names, speeds, wake))] for wake in INFLOW_MODELS),
+        *(
+            [(least, (names, mu, wake)) for mu in speeds] + [(moving_twist, (names, speeds, wake))]
+            for wake in INFLOW_MODELS
+        ),
         *(
             [(least, (on, mu, None)) for mu in speeds]
-            + [(worth, (on, speeds, None))]
+            + [(moving_twist, (on, speeds, None))]
             + [(strong_over_weak, (on, kmh, None)) for kmh in (0.0, FAST_KMH)]
             for on in ladder
         ),

@@ -9,7 +9,7 @@ import numpy as np
 from rotor.files.make_design import make_design, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
-from rotor.reproduce.ladder import RUNGS, worth
+from rotor.reproduce.ladder import RUNGS, moving_twist
 from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
@@ -262,7 +262,7 @@ def table_4_1(scope: Scope = FULL) -> Report:
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     for name in VARIANTS:
-        one = worth(tuple(RUNGS) if name == "flight" else (), scope.speeds, None)
+        one = moving_twist(tuple(RUNGS) if name == "flight" else (), scope.speeds, None)
         mean = {
             concept: sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / len(scope.speeds)
             for concept in CONCEPTS

@@ -58,7 +58,7 @@ def today() -> Report:
             curve("", places, low, "band", upper=high, colour=k),
             curve("hover" if mu == 0.0 else f"µ {mu:g}", places, [one.rate_deg for one in row], "both", colour=k),
         ]
-    gains = [one.worth.gain for one in found.wakes]
+    gains = [one.moving.gain for one in found.wakes]
     others = [
         strong_over_weak(on, FAST_KMH, wake)
         for on in (tuple(RUNGS), tuple(RUNGS)[:-1])
@@ -83,7 +83,7 @@ def today() -> Report:
         ),
         (
             "Its assumptions give",
-            f"{best('thesis')}; a twist that moves saves {_saves(first.worth.gain)}.",
+            f"{best('thesis')}; a twist that moves saves {_saves(first.moving.gain)}.",
         ),
         (
             "One change decides",
@@ -93,8 +93,8 @@ def today() -> Report:
         ),
         (
             "A moving twist saves today",
-            f"{_saves(last.worth.gain)} beyond the best fixed one, {last.worth.fixed_deg:.1f}°; {100 * min(gains):.1f} "
-            f"to {_saves(max(gains))} over {len(gains)} inflow models.",
+            f"{_saves(last.moving.gain)} beyond the best fixed one, {last.moving.fixed_deg:.1f}°; "
+            f"{100 * min(gains):.1f} to {_saves(max(gains))} over {len(gains)} inflow models.",
         ),
         (
             "Measured",
@@ -113,7 +113,7 @@ def today() -> Report:
         statement="Twist should fall from hover to fast flight (§3.3), and a blade that moves it saves power.",
         ours=f"The best twist falls from {found.at(last.name, slow).rate_deg:.1f}° in hover to "
         f"{found.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}, but one that moves saves only "
-        f"{_saves(last.worth.gain)} beyond the best fixed blade ({_saves(first.worth.gain)} with the thesis' "
+        f"{_saves(last.moving.gain)} beyond the best fixed blade ({_saves(first.moving.gain)} with the thesis' "
         "assumptions).",
         verdict=Agreement.ALONE,
         because=SOURCES,
@@ -127,7 +127,7 @@ def today() -> Report:
                     (one.words, *(x.rate_deg for x in one.best),
                      *("" if x is None else x
                        for x in (one.moves_deg, one.alone_on_thesis_deg, one.alone_off_flight_deg)),
-                     100 * one.worth.gain, 100 * one.strong_over_weak[1])
+                     100 * one.moving.gain, 100 * one.strong_over_weak[1])
                     for one in (*found.steps, found.trim)
                 ],
             ),
@@ -142,8 +142,8 @@ def today() -> Report:
             "thesis_fast": found.at("thesis", fast).rate_deg,
             "flight_hover": found.at(last.name, slow).rate_deg,
             "flight_fast": found.at(last.name, fast).rate_deg,
-            "thesis_beyond_fixed": first.worth.gain,
-            "flight_beyond_fixed": last.worth.gain,
+            "thesis_beyond_fixed": first.moving.gain,
+            "flight_beyond_fixed": last.moving.gain,
         },
     )  # fmt: skip
 

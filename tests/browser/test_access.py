@@ -4,8 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from chromium import DRAW_NOTHING
-from test_scene import ON_SCREEN
-from watched import Watched
+from watched import ON_SCREEN, Watched
 
 from explorer.app import App
 

@@ -3,8 +3,7 @@
 from typing import Any
 
 import pytest
-from test_scene import ON_SCREEN, PASSIVE
-from watched import Visit
+from watched import PASSIVE, Visit
 
 pytestmark = pytest.mark.browser
 SIZE = (1280, 720)
@@ -19,12 +18,7 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
 
     def grabbed(down: float) -> None:
         """Take the blade by its tip and pull it down so many pixels."""
-        x, y = page.evaluate(ON_SCREEN, 7.2)
-        page.mouse.move(x, y)
-        page.wait_for_timeout(300)  # viser looks for what is below the pointer.
-        page.mouse.down()
-        page.mouse.move(x, y + 12, steps=4)
-        page.wait_for_function("() => RX.state.rubber")
+        x, y = watched.grab_tip()
         for step in range(1, 9):
             page.mouse.move(x, y + 12 + down * step / 8)
             page.wait_for_timeout(60)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from watched import Watched
+from watched import PASSIVE, Watched
 
 from explorer.model.inputs import Inputs
 from explorer.picture.wake import tip_vortices
@@ -16,16 +16,6 @@ from rotor.trim.solve import solve
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
 SIZE = (1280, 720)
-ON_SCREEN = """r => {
-    const viewer = window.__viserMutable, blade = viewer.nodeRefFromName['/rotor/blade_0'];
-    blade.updateWorldMatrix(true, false);
-    const at = blade.position.clone().set(r, -0.1, 0).applyMatrix4(blade.matrixWorld).project(viewer.camera);
-    const box = viewer.canvas.getBoundingClientRect();
-    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
-}"""
-"""Pixel of a point of the reference blade, so far from its hinge [m]."""
-PASSIVE = "Unable to preventDefault inside passive event listener"
-"""What the browser says of viser's own listener when a node is dragged."""
 VORTEX = """() => {
     let first = null;
     window.__viserMutable.nodeRefFromName['/rotor/vortices']?.traverse(part => {
@@ -78,12 +68,8 @@ FROM_TIP = """([x, y]) => {
 def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     page = watched.page
     camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
-    x, y = page.evaluate(ON_SCREEN, 7.2)
-    page.mouse.move(x, y)
-    page.wait_for_timeout(300)  # viser looks for what is below the pointer.
-    page.mouse.down()
-    page.mouse.move(x, y + 12, steps=4)
-    page.wait_for_function("() => RX.state.rubber && document.documentElement.hasAttribute('data-rubber')")
+    x, y = watched.grab_tip()
+    page.wait_for_function("() => document.documentElement.hasAttribute('data-rubber')")
     watched.at_rest(lambda: page.evaluate("() => RX.part('rubber').style.opacity"))
     for step in range(1, 11):
         page.mouse.move(x, y + 12 + 4 * step)

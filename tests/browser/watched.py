@@ -21,6 +21,18 @@ _DRAWN = "() => new Promise(done => requestAnimationFrame(() => requestAnimation
 _TAKEN = "() => new Promise(done => requestAnimationFrame(() => setTimeout(done, 80)))"
 
 
+ON_SCREEN = """r => {
+    const viewer = window.__viserMutable, blade = viewer.nodeRefFromName['/rotor/blade_0'];
+    blade.updateWorldMatrix(true, false);
+    const at = blade.position.clone().set(r, -0.1, 0).applyMatrix4(blade.matrixWorld).project(viewer.camera);
+    const box = viewer.canvas.getBoundingClientRect();
+    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
+}"""
+"""Pixel of a point of the reference blade, so far from its hinge [m]."""
+PASSIVE = "Unable to preventDefault inside passive event listener"
+"""What the browser says of viser's own listener when a node is dragged."""
+
+
 class Watched:
     """A page and everything it complained about."""
 
@@ -82,6 +94,16 @@ class Watched:
         if self.page.evaluate("() => RX.state.bar.drawer") != name:
             self.page.evaluate("name => RX.send('drawer', name)", name)
         self.page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]')
+
+    def grab_tip(self) -> tuple[float, float]:
+        """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
+        x, y = self.page.evaluate(ON_SCREEN, 7.2)
+        self.page.mouse.move(x, y)
+        self.page.wait_for_timeout(300)  # viser looks for what is below the pointer.
+        self.page.mouse.down()
+        self.page.mouse.move(x, y + 12, steps=4)
+        self.page.wait_for_function("() => RX.state.rubber")
+        return x, y
 
     def section(self, title: str) -> None:
         """A part of a rail or drawer that has several."""

@@ -5,6 +5,7 @@ from html import escape
 
 import numpy as np
 
+from explorer.charts.vibration import index_unit
 from explorer.export.report.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
@@ -170,7 +171,7 @@ def vibration(solution: Solution) -> str:
         rows += [
             (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
             (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
-            ("Vibration index", f"{number(loads.index, 1)} % of the weight"),
+            ("Vibration index", f"{number(loads.index, 1)} {index_unit(solution.design)}"),
             ("The same over wakes", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
             ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments over the radius"),
         ]

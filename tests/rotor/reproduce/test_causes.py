@@ -13,7 +13,16 @@ import numpy as np
 import pytest
 
 import rotor
-from rotor.reproduce.ladder import FAST_KMH, RUNGS, TRIM, least, strong_over_weak, twice_the_blades, without_drag, worth
+from rotor.reproduce.ladder import (
+    FAST_KMH,
+    RUNGS,
+    TRIM,
+    least,
+    moving_twist,
+    strong_over_weak,
+    twice_the_blades,
+    without_drag,
+)
 from rotor.reproduce.ladder import SPEEDS as FLOWN
 
 ROOT = Path(__file__).parents[3]
@@ -48,7 +57,7 @@ def ends(*names: str) -> tuple[float, float]:
 
 
 def gain(on: tuple[str, ...], inflow: str | None = None) -> float:
-    return round(100.0 * worth(on, FLOWN, inflow).gain, 1)
+    return round(100.0 * moving_twist(on, FLOWN, inflow).gain, 1)
 
 
 CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (

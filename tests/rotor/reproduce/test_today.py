@@ -69,7 +69,7 @@ def test_the_moves_add_up_and_the_best_is_a_least(ladder: Ladder):
         on = tuple(RUNGS)[: len(RUNGS) if one is last else 5 if one.name == "axial" else 0]
         edges = [solve(built(on, 0.35, f"linear:{rate:.9f}")).require().power.total / 1e3 for rate in rates]
         assert_allclose(edges, 1.001 * one.best[-1].power_kw, rtol=2e-4)
-    assert all(-1e-9 <= one.worth.gain < 0.02 for one in ladder.steps)
+    assert all(-1e-9 <= one.moving.gain < 0.02 for one in ladder.steps)
 
 
 def test_the_ladder_on_the_command_line(ladder: Ladder, capsys: pytest.CaptureFixture[str]):
