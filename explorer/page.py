@@ -248,20 +248,21 @@ class Page:
             tab.show(state)
         self.file.follow(state)
 
-    def refine(self, state: SessionState) -> None:
-        """Nothing moves: draw finely, and keep what must survive a reload.
-
-        It comes before the power curve: an early reload must find it.
-        """
+    def draw_finely(self, state: SessionState) -> None:
+        """Nothing moves: a finer disk."""
         self.scene.draw_finely()
         self._views.show_plan(state.solution, state.view, at_rest=True)
+
+    def keep(self, state: SessionState) -> None:
+        """Keep what must survive a reload; before the power curve, since an early reload must find it."""
         self.file.follow(state)
         self.file.keep()
         self.history.store()
 
     def solve_deferred(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing has moved since: compute and save what could wait, until `stop`."""
-        self.refine(state)
+        self.draw_finely(state)
+        self.keep(state)
         self.history.solve_waiting(stop)
         if self._followed is not None and not self._actuator_in_frame and self.layout.mode != "actuate":
             self._show_actuator(self._followed, state.solution)

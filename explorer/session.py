@@ -44,8 +44,8 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _log = logging.getLogger(__name__)
-_STILL = 0.12
-"""[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
+_STILL = 0.25
+"""[s] without a change after which nothing is dragged; less would delay the frames of keys pressed one by one."""
 _DRAGGED = 0.5
 """[s] between two updates within a drag, at most."""
 
@@ -177,7 +177,9 @@ class Session:
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
-        page.refine(self._turned(state))
+        page.draw_finely(self._turned(state))
+        yield 0.0
+        page.keep(self._turned(state))
         self._worker.answer()
         yield 0.0
         if sweep() and not self._overtaken():

@@ -35,7 +35,8 @@
     const width = place.clientWidth, height = place.clientHeight, wide = width > 640;
     const left = wide ? 288 : 20, right = wide ? LABEL.width + 26 : 20, top = wide ? 34 : (seen('.rxf-power')?.bottom ?? 84) + 14, bottom = wide ? 34 : 250;
     const radius = Math.max(60, Math.min((height - top - bottom) / 2, (width - left - right) / 2));
-    return {width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
+    const chart = around.firstElementChild;
+    return {chart: {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
   }
 
   function rim() {
@@ -142,9 +143,12 @@
     return ROWS.map(([name, title, digits, unit]) => `<dt>${title}</dt><dd class="${name === 'margin' && value.margin < 0 ? 'rxf-bad' : ''}">${fixed(value[name], digits, unit)}</dd>`).join('') + field;
   };
   const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
-  // Beside its point, away from the hub where there is room.
+  // Beside its point, away from the hub where there is room. A card's size is asked for once: to ask between two writes
+  // costs a layout.
+  const sizes = {};
   function put(element, r, psi) {
-    const [x, y] = xy(r, psi), w = element.offsetWidth || 150, h = element.offsetHeight || 110;
+    const [x, y] = xy(r, psi), kind = `${element.querySelectorAll('dt').length} ${element.hasAttribute('data-pin')} ${RX.state.plan.field}`;
+    const [w, h] = sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
     const outward = x >= layout.x ? x + 16 : x - 16 - w, left = Math.min(Math.max(8, outward), layout.width - w - 8), top = Math.min(Math.max(8, y - h / 2), layout.height - h - 8);
     element.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   }
@@ -168,7 +172,7 @@
   // α around the circle, with the stall angles there, and the shares of the regions beside it.
   function drawAround() {
     if (!tables.alpha || !around.childElementCount) return;
-    const [chart, shares] = around.children, width = Math.max(chart.clientWidth - 32, 80), height = Math.max(chart.clientHeight - 36, 40), left = 34, base = height - 17, right = width - 8;
+    const [chart, shares] = around.children, {width, height} = layout.chart, left = 34, base = height - 17, right = width - 8;
     const at360 = table => Array.from({length: 121}, (_, k) => reversed(circle, 3 * k) ? null : at(table, circle, 3 * k));
     const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), before = tables.before && at360(tables.before);
     const all = [...alpha, ...(before ?? [])].filter(v => v !== null), top = Math.max(16, ...all.map(v => Math.min(v, 30))), least = Math.min(-2, ...all.map(v => Math.max(v, -20)));

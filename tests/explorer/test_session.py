@@ -164,17 +164,17 @@ def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monke
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     update(session)
-    assert page.calls[-3:] == ["refine", "sweep", "solve_deferred"]
+    assert page.calls[-4:] == ["draw_finely", "keep", "sweep", "solve_deferred"]
 
 
 def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Session, monkeypatch: pytest.MonkeyPatch):
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     assert update(session).calls.count("sweep") == 1
-    for recent, expected in ((False, ["sweep", "refine", "sweep"]), (True, ["refine", "sweep"])):
+    for recent, expected in ((False, ["sweep", "keep", "sweep"]), (True, ["keep", "sweep"])):
         monkeypatch.setattr(type(session._curves), "recent", property(lambda _, recent=recent: recent))
         calls = update(session).calls
-        assert [one for one in calls if one in ("sweep", "refine")] == expected
+        assert [one for one in calls if one in ("sweep", "keep")] == expected
 
 
 def test_in_a_crowd_the_number_comes_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -194,19 +194,17 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     assert page.states[-1].view.azimuth_deg == 75.0
 
 
-def test_at_rest_the_picture_is_fine_before_the_address_and_what_the_page_keeps():
+def test_what_a_page_keeps_follows_its_address():
     called: list[str] = []
     part = SimpleNamespace(
-        draw_finely=lambda: called.append("picture"),
         follow=lambda _: called.append("address"),
         keep=lambda: called.append("kept"),
         store=lambda: called.append("steps"),
     )
-    views = SimpleNamespace(show_plan=lambda *_, at_rest: called.append("plan"))
-    page: Any = SimpleNamespace(scene=part, file=part, history=part, _views=views)
+    page: Any = SimpleNamespace(file=part, history=part)
     state: Any = SimpleNamespace(solution=None, view=None)
-    Page.refine(page, state)
-    assert called == ["picture", "plan", "address", "kept", "steps"]
+    Page.keep(page, state)
+    assert called == ["address", "kept", "steps"]
 
 
 @pytest.mark.parametrize(
@@ -223,7 +221,7 @@ def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expecte
     )
     page: Any = SimpleNamespace(
         layout=SimpleNamespace(mode=mode), _actuator_in_frame=False, _followed=None,
-        _show_actuator=lambda *_: called.append("actuator"), refine=lambda _: None, tabs=(part,), file=part,
+        _show_actuator=lambda *_: called.append("actuator"), draw_finely=lambda _: None, keep=lambda _: None, tabs=(part,), file=part,
         history=part, results=part, vibration=part, waterfall=part,
     )  # fmt: skip
     state: Any = SimpleNamespace(solution=None)
