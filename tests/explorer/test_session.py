@@ -221,8 +221,8 @@ def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expecte
     )
     page: Any = SimpleNamespace(
         layout=SimpleNamespace(mode=mode), _actuator_in_frame=False, _followed=None,
-        _show_actuator=lambda *_: called.append("actuator"), draw_finely=lambda _: None, keep=lambda _: None, tabs=(part,), file=part,
-        history=part, results=part, vibration=part, waterfall=part,
+        _show_actuator=lambda *_: called.append("actuator"), draw_finely=lambda _: None, keep=lambda _: None,
+        tabs=(part,), file=part, history=part, results=part, vibration=part, waterfall=part,
     )  # fmt: skip
     state: Any = SimpleNamespace(solution=None)
     reading: Any = object()
