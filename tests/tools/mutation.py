@@ -29,12 +29,7 @@ TESTS = (
     "tests/rotor/files/test_flown_rotors.py",
 )  # fmt: skip
 """Those that compare trims with theory, identities and other methods."""
-SURVIVORS = {
-    "columns/bending.py:157": "slopes of a precone: HART II alone has one, and no quick test bends it",
-    "columns/bending.py:158": "radial place of a blade on a precone: the same",
-    "columns/bending.py:211 bend": "load of torsion on bending by an offset mass at the tip",
-    "inflow/local_momentum.py:177": "mean inflow of local momentum theory",
-}
+SURVIVORS = {"inflow/local_momentum.py:177": "only where the search for the inflow of a point begins"}
 """Terms whose loss no test may notice, and why."""
 
 

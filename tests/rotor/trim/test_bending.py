@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.aero.bending import BladeBending
+from rotor.aero.bent_section import SV, SW
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
@@ -94,6 +95,46 @@ def test_hub_torque_is_that_of_the_shaft(mu: float, inflow: str) -> None:
     torque = -force[1].mean() * b.r[0] + force[0].mean() * offset
     torque *= problem.design.rotor.blades * problem.design.rotor.radius
     assert_allclose(torque, solution.torque, rtol=1e-3)
+
+
+def test_the_section_sees_the_slopes_and_places_of_the_displaced_blade() -> None:
+    """On a blade with precone: w', v' and the in-plane place of the axis against the displacements, differentiated."""
+    design = rotor.make_design(rotor="hart2", mu=0.2, inflow=LINEAR)
+    solution = rotor.solve(replace(design, models=replace(design.models, bending=True))).require()
+    problem, point, b = _at(solution)
+    assert b.precone > 0.04
+    q, offset = coordinates_of(b, point.system.structure, point.z)
+    _, v, w = displacements(b, q, offset, len(problem.disk.psi))
+    outboard = problem.disk.r > b.r[0] + 0.05
+    for channel, place in ((SW, w), (SV, v)):
+        expected = np.gradient(place, b.r, axis=0)
+        at = np.stack([np.interp(problem.disk.r, b.r, one) for one in expected.T], axis=1)
+        assert_allclose(point.channels[channel][outboard], at[outboard], atol=2e-3)
+    # The shaft turns what lies beside the radius outward or inward.
+    at = 0.2 * np.cos(problem.disk.psi) + np.stack([np.interp(problem.disk.r, b.r, one) for one in v.T], axis=1)
+    assert_allclose(point.channels[UR][outboard], at[outboard], atol=1e-5)
+
+
+def test_the_tip_mass_couples_twist_and_bending_both_ways_alike() -> None:
+    """Reciprocity: the load of twist does the same work on bending as the load of bending does on twist."""
+    problem, point, b = _at(_solved(0.3, LINEAR))
+    s, torsion = point.system.structure, problem.torsion
+    assert torsion is not None
+    x, n = point.x.copy(), s.numbers
+    x[[atom for name, atom in n.items() if isinstance(name, tuple) and str(name[0]).startswith("tip on")]] = 0.0
+    load = point.residual - evaluate(point.system, point.grid, x).residual
+    q, _ = coordinates_of(b, s, point.z)
+    places = [(k, h) for k in range(len(q)) for h in range(q.shape[1]) if (k, h) != (b.lag, 0)]
+    on_bending = sum(
+        q[k, h] * load[s.equations["bend", k, h]] * (2.0 if h else 1.0) / point.z[n["bend gain", k, (h + 1) // 2]]
+        for k, h in places
+    )
+    on_twist = sum(
+        point.z[s.states["twist", j, h]] * load[s.equations["twist", j, h]] / torsion.gain[j]
+        for j in range(len(torsion.gain)) for h in range(q.shape[1])
+    )  # fmt: skip
+    assert abs(on_twist) > 1e-9
+    assert_allclose(on_bending, on_twist, rtol=1e-9)
 
 
 def test_mean_force_is_thrust_less_weight() -> None:
