@@ -157,7 +157,7 @@ class TestReport:
         fast, slow = solve(design), solve(design.at(mu=0.1))
         words = vibration(fast)
         assert fast.hub_loads is not None
-        assert f"{fast.hub_loads.index:.1f} % of the weight" in words
+        assert f"{fast.hub_loads.index:.1f} % of weight" in words
         assert "over wakes" in words
         assert "below µ 0.2" in vibration(slow)
         assert "per rev" in vibration(slow)
