@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from watched import Watched, opened
+from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.hosting.limits import ServerLimits
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-WAIT = 30_000
-"""[ms]; far more than it takes, for machines with other things to do."""
 POINTS = "[data-explorer=study-chart] circle[data-value]"
 
 
