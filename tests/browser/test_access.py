@@ -70,6 +70,7 @@ def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
     watched.until_changed(lambda: head.get_attribute("aria-expanded"), "true")
 
 
+@pytest.mark.slow
 def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
     page = watched.page
     watched.answered(wholly=True)  # What is drawn anew gets the focus back a frame later.

@@ -21,7 +21,7 @@ from rotor.trim.solve import solve
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 """A design with a caveat."""
 

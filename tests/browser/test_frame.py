@@ -182,6 +182,7 @@ _SMALL_TEXT = """() => {
 }"""
 
 
+@pytest.mark.slow
 def test_each_slider_says_what_a_step_is_worth_and_no_text_is_smaller_than_twelve_pixels(watched: Watched):
     page = watched.page
     watched.answered(wholly=True)
@@ -218,6 +219,7 @@ def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
     assert page.evaluate(apart)
 
 
+@pytest.mark.slow
 def test_less_motion_is_respected(watched: Watched):
     watched.page.emulate_media(reduced_motion="reduce")
     moving = """() => [...document.querySelectorAll('#rx *, [data-dock-region]')]

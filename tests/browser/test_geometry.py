@@ -69,8 +69,8 @@ _NARROW_CHARTS = """() => [...document.querySelectorAll('.rxf-chart')].filter(e 
   .map(e => e.dataset.name)"""
 
 _PARTS = ['[data-explorer="total-power"]', ".rxf-sub", ".rxf-since", ".rxf-why", ".rxf-parts dl", ".rxf-chip"]
-SIZES = [(1500, 940), (1280, 720), (768, 1024), (390, 844)]
-MORE_SIZES = [(1920, 1080), (1024, 768)]
+SIZES = [(1280, 720), (390, 844)]
+MORE_SIZES = [(1920, 1080), (1500, 940), (1024, 768), (768, 1024)]
 
 
 @pytest.fixture(

@@ -112,6 +112,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
+@pytest.mark.slow
 def test_sessions_end_with_their_browsers(visit: Visit, app: App):
     before = len(app.sessions)
     watched = visit()
@@ -124,6 +125,7 @@ def test_sessions_end_with_their_browsers(visit: Visit, app: App):
     assert len(app.sessions) == before
 
 
+@pytest.mark.slow
 def test_two_browsers_do_not_disturb_each_other(watched: Watched, visit: Visit):
     other = visit()
     other.press("Adv. ratio", "ArrowRight", 5)

@@ -12,7 +12,7 @@ from explorer.model.inputs import Inputs
 from explorer.text.glossary import CONTROLS
 from rotor.aero.switches import SWITCHES
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="builtin", advance_ratio=0.3)
 
 

@@ -139,6 +139,7 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
     assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
 
 
+@pytest.mark.slow
 def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     page = watched.page
     watched.answered()
@@ -175,6 +176,7 @@ WATCH_PLAY = """seconds => new Promise(done => {
 """Degrees between the reference blade and the probe in each frame, and whether a label that is seen has no place."""
 
 
+@pytest.mark.slow
 def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_plays(watched: Watched):
     page = watched.page
     click_disk(watched, 0.8, 200.0)
@@ -214,6 +216,7 @@ def test_views_have_keys(watched: Watched):
         watched.until(lambda view=view: stands(watched, view))
 
 
+@pytest.mark.slow
 def test_the_view_along_the_blade_rides_with_it(watched: Watched):
     page = watched.page
     elsewhere = eye(watched).round(3).tolist()

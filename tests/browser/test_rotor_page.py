@@ -9,7 +9,7 @@ from explorer.app import App
 from explorer.model.inputs import Inputs
 from rotor.assets import asset_path
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="builtin")
 BLADES = r"""() => Object.entries(window.__viserSceneTree.getState()).filter(
     ([name, node]) => /blade_\d+$/.test(name) && (node.overrideVisibility ?? node.visibility) !== false).length"""

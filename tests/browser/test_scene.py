@@ -104,6 +104,7 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     page.wait_for_function("() => RX.state.rubber === null")
 
 
+@pytest.mark.slow
 def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has_them(watched: Watched):
     page = watched.page
     still = page.evaluate(AZIMUTH)

@@ -5,7 +5,7 @@ from watched import WAIT, Watched
 
 from explorer.model.inputs import Inputs
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="builtin")
 CHART = "() => RX.state.strip?.find(one => one.name === 'measured')"
 

@@ -21,7 +21,7 @@ from tests.rotor.study.test_study_of_elastic_blades import STUDY
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 POINTS = "[data-explorer=study-chart] circle[data-value]"
 
 

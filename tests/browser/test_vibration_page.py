@@ -5,7 +5,7 @@ from watched import MEDIUM, Watched
 
 from explorer.model.inputs import Inputs
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="builtin", advance_ratio=0.3)
 SIZE = MEDIUM
 
