@@ -128,7 +128,7 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._seen, self._close, self._fitted = True, False, rotor
+        self._behind, self._close, self._fitted = False, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -182,9 +182,9 @@ class Scene:
             self.rotor.frame.position = np.zeros(3)
             self._set_visible()
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
-        self._seen = seen
+    def set_behind(self, behind: bool) -> None:
+        """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
+        self._behind = behind
         self._set_visible()
 
     def set_alone(self, alone: bool) -> None:
@@ -247,12 +247,11 @@ class Scene:
             handle.position = side * offset + letter_place(radius)
 
     def _set_visible(self) -> None:
-        self.rotor.frame.visible = self._seen
-        self.rotor.words.visible = not self._close
-        for handle in (self._airframe, self._shadow):
-            handle.visible = self._seen and not (self._beside or self._close or self._alone)
+        self.rotor.words.visible = not (self._close or self._behind)
+        self._airframe.visible = not (self._beside or self._close or self._alone)
+        self._shadow.visible = self._airframe.visible and not self._behind
         for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
-            handle.visible = self._seen and self._beside
+            handle.visible = self._beside
 
 
 def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:

@@ -247,9 +247,6 @@ class TestScene:
         assert handles["/compared"].visible
         assert not handles["/airframe"].visible
         assert not np.array_equal(handles["/compared/blade_0"].vertices, handles["/rotor/blade_0"].vertices)
-        scene.set_seen(False)
-        assert not handles["/compared"].visible
-        scene.set_seen(True)
         scene.hide_beside()
         assert not handles["/compared"].visible
         assert handles["/airframe"].visible

@@ -137,7 +137,6 @@ class ActuatorControls:
         """What each title of a menu means."""
         start = ActuatorInputs()
         self.verdict = gui.add_html("")
-        self.shown = self._watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
         self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
         self.now = gui.add_html("")
         self._drives = [
@@ -200,7 +199,7 @@ class ActuatorControls:
         values = {name: _read(handle.value) for name, handle in self._handles.items()}
         values |= {name: menu[self._handles[name].value] for name, menu in self._menus.items()}
         drives = tuple(float(handle.value) for handle in self._drives)
-        return ActuatorInputs(**values, drives=drives, shown=bool(self.shown.value))
+        return ActuatorInputs(**values, drives=drives)
 
     def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
         """Which widgets there are, and what they are called."""
@@ -213,7 +212,7 @@ class ActuatorControls:
         passive = isinstance(installed.actuator, ExtensionTwist)
         ply, turning = isinstance(installed.actuator, PiezoPly), inputs.per_rev > 0
         seen = {
-            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply, "magnified": inputs.shown,
+            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply,
             "stiffness": inputs.blade == "new", "amplitude": turning, "phase": turning,
         }  # fmt: skip
         for name, visible in seen.items():

@@ -52,10 +52,8 @@ class ActuatorInputs:
     """Per cent of half the voltage range."""
     phase: float = 0.0
     """[°]"""
-    shown: bool = False
-    """Whether the blade is shown cut open instead of the rotor."""
     magnified: float = 5.0
-    """How much the actuator's part of the twist is exaggerated in the cut blade."""
+    """How much the actuator's part of the twist is exaggerated in the lifted blade."""
 
     @property
     def host(self) -> Host:

@@ -10,7 +10,13 @@ from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plo
 from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers, VerdictTask, sweep_task, verdict_tasks
 from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
-from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
+from explorer.tabs.actuator.lifted_picture import (
+    LiftedScene,
+    flown_twist,
+    lifted_picture,
+    section_svg,
+    voltage_shares,
+)
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap
@@ -31,9 +37,12 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(self, context: TabContext) -> None:
-        self._context, client = context, context.client
+        self._context = context
         self._touched = False
-        self._cut = CutScene(client.scene, context.bridge)
+        self._blade = LiftedScene(context.client, context.bridge)
+        self.lifted = False
+        """Whether the blade is wanted outside the rotor."""
+        self._radius = 1.0
         # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
         self._verdicts = PoolAnswers(context.pool, 5, context.wake)
         self._maps = PoolAnswers(context.pool, 3, context.wake)
@@ -46,13 +55,28 @@ class ActuatorPanel:
         self._before: tuple[object, ...] = ()
         self._controls = ActuatorControls(context.gui, self._moved)
         self._controls.fly_buttons.on_click(self._fly_clicked)
-        self.shown = self._controls.shown
         self.inputs = self._controls.inputs
 
     def stop(self) -> None:
         """The browser has left."""
         self._verdicts.stop()
         self._maps.stop()
+        self._blade.stop()
+
+    @property
+    def fits(self) -> bool:
+        """Whether this rotor's blade is known well enough to carry an actuator."""
+        return self._context.inputs().aircraft.key == KNOWN_BLADE
+
+    def lift(self, out: bool) -> None:
+        """Lift one blade out towards the viewer, or let it fly back."""
+        self.lifted = out
+        if out:
+            self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
+            self._blade.hold(self._radius)
+        else:
+            self._blade.release(self._radius)
+        self._context.wake()
 
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
@@ -64,7 +88,7 @@ class ActuatorPanel:
             inputs.turning(installed, design.elastic)  # Resonance of a rigid trim is reported here.
             question = question_of(inputs, design)
         except ValueError as error:
-            self._cut.hide()
+            self._blade.release(self._radius)
             self._drawn = None
             self.show_problem(str(error))
             return
@@ -128,8 +152,8 @@ class ActuatorPanel:
         solution: Solution,
         alone: Solution,
     ) -> None:
-        if not inputs.shown:
-            self._cut.hide()
+        if not self.lifted:
+            self._blade.release(self._radius)
             self._drawn = None
             return
         turning = inputs.per_rev > 0 or design.elastic
@@ -137,9 +161,10 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
+        picture = lifted_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
         with self._context.client.atomic():
-            self._cut.show(picture)
+            self._blade.hold(self._radius)
+            self._blade.show(picture)
         self._context.client.flush()
 
     def _set(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:

@@ -87,7 +87,7 @@ def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
     if not inputs.per_rev or design.hovering:
         return None
     plain = ActuatorInputs()
-    steady = replace(inputs, amplitude=0.0, phase=0.0, shown=False, magnified=plain.magnified)
+    steady = replace(inputs, amplitude=0.0, phase=0.0, magnified=plain.magnified)
     steady = replace(steady, advance_ratios=plain.advance_ratios)
     return SweepTask(replace(steady.apply(design), active_twist=None), steady)
 

@@ -10,7 +10,7 @@ from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import Outcome
-from explorer.tabs.actuator.cut_picture import drive_text, share_colour
+from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.harmonic import PowerMap, tip_response
@@ -32,7 +32,7 @@ def voltage_bar(actuator: Actuator) -> str:
     low, high, unit = -100.0, 100.0, "%"
     if isinstance(actuator, PiezoPly):
         low, high, unit = *actuator.voltage_range, "V"
-    stops = ",".join(css(share_colour(k / 8.0)) for k in range(-8, 9))
+    stops = ",".join(css(drive_colour(k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks = "".join(
         f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'

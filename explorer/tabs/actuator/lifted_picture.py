@@ -1,0 +1,412 @@
+"""The lifted blade: its meshes, lines and labels, its section as a drawing, and its handles in the scene."""
+
+import math
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from html import escape
+
+import numpy as np
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import call
+from explorer.model.units import number
+from explorer.picture.solids import Mesh
+from explorer.tabs.actuator import lifted_blade as lifted
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
+from explorer.theme.colours import Rgb, css
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import Part, section_picture
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+NODE = "/lifted"
+"""Name of the lifted blade in the scene."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """How a piece of the lifted blade looks; albedos are dark, for the page's lights bleach."""
+
+    colour: Rgb
+    opacity: float | None = None
+    """None: opaque."""
+
+
+SURFACES = {
+    "skin": Surface((120, 132, 150), 0.26),
+    "spar": Surface((44, 50, 60), 0.42),
+    "web": Surface((30, 34, 42)),
+    "shank": Surface((40, 44, 52)),
+    "box": Surface((14, 42, 30)),
+    "ply": Surface((96, 62, 40)),
+    "tube": Surface((84, 66, 50)),
+    "laminate": Surface((90, 84, 60), 0.5),
+}
+EDGE: Rgb = (200, 40, 18)
+"""Of the lifted blade: that of the reference blade."""
+GHOST: Rgb = (128, 133, 140)
+LEAD: Rgb = (214, 136, 24)
+FIBRE: Rgb = (58, 30, 12)
+ARROW: Rgb = (37, 99, 235)
+LEADER: Rgb = (128, 136, 150)
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A mesh, how it looks and how it glows."""
+
+    mesh: Mesh
+    surface: Surface
+    glow: tuple[Rgb, float] | None = None
+    """Colour and strength, 0…1."""
+
+
+@dataclass(frozen=True, eq=False)
+class LiftedPicture:
+    """What the scene assigns."""
+
+    solids: dict[str, Solid]
+    lines: dict[str, Array]
+    """By name, (segments, 2, 3)."""
+    labels: tuple[tuple[str, Array], ...]
+    """Text and where it stands [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlownTwist:
+    """Twist of an elastic blade at one azimuth [rad], (stations,)."""
+
+    r: Array
+    still: Array
+    """Elastic twist without voltage."""
+    moved: Array
+    """What voltage changes: twist of the plies and what the blade answers, zero at the root."""
+
+
+def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwist | None:
+    """From trims with and without the actuator; None for a rigid blade."""
+    driven, alone = solution.disk.elastic_twist, undriven.disk.elastic_twist
+    if driven is None or alone is None:
+        return None
+    r, design = solution.disk.r, solution.design
+    at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
+    moved = driven[:, at] - alone[:, at] + design.twist(r) - undriven.design.twist(r)
+    given = [np.zeros(len(r)) if one is None else one(r, np.array([psi]))[:, 0]
+             for one in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
+    moved = moved + given[0] - given[1]
+    return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
+
+
+def lifted_picture(
+    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float, flown: FlownTwist | None = None
+) -> LiftedPicture:
+    """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator.
+
+    With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage.
+    """
+    rotor = design.rotor
+    blade = lifted.lifted_blade(installed, rotor)
+
+    def still(r: Array) -> Array:
+        jig = design.twist(np.maximum(r, rotor.blade.root_cutout))
+        return jig if flown is None else jig + np.interp(r, flown.r, flown.still)
+
+    def moved(r: Array) -> Array:
+        if flown is not None:
+            return np.interp(r, flown.r, flown.moved)
+        return inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
+
+    def twist(r: Array) -> Array:
+        return still(r) + inputs.magnified * moved(r)
+
+    shares = voltage_shares(inputs, installed, psi)
+    solids: dict[str, Solid] = {}
+    fibres: list[Array] = []
+    for part in blade.parts:
+        driven = part.segment >= 0
+        name = f"drive_{sum(key.startswith('drive') for key in solids)}" if driven else part.role
+        light = glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
+        solids[name] = Solid(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
+        if part.role in ("ply", "laminate"):
+            fibres.append(lifted.fibre_segments(blade, part, twist(part.r)))
+    root = float(twist(np.array([rotor.blade.root_cutout]))[0])
+    shank, box = lifted.root_parts(blade, rotor, root)
+    solids["shank"] = Solid(shank, SURFACES["shank"])
+    if not isinstance(installed.actuator, ExtensionTwist):
+        solids["box"] = Solid(box, SURFACES["box"])
+    rings = twist(blade.r)
+    tip = float(moved(np.ones(1))[0])
+    ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
+    labels, leaders = _labels(inputs, installed, blade, twist, tip)
+    return LiftedPicture(
+        solids,
+        {
+            "edges": lifted.edge_segments(blade, rings),
+            "ghost": lifted.edge_segments(blade, still(blade.r)) if abs(tip) > 1e-4 else _NONE,
+            "leads": lifted.lead_segments(blade, rings),
+            "fibres": np.concatenate(fibres) if fibres else _NONE,
+            "arrow": lifted.arc_segments(blade, *ends),
+            "leaders": leaders,
+        },
+        labels,
+    )
+
+
+_NONE = np.zeros((0, 2, 3))
+
+
+def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: float) -> tuple[float, ...]:
+    """Of each segment, −1…1 of its positive or negative side, with the harmonic at this azimuth."""
+    steady = inputs.drive_shares(installed)
+    if not inputs.per_rev or not isinstance(installed.actuator, PiezoPly):
+        return steady
+    wave = 0.01 * inputs.amplitude * math.cos(inputs.per_rev * psi - math.radians(inputs.phase))
+    low, high = installed.actuator.voltage_range
+    shares = []
+    for volts in inputs.volts(installed):
+        now = volts + 0.5 * installed.actuator.voltage_swing * (-wave if inputs.crossed else wave)
+        shares.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
+    return tuple(min(max(share, -1.0), 1.0) for share in shares)
+
+
+def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
+    """Light of a driven piece at −1…1 of its range: amber for positive voltage, blue for negative; red heat of a tube."""
+    strength = min(abs(share), 1.0)
+    if role == "tube":
+        return (255, round(40 + 130 * strength), round(10 + 40 * strength**2)), strength
+    return ((255, 126, 20) if share >= 0.0 else (40, 128, 255)), strength
+
+
+def drive_colour(share: float) -> Rgb:
+    """Of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
+    (colour, strength), bare = glow(share), SURFACES["ply"].colour
+    red, green, blue = (round(a + (b - a) * strength) for a, b in zip(bare, colour, strict=True))
+    return red, green, blue
+
+
+def drive_text(inputs: ActuatorInputs, installed: InstalledActuator, segment: int) -> str:
+    """What drives a segment, in words."""
+    if isinstance(installed.actuator, PiezoPly):
+        return f"{number(inputs.volts(installed)[segment], sign=True)} V"
+    return f"{number(100.0 * inputs.drive_shares(installed)[segment], sign=True)} %"
+
+
+def _labels(
+    inputs: ActuatorInputs,
+    installed: InstalledActuator,
+    blade: lifted.LiftedBlade,
+    twist: Callable[[Array], Array],
+    moved: float,
+) -> tuple[tuple[tuple[str, Array], ...], Array]:
+    """Words, and the lines that lead to what they name."""
+    places: list[tuple[str, Array, Array]] = []
+
+    def put(text: str, r: float, y: float, z: float, above: float) -> None:
+        foot = lifted.anchor(blade, r, y, z, float(twist(np.array([r]))[0]))
+        places.append((text, foot, foot + np.array([0.0, 0.0, above])))
+
+    actuator, masses = installed.actuator, installed.masses
+    if not isinstance(actuator, ExtensionTwist):
+        put(f"Drive electronics, {number(masses.electronics, 1)} kg", sum(blade.box) / 2.0, 0.0, 0.10, 0.75)
+    for k, (low, high) in enumerate(blade.spans):
+        segment = f"{k + 1}: " if len(blade.spans) > 1 else ""
+        text = drive_text(inputs, installed, k)
+        if not k:
+            text = f"{_what(installed)}, {text}"
+        put(segment + text, 0.5 * (low + high), 0.05, 0.03, 0.65 if k % 2 == 0 else 0.95)
+    tip = math.degrees(moved)
+    if round(tip, 2):
+        times = f", drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else ""
+        put(f"{number(tip, 2, sign=True)}° at the tip{times}", 1.0, -0.56, 0.0, 0.0)
+    lines = [np.stack((foot, head)) for _, foot, head in places if head[2] > foot[2]]
+    return tuple((text, head) for text, _, head in places), np.stack(lines) if lines else _NONE
+
+
+def _what(installed: InstalledActuator) -> str:
+    """The actuator where it sits, in words."""
+    placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg a blade"
+    where = "{:.2f}–{:.2f} R".format(*placement.span)
+    if isinstance(installed.actuator, PiezoPly):
+        plies = "ply" if placement.plies == 1 else "plies"
+        return f"{placement.plies} {plies} a side at ±45°, {where}, {mass}"
+    if isinstance(installed.actuator, TorqueTube):
+        return f"{installed.actuator.name}, {where}, {mass}"
+    return installed.actuator.name
+
+
+_WIDTH, _HEIGHT = 312.0, 92.0
+_MIDDLE = 46.0
+_PLY = 3.4
+"""Plies are drawn this thick [px]; to scale they would be half a pixel."""
+_GAP = 0.2
+_FILLS = {"spar": "#5c6b80", "skin": "#9aa3ad", "web": "#3f4b5c", "tube": "#b7791f"}
+
+
+@lru_cache(maxsize=32)
+def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> str:
+    """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
+    middle = len(shares) // 2
+    share = shares[middle]
+    picture = section_picture(installed, exaggerate=1.6)
+    scale = (_WIDTH - 12.0) / picture.chord
+    marks: list[str] = []
+    for part in picture.parts:
+        if part.role == "outline":
+            marks.append(_polygon(part, scale, 'fill="rgba(128,128,128,.14)" stroke="currentColor" stroke-width=".7"'))
+        elif part.role == "ply":
+            marks.append(_ply(part, scale, share))
+        elif part.role == "tube":
+            fill = f'fill="{css(drive_colour(share))}" stroke="currentColor" stroke-width=".6"'
+            marks.append(_polygon(part, scale, fill))
+        else:
+            marks.append(_polygon(part, scale, f'fill="{_FILLS[part.role]}"'))
+    return (
+        f'<div class="rx" data-explorer="section"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
+        f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(installed)}</svg>'
+        f'<div class="rx-dim rx-small">{escape(_caption(installed, middle + 1))}</div></div>'
+    )
+
+
+def _ply(part: Part, scale: float, share: float) -> str:
+    """A band outside the contour along the ply's own line."""
+    line = part.points[: len(part.points) // 2] * scale
+    upper = "upper" in part.label.rsplit(",", 1)[-1]
+    offset = (_GAP + 0.5 * _PLY) * (1.0 if upper else -1.0)
+    points = " ".join(f"{6.0 + x:.1f},{_MIDDLE - y - offset:.1f}" for x, y in line)
+    red, green, blue = drive_colour(share)
+    return (
+        f'<polyline class="rx-ply" points="{points}" fill="none" stroke="currentColor" stroke-width="{_PLY + 1.2:g}"/>'
+        f'<polyline points="{points}" fill="none" stroke="rgb({red},{green},{blue})" stroke-width="{_PLY:g}"/>'
+    )
+
+
+def _polygon(part: Part, scale: float, style: str) -> str:
+    points = " ".join(f"{6.0 + scale * y:.1f},{_MIDDLE - scale * z:.1f}" for y, z in part.points)
+    return f'<polygon points="{points}" {style}/>'
+
+
+def _scale(installed: InstalledActuator) -> str:
+    front, rear = installed.placement.chord
+    ends = (0.0, front, rear, 1.0) if isinstance(installed.actuator, PiezoPly) else (0.0, 1.0)
+    marks = []
+    for end in ends:
+        x = 6.0 + (_WIDTH - 12.0) * end
+        marks.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="76" y2="80" stroke="currentColor" stroke-width=".8"/>')
+        place = "start" if end < 0.03 else "end" if end > 0.97 else "middle"
+        if not (0.0 < end < 0.08 or 0.9 < end < 1.0):
+            look = f'font-size="12.5" fill="currentColor" text-anchor="{place}"'
+            marks.append(f'<text x="{x:.1f}" y="90" {look}>{end:g} c</text>')
+    marks.append(f'<line x1="6" x2="{_WIDTH - 6.0:g}" y1="78" y2="78" stroke="currentColor" stroke-width=".5"/>')
+    return "".join(marks)
+
+
+def _caption(installed: InstalledActuator, segment: int) -> str:
+    labels = [part.label for part in section_picture(installed).parts]
+    walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
+    plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), installed.actuator.name)
+    front, rear = installed.placement.chord
+    where = f" per side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
+    shown = f" Segment {segment}." if len(installed.shapes) > 1 else ""
+    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Wall and ply thickness exaggerated."
+
+
+_NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
+_LINES = {"edges": (EDGE, 2.2), "ghost": (GHOST, 1.6), "leads": (LEAD, 3.0), "fibres": (FIBRE, 1.0),
+          "arrow": (ARROW, 5.0), "leaders": (LEADER, 1.2)}  # fmt: skip
+"""Colours and widths [px] by name."""
+FLIES = 0.9
+"""How long the blade flies out of the rotor or back [s]."""
+
+
+class LiftedScene:
+    """Under its own frame. The page moves it from the rotor to its place and back (`rotorScene.lift`)."""
+
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
+        """`bridge`: of the frame, which draws the labels."""
+        self._client, self._api, self._bridge = client, client.scene, bridge
+        self._frame = self._api.add_frame(NODE, show_axes=False, visible=False)
+        self._solids: dict[str, viser.MeshHandle] = {}
+        self._lines = {
+            name: self._api.add_line_segments(
+                f"{NODE}/{name}", _NOTHING, colour, thickness=pixels, thickness_units="screen", visible=False
+            )
+            for name, (colour, pixels) in _LINES.items()
+        }
+        self._held = False
+        self._leaving: threading.Timer | None = None
+
+    def hold(self, radius: float) -> None:
+        """Lift the blade of a rotor of this radius [m] out, or leave it where it is held."""
+        if self._leaving is not None:
+            self._leaving.cancel()
+        pose = lifted.lifted_pose(radius)
+        viser_compat.place(self._frame, pose.wxyz, pose.position)
+        if not self._held:
+            self._held = True
+            self._move(True, radius)
+        self._frame.visible = True
+
+    def show(self, picture: LiftedPicture) -> None:
+        """Assign one frame; call it inside `client.atomic()`."""
+        for name, solid in picture.solids.items():
+            vertices, surface = solid.mesh.vertices.astype(np.float32), solid.surface
+            if name not in self._solids:
+                self._solids[name] = self._api.add_mesh_simple(
+                    f"{NODE}/{name}", vertices, solid.mesh.faces, color=surface.colour, opacity=surface.opacity,
+                    side="double", cast_shadow=False, receive_shadow=False,
+                )  # fmt: skip
+                continue
+            handle = self._solids[name]
+            if not np.array_equal(handle.faces, solid.mesh.faces):
+                # Never faces without their vertices: of two sizes, the page must not draw a mixture.
+                handle.visible = False
+                handle.vertices, handle.faces = vertices, solid.mesh.faces
+            handle.vertices, handle.color, handle.opacity = vertices, surface.colour, surface.opacity
+            handle.visible = True
+        for name in self._solids.keys() - picture.solids.keys():
+            self._solids[name].visible = False
+        for name, handle in self._lines.items():
+            segments = picture.lines[name]
+            handle.visible = len(segments) > 0
+            if len(segments):
+                handle.points = segments.astype(np.float32)
+        lit = {f"{NODE}/{name}": solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
+        call(
+            self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
+        )
+        labels = [
+            {"text": text, "node": NODE, "at": np.round(at, 3).tolist(), "kind": "lifted"}
+            for text, at in picture.labels
+        ]
+        self._bridge.set(lifted_labels=labels)
+
+    def release(self, radius: float) -> None:
+        """Let the blade fly back; then nothing of it is left."""
+        if not self._held:
+            return
+        self._held = False
+        self._bridge.set(lifted_labels=[])
+        self._move(False, radius)
+        self._leaving = threading.Timer(FLIES, self._hide)
+        self._leaving.daemon = True
+        self._leaving.start()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        if self._leaving is not None:
+            self._leaving.cancel()
+
+    def _hide(self) -> None:
+        if not self._held:
+            self._frame.visible = False
+
+    def _move(self, out: bool, radius: float) -> None:
+        pose = lifted.lifted_pose(radius)
+        held = {"wxyz": pose.wxyz.tolist(), "position": pose.position.tolist()}
+        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIES, held, lifted.MIDDLE * radius)
