@@ -11,7 +11,7 @@ from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.programmes import Programme, programmes
 from rotor.actuator.section import Host, Placement
-from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
     "Actuator",
@@ -33,5 +33,6 @@ __all__ = (
     "power_map",
     "programmes",
     "try_actuator",
+    "verdict_details",
     "verdict_sentence",
 )
