@@ -9,8 +9,9 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueT
 from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.programmes import Programme, programmes
 from rotor.actuator.section import Host, Placement
-from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
     "Actuator",
@@ -22,6 +23,7 @@ __all__ = (
     "PiezoPly",
     "Placement",
     "PowerMap",
+    "Programme",
     "TorqueTube",
     "Verdict",
     "actuators",
@@ -29,6 +31,8 @@ __all__ = (
     "install",
     "judge",
     "power_map",
+    "programmes",
     "try_actuator",
+    "verdict_details",
     "verdict_sentence",
 )

@@ -152,6 +152,16 @@ def derating(actuator: Actuator) -> float:
     return actuator.low_swing * model_to_test() if isinstance(actuator, PiezoPly) else 1.0
 
 
+def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
+    """Caveats of holding a twist for minutes."""
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    return (
+        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
+        "feedback or charge drive. Without voltage the blade returns to its jig twist.",
+    )
+
+
 @cache
 def _data() -> dict[str, Any]:
     return tomllib.loads(asset_path("actuators.toml").read_text(encoding="utf-8"))

@@ -12,6 +12,7 @@ from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.structure import BladeStructure
+from rotor.design.twist import TwistLaw
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure, uh60a_torsion
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 from rotor.dynamics.torsion import (
@@ -22,6 +23,7 @@ from rotor.dynamics.torsion import (
     torsion_frequency,
     twist_under_moment,
 )
+from rotor.optimisation.limits import ChangeLimit
 
 
 @dataclass(frozen=True)
@@ -218,3 +220,56 @@ def _covered(spec: SectionSpec, placement: Placement) -> float:
     return sum(
         float(np.hypot(*np.diff(skin(spec, side, *placement.chord), axis=0).T).sum()) for side in ("upper", "lower")
     )
+
+
+def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
+    """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
+    blade, rotor, added = design.rotor.blade, design.rotor, installed.added
+    hinge = blade.flap_hinge * rotor.radius
+    inner, outer = (end - hinge for end in added.span)
+    heavier = replace(
+        blade,
+        mass=blade.mass + installed.masses.blade,
+        flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
+    )
+    condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
+    return installed.on(replace(design, rotor=replace(rotor, blade=heavier), condition=condition))
+
+
+def change_limit(
+    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
+) -> ChangeLimit:
+    """The actuator's range as a limit on the change of twist in a search.
+
+    Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
+    `best_actuated` uses the true shape along the active span.
+    """
+    share = installed.derating if derated else 1.0
+    ends = share * np.cumsum(installed.segment_twists)
+    stations = (root, *installed.placement.divisions, 1.0)
+    return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
+
+
+def segment_voltages(
+    installed: InstalledActuator, swings: tuple[tuple[float, ...], ...]
+) -> tuple[tuple[float, float], ...]:
+    """Voltages of each segment at both conditions [V].
+
+    A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie around
+    zero as far as the negative range allows; without voltage the blade then flies between its two twists.
+    """
+    actuator = installed.actuator
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    low = actuator.voltage_range[0]
+    found: list[tuple[float, float]] = []
+    for first, second in zip(*swings, strict=True):
+        a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
+        if installed.host.kind == "new":
+            offset = max(low, -0.5 * abs(b - a)) - min(a, b)
+            a, b = a + offset, b + offset
+        elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
+            a, b = -a, -b  # Fibres laid in the other direction.
+        found.append((a, b))
+    return tuple(found)

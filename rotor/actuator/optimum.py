@@ -81,9 +81,11 @@ class TwistOptimum:
     """Mean by shares of time [W]."""
 
 
-def best_twist(design: Design, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
-    """The concept's twist of least power at one condition."""
-    return _search((design,), (1.0,), concept, None, 1.0, starts)
+def best_twist(
+    design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
+) -> TwistOptimum:
+    """The concept's twist of least power at one condition; `alone`: from these starts and no others."""
+    return _search((design,), (1.0,), concept, None, 1.0, starts, alone=alone)
 
 
 def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
@@ -110,10 +112,12 @@ def _search(
     installed: InstalledActuator | None,
     derating: float,
     starts: Sequence[Sequence[float]],
+    *,
+    alone: bool = False,
 ) -> TwistOptimum:
     keeps_twist = installed is not None and installed.host.kind == "retrofit"
     jigs: list[Sequence[float]] = [()] if keeps_twist else list(starts)
-    if not keeps_twist and (installed is None or not starts):
+    if not keeps_twist and not alone and (installed is None or not starts):
         first = nearest(concept, designs[0].twist)
         jigs += [first, _flatter(concept, first)]
     found: list[TwistOptimum] = []
@@ -263,9 +267,14 @@ class Baseline:
         return self.fixed.power - self.ideal_power
 
     @property
+    def fixed_twist(self) -> TwistLaw:
+        """The law of the best fixed blade."""
+        return self.concept.twist(self.fixed.values)
+
+    @property
     def divisions(self) -> tuple[float, ...]:
         """r/R where the concept's segments meet."""
-        law = self.concept.twist(self.fixed.values)
+        law = self.fixed_twist
         if isinstance(law, PiecewiseLinearTwist):
             return law.breaks
         return () if len(self.fixed.values) == 1 else SMOOTH_DIVISIONS

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.verdict import Verdict, count, judge
+from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import Concept, find_concept
 
 NONE = "–"
@@ -128,7 +128,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
         "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
-        "mass kg", "torsion /rev", "fixed kW", "ideal kW", "gross kW", "net kW", "limits exceeded",
+        "mass kg", "torsion /rev", "ideal kW", "gross kW", "stiffness kW", "mass kW", "drive kW", "net kW",
+        "limits exceeded",
     )  # fmt: skip
     rows = [
         (
@@ -138,8 +139,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
             "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
             f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
-            kilowatts(verdict.ideal_saving - verdict.baseline.ideal_saving), kilowatts(verdict.ideal_saving),
-            kilowatts(verdict.gross_saving), kilowatts(verdict.net_saving),
+            kilowatts(verdict.ideal_saving), kilowatts(verdict.gross_saving), kilowatts(-verdict.stiffness_cost),
+            kilowatts(-verdict.mass_cost), kilowatts(-verdict.drive_cost), kilowatts(verdict.net_saving),
             ", ".join(limit.name for limit in verdict.broken) or "none",
         )
         for verdict in verdicts
@@ -149,9 +150,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     notes = (
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
         "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
-        "All savings against one blade: the twist as built for a retrofit, else the concept's best fixed one. Fixed: "
-        "by the concept's best fixed twist; ideal: by free in-flight twist; gross and net: within the actuator's "
-        "range, without and with its mass on board.",
+        f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
+        "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net. Ideal: gross "
+        "with unlimited twist in flight.",
     )
     return ActuatorTable(
         f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes

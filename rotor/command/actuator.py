@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+import textwrap
 from dataclasses import asdict
 from typing import Any
 
@@ -11,7 +12,7 @@ from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import BladeKind, Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, table_5_1, table_5_2
-from rotor.actuator.verdict import PRINTED, Verdict, judge, verdict_sentence
+from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
@@ -50,6 +51,12 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
     parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
+    parser.add_argument(
+        "--against",
+        choices=("best-fixed", "as-built"),
+        default="best-fixed",
+        help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
+    )
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
@@ -76,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
         if args.table == "5.2":
             _show(table_5_2(pair, placement=placement, host=host, derated=args.derated), args.json)
             return 0
-        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
+        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
         turned = None
         if args.harmonic is not None:
             turned = phase_sweep(
@@ -108,8 +115,14 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "voltages_v": [list(pair) for pair in verdict.voltages],
         "added_mass_kg": verdict.installed.masses.aircraft,
         "torsion_frequency_per_rev": verdict.installed.frequency,
+        "against": verdict.against,
+        "ideal_saving_w": verdict.ideal_saving,
         "gross_saving_w": verdict.gross_saving,
+        "stiffness_cost_w": verdict.stiffness_cost,
+        "mass_cost_w": verdict.mass_cost,
+        "drive_cost_w": verdict.drive_cost,
         "net_saving_w": verdict.net_saving,
+        "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
         "limits": [
             {
                 "name": limit.name, "ok": limit.ok, "value": limit.value, "bound": limit.bound, "unit": limit.unit,
@@ -138,12 +151,18 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     unknown = (
         "required_twist_deg", "attainable_twist_deg", "attainable_twist_derated_deg", "feasible",
     )  # fmt: skip
-    numbers = ("added_mass_kg", "torsion_frequency_per_rev", "gross_saving_w", "net_saving_w")
+    numbers = (
+        "ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w",
+        "fuel_saving_kg_h",
+    )  # fmt: skip
     return {
         **known,
         "concept": args.concept,
         **dict.fromkeys(unknown),
         "voltages_v": [],
+        "added_mass_kg": None,
+        "torsion_frequency_per_rev": None,
+        "against": args.against,
         **dict.fromkeys(numbers),
         "limits": [],
         "caveats": [],
@@ -157,14 +176,21 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
     tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
+    saved = verdict.fuel_saving
+    fuel = (
+        "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
+    )
     lines = [
         verdict_sentence(verdict),
+        *textwrap.wrap(verdict_details(verdict), 120),
         "",
         f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
-        f"free in-flight twist saves    {_kw(verdict.ideal_saving)}",
-        f"gross saving                  {_kw(verdict.gross_saving)}",
-        f"net saving, mass and drive    {_kw(verdict.net_saving)}",
+        "",
+        f"savings against {reference(verdict)}",
+        f"  gross, by its twist         {_kw(verdict.gross_saving)}  (of unlimited twist: {_kw(verdict.ideal_saving)})",
+        *(f"  {name:<28}{_kw(saving)}" for name, saving in verdict.savings[1:]),
+        f"  net                         {_kw(verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",

@@ -16,7 +16,7 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.harmonic import PowerMap, tip_response
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import Limit
-from rotor.actuator.verdict import Verdict, headline, verdict_sentence
+from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.reproduce.report import typographic
@@ -156,16 +156,15 @@ def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
         )
     if isinstance(outcome, str):
         return problem_panel(outcome)
-    lead, sentence = headline(outcome), verdict_sentence(outcome)
+    lead, sentence = verdict_sentence(outcome), verdict_details(outcome)
     name = escape(outcome.installed.actuator.name)
-    why = f"<details><summary>{name}: reach and limits</summary>{escape(sentence.removeprefix(lead))}</details>"
+    why = f"<details><summary>{name}: reach and limits</summary>{escape(sentence)}</details>"
     return _box("yes" if outcome.pays else "no", "ready", f"<b>{escape(lead)}</b>{_balance(outcome)}{why}")
 
 
 def _balance(verdict: Verdict) -> str:
     """What the saving is made of, as bars one below the other: each begins where the one before it ends."""
-    parts = [("twist", verdict.twist_saving), ("stiffness", -verdict.stiffness_cost)]
-    parts.append(("mass, drive", verdict.net_saving - verdict.gross_saving))
+    parts = list(verdict.savings)
     ends = np.cumsum([0.0, *(saving for _, saving in parts)])
     spans = [*pairwise(ends), (0.0, ends[-1])]
     low, span = ends.min(), max(float(np.ptp(ends)), 1.0)
