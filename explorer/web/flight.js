@@ -107,11 +107,11 @@
         const gains = between(now.net, (cuts[k - 1] + cuts[k]) / 2) > 0;
         inside += `<rect x="${X(cuts[k - 1]).toFixed(1)}" width="${(X(cuts[k]) - X(cuts[k - 1]) + .3).toFixed(1)}" y="${Y(now.reach[1]).toFixed(1)}" height="${(Y(now.reach[0]) - Y(now.reach[1])).toFixed(1)}" class="rxf-fly-band" ${gains ? 'data-gains' : ''}/>`;
       }
-      const line = values => values.map((y, k) => `${X(k * step).toFixed(1)} ${Y(y).toFixed(1)}`);
-      inside += `<path d="M${[...line(now.wanted), ...line(now.reached).reverse()].join('L')}Z" class="rxf-fly-gap"/><path d="M${line(now.reached).join('L')}" class="rxf-fly-reached"/><path d="M${line(now.wanted).join('L')}" class="rxf-fly-wanted"/>`;
-      const gaps = now.wanted.map((y, k) => Math.abs(y - now.reached[k])), worst = gaps.indexOf(Math.max(...gaps));
+      const held = now.wanted.map(y => clamp(y, ...now.reach)), line = values => values.map((y, k) => `${X(k * step).toFixed(1)} ${Y(y).toFixed(1)}`);
+      inside += `<path d="M${[...line(now.wanted), ...line(held).reverse()].join('L')}Z" class="rxf-fly-gap"/><path d="M${line(now.reached).join('L')}" class="rxf-fly-reached"/><path d="M${line(now.wanted).join('L')}" class="rxf-fly-wanted"/>`;
+      const gaps = now.wanted.map((y, k) => Math.abs(y - held[k])), worst = gaps.indexOf(Math.max(...gaps));
       if (gaps[worst] > 0.15) {
-        const y = Y((now.wanted[worst] + now.reached[worst]) / 2), x = X(worst * step), end = worst * 2 > now.wanted.length - 1;
+        const y = Y((now.wanted[worst] + held[worst]) / 2), x = X(worst * step), end = worst * 2 > now.wanted.length - 1;
         inside += `<text x="${clamp(x, LEFT + 8, width - RIGHT - 8)}" y="${y + 4}" text-anchor="${worst ? end ? 'end' : 'middle' : 'start'}" class="rxf-fly-short">short by ${gaps[worst].toFixed(1)}°</text>`;
       }
     }

@@ -131,7 +131,6 @@ class ActuatorControls:
         """By field of `ActuatorInputs`."""
         self._menus: dict[str, dict[str, Any]] = {}
         """What each title of a menu means."""
-        start = ActuatorInputs()
         self.verdict = gui.add_html("")
         self._menu("actuator", "Actuator", {title: id for id, title in actuator_titles().items()})
         self._slider("plies", "Plies per side", 1, 8, 1)
@@ -242,7 +241,7 @@ class ActuatorControls:
         voltages: tuple[tuple[float, ...], ...],
         x: float,
     ) -> None:
-        """Sliders as a flight has them between two of its legs: swings and voltages by leg and segment, `x` counts legs.
+        """Sliders as a flight has them, `x` legs from its first: swings and voltages by leg and segment.
 
         Fibres are laid the other way where the voltages of the flight oppose its twists.
         """

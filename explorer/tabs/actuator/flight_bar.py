@@ -4,18 +4,17 @@
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from rotor.actuator.flight import ActuatorFlight, FlightLeg
 
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_tasks import flight_legs
+from explorer.tabs.actuator.actuator_tasks import FLIGHT
 from explorer.tabs.context import TabContext
+from rotor.actuator.flight import ActuatorFlight, FlightLeg
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.verdict import Verdict, reference, verdict_sentence
 from rotor.design.design import Design
@@ -28,31 +27,21 @@ _LEAST = math.radians(1.5)
 """Least height of the chart either way [rad]: with little twist the curves do not fill it."""
 
 
-@dataclass(frozen=True)
-class Moment:
-    """A moment of the flight."""
-
-    advance_ratio: float
-    climb_speed: float
-    """[m/s]"""
-
-
-def moment(legs: Sequence[FlightLeg], x: float) -> Moment:
-    """Between legs, straight: `x` counts named legs from 0."""
-    at = np.arange(len(legs)) / HALVES
+def condition_at(x: float) -> tuple[float, float]:
+    """µ and rate of climb [m/s] at a place of the bar, which counts named legs from 0; between legs straight."""
+    at = np.arange(len(FLIGHT)) / HALVES
     mu, climb = (
-        float(np.interp(x, at, [getattr(leg, name) for leg in legs])) for name in ("advance_ratio", "climb_speed")
+        float(np.interp(x, at, [getattr(leg, name) for leg in FLIGHT])) for name in ("advance_ratio", "climb_speed")
     )
-    return Moment(round(mu, 3), round(climb, 2))
+    return round(mu, 3), round(climb, 2)
 
 
-def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
-    """Where on the bar an advance ratio is, which grows from leg to leg."""
-    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
+def place_of(advance_ratio: float) -> float:
+    """Where on the bar an advance ratio is: it grows from leg to leg."""
+    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in FLIGHT], np.arange(len(FLIGHT)) / HALVES))
 
 
 def flight_state(
-    legs: Sequence[FlightLeg],
     flight: ActuatorFlight | None,
     known: bool,
     advance_ratio: float,
@@ -60,12 +49,14 @@ def flight_state(
     units: Units,
     problem: str = "",
 ) -> dict[str, Any]:
-    """What the page draws the tip twist from: angles in degrees, powers in the main unit. `known`: the flight is that of
-    the present question, else one before."""
+    """What the page draws the tip twist from: angles in degrees, powers in the main unit.
+
+    `known`: the flight is that of the present question, else one before.
+    """
     unit = units.power[0]
     state: dict[str, Any] = {
-        "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in legs[::HALVES]],
-        "at": round(place_of(legs, advance_ratio), 3),
+        "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in FLIGHT[::HALVES]],
+        "at": round(place_of(advance_ratio), 3),
         "kind": "ready" if known and flight else "problem" if problem else "computing",
         "words": problem or ("computing…" if not known else ""),
         "unit": unit.symbol,
@@ -142,7 +133,6 @@ class FlightBar:
         self._flight: ActuatorFlight | None = None
         """The last one known."""
         self._verdict: Verdict | None = None
-        self._legs: tuple[FlightLeg, ...] = ()
         self._installed: InstalledActuator | None = None
         self._flown: float | None = None
         """Where on the bar the voltages follow the flight; None where a hand set them."""
@@ -156,8 +146,8 @@ class FlightBar:
         verdict: Verdict | str | None,
         flight: ActuatorFlight | str | None,
     ) -> None:
-        """Follow the session: a verdict and a flight, the sentence that says why there is none, or None on their way."""
-        self._legs, self._installed = flight_legs(design), installed
+        """Follow the session. Verdict and flight: the sentence that says why there is none, or None on their way."""
+        self._installed = installed
         known = isinstance(flight, ActuatorFlight)
         if isinstance(flight, ActuatorFlight) and flight is not self._flight:
             self._flight = flight
@@ -169,9 +159,7 @@ class FlightBar:
         problem = flight if isinstance(flight, str) else verdict if isinstance(verdict, str) else ""
         wrong = verdict if isinstance(verdict, str) else ""
         self._context.bridge.set(
-            flight=flight_state(
-                self._legs, None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem
-            ),
+            flight=flight_state(None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem),
             earns=earns_state(None if wrong else self._verdict, isinstance(verdict, Verdict), units, wrong),
         )
 
@@ -187,12 +175,12 @@ class FlightBar:
         self._flown = None
 
     def _fly(self, x: Any) -> None:
-        if self._context.held or not self._legs:
+        if self._context.held:
             return
-        self._flown = min(max(float(x), 0.0), (len(self._legs) - 1) / HALVES)
-        now, inputs = moment(self._legs, self._flown), self._context.inputs()
+        self._flown = min(max(float(x), 0.0), (len(FLIGHT) - 1) / HALVES)
+        mu, climb = condition_at(self._flown)
         self._drive(self._flown)
-        self._context.drag_to(replace(inputs, advance_ratio=now.advance_ratio, climb_m_s=now.climb_speed))
+        self._context.drag_to(replace(self._context.inputs(), advance_ratio=mu, climb_m_s=climb))
 
     def _drive(self, x: float) -> None:
         """Voltages as the flight has them there."""

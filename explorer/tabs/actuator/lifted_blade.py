@@ -188,22 +188,20 @@ def edge_segments(blade: LiftedBlade, twist: Array) -> Array:
 
 
 def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array) -> Array:
-    """Fibres at ±45° on the outside of a ply or laminate, as they look in the drawing, (segments, 2, 3)."""
+    """Fibres at 45° on the outside of a ply or laminate, as they look in the drawing, (segments, 2, 3)."""
     surface = _turned(blade, part.r, part.outer, twist)
     length = float(surface[-1, 0, 0] - surface[0, 0, 0])
     width = float(np.linalg.norm(np.diff(surface[0], axis=0), axis=1).sum())
-    lines: list[Array] = []
-    for slope in (1.0, -1.0):
-        for start in np.arange(-width, length, _FIBRE_STEP):
-            share = np.linspace(0.0, 1.0, 7)
-            along = start + width * (share if slope > 0.0 else 1.0 - share)
-            inside = (along >= 0.0) & (along <= length)
-            if inside.sum() > 1:
-                lines.append(_on(surface, along[inside] / length, share[inside]))
+    share, lines = np.linspace(0.0, 1.0, 9), list[Array]()
+    for start in np.arange(-width, length, _FIBRE_STEP):
+        along = start + width * share
+        inside = (along >= 0.0) & (along <= length)
+        if inside.sum() > 1:
+            lines.append(_on(surface, along[inside] / length, share[inside]))
     return _joined(lines)
 
 
-_FIBRE_STEP = 0.30
+_FIBRE_STEP = 0.13
 """[m], along the span."""
 
 
@@ -309,9 +307,9 @@ def _top(ring: Array, y: float) -> float:
 
 _AROUND, _ABOVE = math.radians(62.0), math.radians(15.0)
 """The helicopter is seen from starboard, so far from behind, so far above."""
-_NEARER, _RISING, _ROLLED = math.radians(24.0), math.radians(2.0), math.radians(16.0)
+_NEARER, _RISING, _ROLLED = math.radians(27.0), math.radians(2.0), math.radians(18.0)
 """The lifted blade: its tip towards the viewer, its tip up, its upper side towards the viewer."""
-_FROM_HUB = (-1.45, -0.72, 6.6)
+_FROM_HUB = (-1.55, -1.55, 7.0)
 """Of the lifted blade, in radii: right, up and towards the viewer."""
 _MARGIN = 0.96
 
@@ -337,6 +335,6 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
     pose = lifted_pose(radius)
     ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
     box = np.array(
-        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.075 * radius)]
+        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.06 * radius, 0.11 * radius)]
     )
     return framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)

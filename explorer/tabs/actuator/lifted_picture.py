@@ -39,12 +39,12 @@ class Surface:
 
 
 SURFACES = {
-    "skin": Surface((120, 132, 150), 0.26),
+    "skin": Surface((92, 106, 130), 0.34),
     "spar": Surface((44, 50, 60), 0.42),
     "web": Surface((30, 34, 42)),
     "shank": Surface((40, 44, 52)),
     "box": Surface((14, 42, 30)),
-    "ply": Surface((96, 62, 40)),
+    "ply": Surface((70, 40, 22)),
     "tube": Surface((84, 66, 50)),
     "laminate": Surface((90, 84, 60), 0.5),
 }
@@ -52,7 +52,7 @@ EDGE: Rgb = (200, 40, 18)
 """Of the lifted blade: that of the reference blade."""
 GHOST: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
-FIBRE: Rgb = (58, 30, 12)
+FIBRE: Rgb = (150, 84, 36)
 ARROW: Rgb = (37, 99, 235)
 LEADER: Rgb = (128, 136, 150)
 
@@ -176,11 +176,11 @@ def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: fl
 
 
 def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
-    """Light of a driven piece at −1…1 of its range: amber for positive voltage, blue for negative; red heat of a tube."""
+    """Light of a driven piece at −1…1 of its range: amber, blue for negative voltage; the heat of a tube."""
     strength = min(abs(share), 1.0)
     if role == "tube":
         return (255, round(40 + 130 * strength), round(10 + 40 * strength**2)), strength
-    return ((255, 126, 20) if share >= 0.0 else (40, 128, 255)), strength
+    return ((255, 92, 6) if share >= 0.0 else (40, 128, 255)), strength
 
 
 def drive_colour(share: float) -> Rgb:
