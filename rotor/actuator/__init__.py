@@ -6,6 +6,8 @@ contents of chapter 5 is known, so its numbers are not compared.
 """
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
+from rotor.actuator.fuel import Engines, engines_of
 from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
@@ -15,9 +17,13 @@ from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details
 
 __all__ = (
     "Actuator",
+    "ActuatorFlight",
     "ConditionPair",
     "DynamicTwist",
+    "Engines",
     "ExtensionTwist",
+    "FlightLeg",
+    "FlightMoment",
     "Host",
     "InstalledActuator",
     "PiezoPly",
@@ -27,11 +33,14 @@ __all__ = (
     "TorqueTube",
     "Verdict",
     "actuators",
+    "engines_of",
     "find_actuator",
+    "fly",
     "install",
     "judge",
     "power_map",
     "programmes",
+    "standard_flight",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",

@@ -105,6 +105,21 @@ def best_actuated(
     return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
+def best_swings(
+    design: Design,
+    installed: InstalledActuator,
+    bounds: Sequence[tuple[float, float]],
+    *,
+    derating: float = 1.0,
+) -> TwistOptimum:
+    """Least power at one condition of a blade that keeps its twist, each segment's swing within its bounds."""
+    task = _Task((design,), (1.0,), None, installed, derating, 1.0, tuple(bounds))
+    reached = task.descend(())
+    if reached is None:
+        raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
+    return reached
+
+
 def _search(
     designs: tuple[Design, ...],
     shares: tuple[float, ...],
@@ -146,6 +161,7 @@ class _Task:
         installed: InstalledActuator | None,
         derating: float,
         orientation: float,
+        ends: tuple[tuple[float, float], ...] | None = None,
     ) -> None:
         self.designs = tuple(installed.on(design) for design in designs) if installed else designs
         self.shares, self.concept = shares, concept
@@ -156,7 +172,8 @@ class _Task:
             shapes = installed.shapes_in(designs[0])
             at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
             self.shapes = derating * (at - reference)
-        self.bounds = self._jig_bounds() + self._swing_bounds(installed, orientation)
+        swings = list(ends) if ends is not None else self._swing_bounds(installed, orientation)
+        self.bounds = self._jig_bounds() + swings
         self.low = np.array([low for low, _ in self.bounds])
         self.span = np.array([high - low for low, high in self.bounds])
 
@@ -210,7 +227,7 @@ class _Task:
     def _power(self, x: Array) -> tuple[float, Array] | None:
         """Mean power and its gradient by x; None when a condition does not trim."""
         values = (self.low + self.span * x).tolist()
-        own = len(values) - 2 * self.segments
+        own = len(values) - len(self.designs) * self.segments
         jig = values[:own]
         power, slope = 0.0, np.zeros_like(x)
         for k, (design, share) in enumerate(zip(self.designs, self.shares, strict=True)):
