@@ -72,7 +72,7 @@
     if (!now) { stop(); card.innerHTML = ''; return; }
     if (!own && !playing && performance.now() - moved > 900) at = clamp(now.at, 0, last());
     if (!card.firstChild) {
-      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><span class="rxf-dim" data-words></span><div class="rxf-key"></div></div>
+      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b><span class="rxf-dim rxf-num" data-words></span><div class="rxf-key"></div></div>
         <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button><input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`;
       button();
     }
@@ -126,19 +126,19 @@
     slider.style.setProperty('--at', `${100 * at / last()}%`);
     const {X, Y, width, height} = scale, x = X(at), near = now.legs[Math.round(at)];
     card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', k === Math.round(at)));
-    let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words;
+    let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
     if (now.wanted) {
-      const wanted = between(now.wanted, at), reached = between(now.reached, at), net = between(now.net, at), right = x > width * 0.62;
-      const said = `${degrees(reached)} of ${degrees(wanted)}`, y = Y(reached), top = y < height / 2 ? Math.min(y + 24, height - 8) : Math.max(y - 13, 16);
-      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="4.5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${y}" r="6" class="rxf-fly-dot"/><text x="${x + (right ? -11 : 11)}" y="${top}" text-anchor="${right ? 'end' : 'start'}" class="rxf-fly-said rxf-num" data-explorer="tip-twist">${said}</text>`;
-      if (now.kind === 'ready') words = `of change, flying from hover to fast · now net ${net < 0 ? '−' : '+'}${Math.abs(net).toFixed(1)} ${now.unit}`;
-      slider.ariaValueText = `${near[0]}: ${said} wanted, net ${net.toFixed(1)} ${now.unit}`;
+      const wanted = between(now.wanted, at), reached = between(now.reached, at), net = between(now.net, at);
+      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(reached)}" r="6.5" class="rxf-fly-dot"/>`;
+      said = degrees(reached);
+      words = `of ${degrees(wanted)} wanted${now.kind === 'ready' ? ` · net ${net < 0 ? '−' : '+'}${Math.abs(net).toFixed(1)} ${now.unit} here` : ' · computing…'}`;
+      slider.ariaValueText = `${near[0]}: ${said} ${words}`;
     } else slider.ariaValueText = near[0];
-    card.querySelector('[data-marker]')?.replaceChildren();
     const group = card.querySelector('[data-marker]');
     if (group) group.innerHTML = inside;
     const place = card.querySelector('[data-words]');
     if (place.textContent !== words) place.textContent = words;
+    card.querySelector('[data-explorer=tip-twist]').textContent = said;
   }
 
   // One waterfall: where the power goes.
@@ -159,8 +159,8 @@
     bars.forEach((bar, k) => {
       const [from, to] = ends[k], x = room * (k + .5), top = Math.min(Y(from), Y(to)), tall = Math.max(2, Math.abs(Y(to) - Y(from))), up = to > from;
       if (k) inside += `<path d="M${room * (k - .5) + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (bar.total ? wide / 2 : -wide / 2)}" class="rxf-earns-link"/>`;
-      inside += `<rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3" class="rxf-earns-bar" data-kind="${bar.value < 0 ? 'loss' : 'gain'}" ${bar.total ? 'data-total' : ''}/>
-        <text x="${x}" y="${(up ? top - 5 : top + tall + 14).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.value < 0 ? 'loss' : 'gain'}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
+      inside += `<rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3" class="rxf-earns-bar" data-kind="${bar.kind}" ${bar.total ? 'data-total' : ''}/>
+        <text x="${x}" y="${(up ? top - 5 : top + tall + 14).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.kind}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
         <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${bar.total ? 'data-total' : ''}>${text(bar.name)}</text>`;
     });
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -173,7 +173,7 @@
     if (!now || !change) return;
     change.innerHTML = `<div class="rxf-since rxf-num" data-explorer="since"><span data-kind="${now.kind === 'ready' ? now.net_kind : ''}">${text(now.net)}</span> <small>${text(now.net_words)}</small></div><div class="rxf-why">${text(now.sentence)}</div>`;
     const under = part('power').querySelector('.rxf-sub');
-    if (under) under.textContent = 'at this twist, its mass left out';
+    if (under) under.textContent = 'at this twist, without its mass';
   });
   for (const [name, place] of [['flight', card], ['earns', earns]]) new ResizeObserver(() => { if (RX.state[name]) RX.again(name); }).observe(place);
 })();

@@ -56,7 +56,7 @@ class ActuatorInputs:
     """Per cent of half the voltage range."""
     phase: float = 0.0
     """[°]"""
-    magnified: float = 5.0
+    magnified: float = 8.0
     """How much the actuator's part of the twist is exaggerated in the lifted blade."""
 
     @property
@@ -96,6 +96,10 @@ class ActuatorInputs:
     def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
         """The steady twist that the actuator adds at r/R, as counted on [rad]."""
         return self.share * installed.change(self.swings(installed), r)
+
+    def tip(self, installed: InstalledActuator, design: Design) -> float:
+        """Steady twist of the tip, as counted on [rad]: of the blade at rest where the trim is elastic."""
+        return self.share * float(np.asarray(self.swings(installed)) @ installed.shapes_in(design)[:, -1])
 
     def turning(self, installed: InstalledActuator, elastic: bool = False) -> DynamicTwist | None:
         """What the whole range makes at the chosen harmonic, as counted on; at rest for an elastic trim."""

@@ -96,8 +96,7 @@ class ActuatorPanel:
         self._controls.arrange(inputs, installed)
         alone = self._undriven.solve(design) if inputs.driven else None
         self._draw(inputs, installed, design, psi, solution, alone or solution)
-        change = solution.power.total - alone.power.total if alone is not None and alone.converged else None
-        self._set("now", self._controls.now, words.now_panel(inputs, installed, change, solution))
+        self._set("now", self._controls.now, words.now_panel(inputs, installed, solution))
         self._show_sweep(inputs, design)
         self._set("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
         self._controls.electrodes.show(installed.actuator, inputs.volts(installed))

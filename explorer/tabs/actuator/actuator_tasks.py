@@ -4,13 +4,14 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from itertools import chain, pairwise
 from typing import Any, Protocol
 
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
 from rotor.actuator.catalogue import actuators, find_actuator
-from rotor.actuator.flight import STANDARD_FLIGHT, ActuatorFlight, FlightLeg, fly
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.harmonic import PowerMap, power_map
 from rotor.actuator.verdict import Verdict, judge
 from rotor.design.design import Design
@@ -77,23 +78,24 @@ class FlightTask:
         """The flight, or the sentence that says why there is none."""
         del tell, stop
         try:
-            return fly(self.verdict, FLIGHT)
+            return fly(self.verdict, flight_legs(self.verdict.baseline.pair.design))
         except (ValueError, RuntimeError) as error:
             return str(error)
 
 
-def _with_halves(legs: tuple[FlightLeg, ...]) -> tuple[FlightLeg, ...]:
+@lru_cache(maxsize=8)
+def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
+    """The standard flight of a design, with a leg half way between any two."""
+    legs = standard_flight(design)
     halves = [
         FlightLeg(
-            f"{a.name} to {b.name}", 0.5 * (a.advance_ratio + b.advance_ratio), 0.5 * (a.climb_speed + b.climb_speed)
+            f"{a.name} to {b.name}",
+            0.5 * (a.advance_ratio + b.advance_ratio),
+            0.5 * (a.climb_speed + b.climb_speed),
         )
         for a, b in pairwise(legs)
     ]
     return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])
-
-
-FLIGHT = _with_halves(STANDARD_FLIGHT)
-"""The legs with a name, and one half way between any two."""
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy as np
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_tasks import FLIGHT
+from explorer.tabs.actuator.actuator_tasks import flight_legs
 from explorer.tabs.context import TabContext
 from rotor.actuator.flight import ActuatorFlight, FlightLeg
 from rotor.actuator.installation import InstalledActuator
@@ -27,21 +28,21 @@ _LEAST = math.radians(1.5)
 """Least height of the chart either way [rad]: with little twist the curves do not fill it."""
 
 
-def condition_at(x: float) -> tuple[float, float]:
+def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
     """µ and rate of climb [m/s] at a place of the bar, which counts named legs from 0; between legs straight."""
-    at = np.arange(len(FLIGHT)) / HALVES
-    mu, climb = (
-        float(np.interp(x, at, [getattr(leg, name) for leg in FLIGHT])) for name in ("advance_ratio", "climb_speed")
-    )
+    at = np.arange(len(legs)) / HALVES
+    mu = float(np.interp(x, at, [leg.advance_ratio for leg in legs]))
+    climb = float(np.interp(x, at, [leg.climb_speed for leg in legs]))
     return round(mu, 3), round(climb, 2)
 
 
-def place_of(advance_ratio: float) -> float:
+def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
     """Where on the bar an advance ratio is: it grows from leg to leg."""
-    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in FLIGHT], np.arange(len(FLIGHT)) / HALVES))
+    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
 
 
 def flight_state(
+    legs: Sequence[FlightLeg],
     flight: ActuatorFlight | None,
     known: bool,
     advance_ratio: float,
@@ -55,8 +56,8 @@ def flight_state(
     """
     unit = units.power[0]
     state: dict[str, Any] = {
-        "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in FLIGHT[::HALVES]],
-        "at": round(place_of(advance_ratio), 3),
+        "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in legs[::HALVES]],
+        "at": round(place_of(legs, advance_ratio), 3),
         "kind": "ready" if known and flight else "problem" if problem else "computing",
         "words": problem or ("computing…" if not known else ""),
         "unit": unit.symbol,
@@ -98,10 +99,9 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
         }  # fmt: skip
     unit, net = units.power[0], verdict.net_saving
     bars = [
-        {"name": name if not k else f"− {name}", "value": round(unit.of(power), 3), "text": signed(power, units)}
-        for k, (name, power) in enumerate(verdict.savings)
+        _bar(name if not k else f"− {name}", power, units, False) for k, (name, power) in enumerate(verdict.savings)
     ]
-    bars.append({"name": "= net", "value": round(unit.of(net), 3), "text": signed(net, units), "total": True})
+    bars.append(_bar("= net", net, units, True))
     first, second = verdict.baseline.pair.advance_ratios
     fuel, caveats = verdict.fuel_saving, " ".join(text for text in verdict.caveats if "uel" in text)
     used = None if fuel is None else -_SECONDS * fuel
@@ -120,6 +120,12 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     }
 
 
+def _bar(name: str, power: float, units: Units, total: bool) -> dict[str, Any]:
+    text = signed(power, units)
+    kind = {"−": "loss", "+": "gain"}.get(text[0], "")
+    return {"name": name, "value": round(units.power[0].of(power), 3), "text": text, "kind": kind, "total": total}
+
+
 def signed(power: float, units: Units) -> str:
     """A saving [W] in the main unit, with one decimal."""
     return number(units.power[0].of(power), 1, sign=True)
@@ -133,6 +139,7 @@ class FlightBar:
         self._flight: ActuatorFlight | None = None
         """The last one known."""
         self._verdict: Verdict | None = None
+        self._legs: tuple[FlightLeg, ...] = ()
         self._installed: InstalledActuator | None = None
         self._flown: float | None = None
         """Where on the bar the voltages follow the flight; None where a hand set them."""
@@ -147,7 +154,7 @@ class FlightBar:
         flight: ActuatorFlight | str | None,
     ) -> None:
         """Follow the session. Verdict and flight: the sentence that says why there is none, or None on their way."""
-        self._installed = installed
+        self._legs, self._installed = flight_legs(design), installed
         known = isinstance(flight, ActuatorFlight)
         if isinstance(flight, ActuatorFlight) and flight is not self._flight:
             self._flight = flight
@@ -159,7 +166,9 @@ class FlightBar:
         problem = flight if isinstance(flight, str) else verdict if isinstance(verdict, str) else ""
         wrong = verdict if isinstance(verdict, str) else ""
         self._context.bridge.set(
-            flight=flight_state(None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem),
+            flight=flight_state(
+                self._legs, None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem
+            ),
             earns=earns_state(None if wrong else self._verdict, isinstance(verdict, Verdict), units, wrong),
         )
 
@@ -175,10 +184,10 @@ class FlightBar:
         self._flown = None
 
     def _fly(self, x: Any) -> None:
-        if self._context.held:
+        if self._context.held or not self._legs:
             return
-        self._flown = min(max(float(x), 0.0), (len(FLIGHT) - 1) / HALVES)
-        mu, climb = condition_at(self._flown)
+        self._flown = min(max(float(x), 0.0), (len(self._legs) - 1) / HALVES)
+        mu, climb = condition_at(self._legs, self._flown)
         self._drive(self._flown)
         self._context.drag_to(replace(self._context.inputs(), advance_ratio=mu, climb_m_s=climb))
 

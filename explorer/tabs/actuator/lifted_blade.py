@@ -187,14 +187,14 @@ def edge_segments(blade: LiftedBlade, twist: Array) -> Array:
     return _joined([rings[:, nose], rings[:, 0], rings[0], rings[-1]])
 
 
-def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array) -> Array:
-    """Fibres at 45° on the outside of a ply or laminate, as they look in the drawing, (segments, 2, 3)."""
+def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array, crossed: bool) -> Array:
+    """Fibres on the outside of a ply or laminate, at 45° in the drawing, `crossed` at −45°, (segments, 2, 3)."""
     surface = _turned(blade, part.r, part.outer, twist)
     length = float(surface[-1, 0, 0] - surface[0, 0, 0])
     width = float(np.linalg.norm(np.diff(surface[0], axis=0), axis=1).sum())
     share, lines = np.linspace(0.0, 1.0, 9), list[Array]()
     for start in np.arange(-width, length, _FIBRE_STEP):
-        along = start + width * share
+        along = start + width * (1.0 - share if crossed else share)
         inside = (along >= 0.0) & (along <= length)
         if inside.sum() > 1:
             lines.append(_on(surface, along[inside] / length, share[inside]))
@@ -335,6 +335,6 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
     pose = lifted_pose(radius)
     ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
     box = np.array(
-        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.06 * radius, 0.11 * radius)]
+        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.07 * radius, 0.24 * radius)]
     )
     return framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)

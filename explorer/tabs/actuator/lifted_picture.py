@@ -9,6 +9,7 @@ from html import escape
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from explorer.hosting import viser_compat
 from explorer.hosting.bridge import Bridge
@@ -52,7 +53,8 @@ EDGE: Rgb = (200, 40, 18)
 """Of the lifted blade: that of the reference blade."""
 GHOST: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
-FIBRE: Rgb = (150, 84, 36)
+FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 214, 140))
+"""At rest, and at full voltage."""
 ARROW: Rgb = (37, 99, 235)
 LEADER: Rgb = (128, 136, 150)
 
@@ -74,8 +76,10 @@ class LiftedPicture:
     solids: dict[str, Solid]
     lines: dict[str, Array]
     """By name, (segments, 2, 3)."""
-    labels: tuple[tuple[str, Array], ...]
-    """Text and where it stands [m]."""
+    labels: tuple[tuple[str, str, Array], ...]
+    """Kind, text and where it stands [m]."""
+    lit: float
+    """How brightly the fibres shine, 0…1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,27 +138,27 @@ def lifted_picture(
         light = glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
         solids[name] = Solid(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
         if part.role in ("ply", "laminate"):
-            fibres.append(lifted.fibre_segments(blade, part, twist(part.r)))
+            fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
     root = float(twist(np.array([rotor.blade.root_cutout]))[0])
     shank, box = lifted.root_parts(blade, rotor, root)
     solids["shank"] = Solid(shank, SURFACES["shank"])
     if not isinstance(installed.actuator, ExtensionTwist):
         solids["box"] = Solid(box, SURFACES["box"])
     rings = twist(blade.r)
-    tip = float(moved(np.ones(1))[0])
     ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
-    labels, leaders = _labels(inputs, installed, blade, twist, tip)
+    labels, leaders = _labels(inputs, installed, blade, twist, inputs.tip(installed, design))
     return LiftedPicture(
         solids,
         {
             "edges": lifted.edge_segments(blade, rings),
-            "ghost": lifted.edge_segments(blade, still(blade.r)) if abs(tip) > 1e-4 else _NONE,
+            "ghost": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
             "leads": lifted.lead_segments(blade, rings),
             "fibres": np.concatenate(fibres) if fibres else _NONE,
             "arrow": lifted.arc_segments(blade, *ends),
             "leaders": leaders,
         },
         labels,
+        max((abs(share) for share in shares), default=0.0),
     )
 
 
@@ -185,8 +189,13 @@ def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
 
 def drive_colour(share: float) -> Rgb:
     """Of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
-    (colour, strength), bare = glow(share), SURFACES["ply"].colour
-    red, green, blue = (round(a + (b - a) * strength) for a, b in zip(bare, colour, strict=True))
+    colour, strength = glow(share)
+    return mixed(SURFACES["ply"].colour, colour, strength)
+
+
+def mixed(one: Rgb, other: Rgb, share: float) -> Rgb:
+    """A colour on the way from one to another."""
+    red, green, blue = (round(a + (b - a) * share) for a, b in zip(one, other, strict=True))
     return red, green, blue
 
 
@@ -202,39 +211,41 @@ def _labels(
     installed: InstalledActuator,
     blade: lifted.LiftedBlade,
     twist: Callable[[Array], Array],
-    moved: float,
-) -> tuple[tuple[tuple[str, Array], ...], Array]:
-    """Words, and the lines that lead to what they name."""
-    places: list[tuple[str, Array, Array]] = []
+    tip: float,
+) -> tuple[tuple[tuple[str, str, Array], ...], Array]:
+    """Words, and the lines that lead to what they name. `tip`: its twist [rad]."""
+    places: list[tuple[str, str, Array, Array]] = []
 
-    def put(text: str, r: float, y: float, z: float, above: float) -> None:
+    def put(text: str, r: float, y: float, z: float, above: float, kind: str = "lifted") -> None:
         foot = lifted.anchor(blade, r, y, z, float(twist(np.array([r]))[0]))
-        places.append((text, foot, foot + np.array([0.0, 0.0, above])))
+        places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
 
-    actuator, masses = installed.actuator, installed.masses
-    if not isinstance(actuator, ExtensionTwist):
-        put(f"Drive electronics, {number(masses.electronics, 1)} kg", sum(blade.box) / 2.0, 0.0, 0.10, 0.75)
+    if not isinstance(installed.actuator, ExtensionTwist):
+        put(
+            f"Drive electronics, {number(installed.masses.electronics, 1)} kg in all",
+            sum(blade.box) / 2.0,
+            0.0,
+            0.1,
+            0.7,
+        )
     for k, (low, high) in enumerate(blade.spans):
-        segment = f"{k + 1}: " if len(blade.spans) > 1 else ""
-        text = drive_text(inputs, installed, k)
-        if not k:
-            text = f"{_what(installed)}, {text}"
-        put(segment + text, 0.5 * (low + high), 0.05, 0.03, 0.65 if k % 2 == 0 else 0.95)
-    tip = math.degrees(moved)
-    if round(tip, 2):
-        times = f", drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else ""
-        put(f"{number(tip, 2, sign=True)}° at the tip{times}", 1.0, -0.56, 0.0, 0.0)
-    lines = [np.stack((foot, head)) for _, foot, head in places if head[2] > foot[2]]
-    return tuple((text, head) for text, _, head in places), np.stack(lines) if lines else _NONE
+        drive = drive_text(inputs, installed, k)
+        text = f"{_what(inputs, installed)}: {drive}" if not k else f"{k + 1}: {drive}"
+        put(text, 0.5 * (low + high), 0.05, 0.03, 0.65 if k % 2 == 0 else 0.3)
+    if round(math.degrees(tip), 2):
+        times = f" at the tip, drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else " at the tip"
+        put(f"{number(math.degrees(tip), 2, sign=True)}°{times}", 1.0, -0.52, 0.0, -0.45, "tip")
+    lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
+    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
 
 
-def _what(installed: InstalledActuator) -> str:
+def _what(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
     """The actuator where it sits, in words."""
     placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg a blade"
     where = "{:.2f}–{:.2f} R".format(*placement.span)
     if isinstance(installed.actuator, PiezoPly):
-        plies = "ply" if placement.plies == 1 else "plies"
-        return f"{placement.plies} {plies} a side at ±45°, {where}, {mass}"
+        plies, angle = "ply" if placement.plies == 1 else "plies", "−45" if inputs.crossed else "45"
+        return f"{placement.plies} {plies} a side at {angle}°, {where}, {mass}"
     if isinstance(installed.actuator, TorqueTube):
         return f"{installed.actuator.name}, {where}, {mass}"
     return installed.actuator.name
@@ -317,9 +328,18 @@ def _caption(installed: InstalledActuator, segment: int) -> str:
 
 
 _NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
-_LINES = {"edges": (EDGE, 2.2), "ghost": (GHOST, 1.6), "leads": (LEAD, 3.0), "fibres": (FIBRE, 1.0),
-          "arrow": (ARROW, 5.0), "leaders": (LEADER, 1.2)}  # fmt: skip
+_LINES: dict[str, tuple[Rgb, float]] = {
+    "edges": (EDGE, 2.2), "ghost": (GHOST, 1.6), "leads": (LEAD, 3.0), "fibres": (FIBRE[0], 1.1), "arrow": (ARROW, 5.0),
+    "leaders": (LEADER, 1.2),
+}  # fmt: skip
 """Colours and widths [px] by name."""
+
+
+def _even(colour: Rgb, segments: int) -> NDArray[np.uint8]:
+    """For each point, since the page cannot change from one colour for all to one for each."""
+    return np.tile(np.array(colour, dtype=np.uint8), (segments, 2, 1))
+
+
 FLIES = 0.9
 """How long the blade flies out of the rotor or back [s]."""
 
@@ -334,7 +354,7 @@ class LiftedScene:
         self._solids: dict[str, viser.MeshHandle] = {}
         self._lines = {
             name: self._api.add_line_segments(
-                f"{NODE}/{name}", _NOTHING, colour, thickness=pixels, thickness_units="screen", visible=False
+                f"{NODE}/{name}", _NOTHING, _even(colour, 1), thickness=pixels, thickness_units="screen", visible=False
             )
             for name, (colour, pixels) in _LINES.items()
         }
@@ -375,14 +395,15 @@ class LiftedScene:
             segments = picture.lines[name]
             handle.visible = len(segments) > 0
             if len(segments):
-                handle.points = segments.astype(np.float32)
+                colour = mixed(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
+                handle.points, handle.colors = segments.astype(np.float32), _even(colour, len(segments))
         lit = {f"{NODE}/{name}": solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
         call(
             self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
         )
         labels = [
-            {"text": text, "node": NODE, "at": np.round(at, 3).tolist(), "kind": "lifted"}
-            for text, at in picture.labels
+            {"text": text, "node": NODE, "at": np.round(at, 3).tolist(), "kind": kind}
+            for kind, text, at in picture.labels
         ]
         self._bridge.set(lifted_labels=labels)
 
