@@ -72,7 +72,7 @@
     if (!now) { stop(); card.innerHTML = ''; return; }
     if (!own && !playing && performance.now() - moved > 900) at = clamp(now.at, 0, last());
     if (!card.firstChild) {
-      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b><span class="rxf-dim rxf-num" data-words></span><div class="rxf-key"></div></div>
+      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b><span class="rxf-dim rxf-num" data-words></span></div>
         <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button><input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`;
       button();
     }
@@ -83,7 +83,6 @@
       legs.dataset.names = names;
       legs.innerHTML = now.legs.map(([name, words], k) => `<button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}"><b>${text(name)}</b><small>${text(words)}</small></button>`).join('');
     }
-    card.querySelector('.rxf-key').innerHTML = '<span><i data-wanted></i>wanted</span><span><i data-reached></i>reached</span><span><i data-band></i>within reach</span><span><i data-gap></i>short</span>';
     card.toggleAttribute('data-faded', now.kind !== 'ready');
     card.dataset.kind = now.kind;
     draw(now);
@@ -110,9 +109,12 @@
       const held = now.wanted.map(y => clamp(y, ...now.reach)), line = values => values.map((y, k) => `${X(k * step).toFixed(1)} ${Y(y).toFixed(1)}`);
       inside += `<path d="M${[...line(now.wanted), ...line(held).reverse()].join('L')}Z" class="rxf-fly-gap"/><path d="M${line(now.reached).join('L')}" class="rxf-fly-reached"/><path d="M${line(now.wanted).join('L')}" class="rxf-fly-wanted"/>`;
       const gaps = now.wanted.map((y, k) => Math.abs(y - held[k])), worst = gaps.indexOf(Math.max(...gaps));
+      const end = now.wanted.length - 1, above = now.wanted[end] > now.reached[end];
+      inside += `<text x="${width - RIGHT - 4}" y="${Y(now.wanted[end]) + (above ? -7 : 17)}" text-anchor="end" class="rxf-fly-name" data-wanted>wanted</text><text x="${width - RIGHT - 4}" y="${Y(now.reached[end]) + (above ? 17 : -7)}" text-anchor="end" class="rxf-fly-name" data-reached>reached</text>`;
+      if (Y(now.reach[0]) - Y(now.reach[1]) > 18) inside += `<text x="${LEFT + 6}" y="${Y(now.reach[1]) + 14}" class="rxf-fly-name">within reach</text>`;
       if (gaps[worst] > 0.15) {
-        const y = Y((now.wanted[worst] + held[worst]) / 2), x = X(worst * step), end = worst * 2 > now.wanted.length - 1;
-        inside += `<text x="${clamp(x, LEFT + 8, width - RIGHT - 8)}" y="${y + 4}" text-anchor="${worst ? end ? 'end' : 'middle' : 'start'}" class="rxf-fly-short">short by ${gaps[worst].toFixed(1)}°</text>`;
+        const y = Y((now.wanted[worst] + held[worst]) / 2), x = X(worst * step);
+        inside += `<text x="${clamp(x, LEFT + 8, width - RIGHT - 8)}" y="${y + 4}" text-anchor="${worst === end ? 'end' : worst ? 'middle' : 'start'}" class="rxf-fly-short">short by ${gaps[worst].toFixed(1)}°</text>`;
       }
     }
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -147,20 +149,20 @@
     RX.again('power');
     if (!now) { earns.innerHTML = ''; return; }
     earns.toggleAttribute('data-faded', now.kind !== 'ready');
-    earns.innerHTML = `<div class="rxf-head"><b>What it earns</b><span class="rxf-dim">${text(now.where)}</span></div><svg role="img"></svg>
-      <div class="rxf-earns-foot"><span class="rxf-dim">against</span> <button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
+    earns.innerHTML = `<div class="rxf-head"><b>What it earns</b><span class="rxf-dim">${text(now.unit)}, against</span><button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button></div><svg role="img"></svg>
+      <div class="rxf-earns-foot"><span class="rxf-dim">${text(now.where)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
     if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
     let sum = 0;
     const ends = bars.map(bar => { const from = bar.total ? 0 : sum; sum = bar.total ? bar.value : sum + bar.value; return [from, sum]; });
     const all = [0, ...ends.flat()], low = Math.min(...all), high = Math.max(...all), span = Math.max(high - low, 1e-6);
-    const Y = v => 20 + (high - v) / span * (height - 58), room = width / bars.length, wide = Math.min(64, 0.66 * room);
+    const Y = v => 20 + (high - v) / span * (height - 62), room = width / bars.length, wide = Math.min(64, 0.66 * room);
     let inside = `<path d="M0 ${Y(0).toFixed(1)}H${width}" stroke="var(--rx-faint)"/>`;
     bars.forEach((bar, k) => {
       const [from, to] = ends[k], x = room * (k + .5), top = Math.min(Y(from), Y(to)), tall = Math.max(2, Math.abs(Y(to) - Y(from))), up = to > from;
       if (k) inside += `<path d="M${room * (k - .5) + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (bar.total ? wide / 2 : -wide / 2)}" class="rxf-earns-link"/>`;
       inside += `<rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3" class="rxf-earns-bar" data-kind="${bar.kind}" ${bar.total ? 'data-total' : ''}/>
-        <text x="${x}" y="${(up ? top - 5 : top + tall + 14).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.kind}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
+        <text x="${x}" y="${(up ? top - 5 : top + tall + (bar.total ? 18 : 14)).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.kind}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
         <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${bar.total ? 'data-total' : ''}>${text(bar.name)}</text>`;
     });
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);

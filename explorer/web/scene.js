@@ -39,7 +39,7 @@
         const {material} = part, wanted = `${colour} ${strength}`;
         if (!part.isMesh || !material?.emissive || material.userData.lit === wanted) return;
         material.emissive.set(colour);
-        material.emissiveIntensity = 0.85 * strength;
+        material.emissiveIntensity = 0.9 * strength;
         material.userData.lit = wanted;
         changed = true;
       });

@@ -94,8 +94,9 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     if verdict is None:
         sentence = problem or "Computing what the actuator saves and what it costs…"
         return {
-            "kind": kind, "where": "", "bars": [], "against": "best fixed blade", "fuel": "", "fuel_kind": "",
-            "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net", "sentence": sentence,
+            "kind": kind, "unit": units.power[0].symbol, "where": "", "bars": [], "against": "best fixed blade",
+            "fuel": "", "fuel_kind": "", "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net",
+            "sentence": sentence,
         }  # fmt: skip
     unit, net = units.power[0], verdict.net_saving
     bars = [
@@ -107,7 +108,8 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     used = None if fuel is None else -_SECONDS * fuel
     return {
         "kind": kind,
-        "where": f"{unit.symbol}, mean of µ {first:g} and µ {second:g}",
+        "unit": unit.symbol,
+        "where": f"mean of µ {first:g} and µ {second:g}",
         "bars": bars,
         "against": reference(verdict).removeprefix("the "),
         "fuel": "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour",

@@ -335,6 +335,6 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
     pose = lifted_pose(radius)
     ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
     box = np.array(
-        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.07 * radius, 0.24 * radius)]
+        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
     )
     return framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)

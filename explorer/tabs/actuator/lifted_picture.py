@@ -49,11 +49,11 @@ SURFACES = {
     "tube": Surface((84, 66, 50)),
     "laminate": Surface((90, 84, 60), 0.5),
 }
-EDGE: Rgb = (200, 40, 18)
+EDGE: Rgb = (178, 20, 6)
 """Of the lifted blade: that of the reference blade."""
 GHOST: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
-FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 214, 140))
+FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (37, 99, 235)
 LEADER: Rgb = (128, 136, 150)
@@ -184,7 +184,7 @@ def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
     strength = min(abs(share), 1.0)
     if role == "tube":
         return (255, round(40 + 130 * strength), round(10 + 40 * strength**2)), strength
-    return ((255, 92, 6) if share >= 0.0 else (40, 128, 255)), strength
+    return ((255, 78, 0) if share >= 0.0 else (0, 66, 255)), strength
 
 
 def drive_colour(share: float) -> Rgb:
@@ -226,12 +226,12 @@ def _labels(
             sum(blade.box) / 2.0,
             0.0,
             0.1,
-            0.7,
+            0.95,
         )
     for k, (low, high) in enumerate(blade.spans):
         drive = drive_text(inputs, installed, k)
         text = f"{_what(inputs, installed)}: {drive}" if not k else f"{k + 1}: {drive}"
-        put(text, 0.5 * (low + high), 0.05, 0.03, 0.65 if k % 2 == 0 else 0.3)
+        put(text, low + 0.56 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
         times = f" at the tip, drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else " at the tip"
         put(f"{number(math.degrees(tip), 2, sign=True)}°{times}", 1.0, -0.52, 0.0, -0.45, "tip")
