@@ -122,45 +122,44 @@
     show(psi);
   };
 
-  // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the rotor's
-  // reference blade to where it is held, or back. `offset`: of the blade's origin from the flap hinge, along it.
   const smooth = t => t * t * t * (t * (6 * t - 15) + 10);
   let flight = 0;
-  function lift(name, out, duration, held, offset) {
-    const client = viewer(), control = client.cameraControl, own = ++flight, begun = performance.now();
-    if (calm.matches || !control || !client.camera) return;
-    const vector = () => client.camera.position.clone(), get = () => ({p: control.getPosition(vector()), t: control.getTarget(vector())});
-    const start = get();
-    let last = start, goal = null;
-    const pose = () => {
-      const root = client.nodeRefFromName[name]?.parent, blade = client.nodeRefFromName[`/rotor/blade_0`];
-      if (!root || !blade) return null;
-      blade.updateWorldMatrix(true, false);
-      const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), place = vector();
-      at.decompose(place, turn, vector());
-      return {place: place.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
-    };
-    const frame = now => {
-      if (own !== flight) return;
-      const e = smooth(Math.min(1, (now - begun) / duration)), here = get();
-      if (!goal || here.p.distanceTo(last.p) > 1e-3 || here.t.distanceTo(last.t) > 1e-3) goal = here;
-      const p = start.p.clone().lerp(goal.p, e), t = start.t.clone().lerp(goal.t, e);
-      control.setLookAt(p.x, p.y, p.z, t.x, t.y, t.z, false);
-      last = get();
-      const blade = pose();
-      if (blade) {
-        const share = out ? e : 1 - e, [w, x, y, z] = held.wxyz;
-        const place = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
-        client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: place.toArray(), poseUpdateState: 'needsUpdate'};
-      }
-      client.requestRender?.();
-      if (e < 1) requestAnimationFrame(frame);
-    };
-    frame(begun);
-  }
 
   window.rotorScene = {
-    lift,
+    // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the rotor's
+    // reference blade to where it is held, or back. `offset`: of the blade's origin from the flap hinge, along it.
+    lift(name, out, duration, held, offset) {
+      const client = viewer(), control = client.cameraControl, own = ++flight, begun = performance.now();
+      if (calm.matches || !control || !client.camera) return;
+      const vector = () => client.camera.position.clone(), get = () => ({p: control.getPosition(vector()), t: control.getTarget(vector())});
+      const start = get();
+      let last = start, goal = null;
+      const pose = () => {
+        const root = client.nodeRefFromName[name]?.parent, blade = client.nodeRefFromName[`/rotor/blade_0`];
+        if (!root || !blade) return null;
+        blade.updateWorldMatrix(true, false);
+        const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), place = vector();
+        at.decompose(place, turn, vector());
+        return {place: place.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
+      };
+      const frame = now => {
+        if (own !== flight) return;
+        const e = smooth(Math.min(1, (now - begun) / duration)), here = get();
+        if (!goal || here.p.distanceTo(last.p) > 1e-3 || here.t.distanceTo(last.t) > 1e-3) goal = here;
+        const p = start.p.clone().lerp(goal.p, e), t = start.t.clone().lerp(goal.t, e);
+        control.setLookAt(p.x, p.y, p.z, t.x, t.y, t.z, false);
+        last = get();
+        const blade = pose();
+        if (blade) {
+          const share = out ? e : 1 - e, [w, x, y, z] = held.wxyz;
+          const place = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
+          client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: place.toArray(), poseUpdateState: 'needsUpdate'};
+        }
+        client.requestRender?.();
+        if (e < 1) requestAnimationFrame(frame);
+      };
+      frame(begun);
+    },
     glow(wanted) { lit = wanted; light(); },
     // Turn at this rate [rad/s] while nothing is heard of the azimuth; 0: no more.
     spin(wanted) { spin = wanted; },

@@ -37,9 +37,9 @@ from explorer.tabs.actuator.lifted_picture import (
     flown_twist,
     glow,
     lifted_picture,
-    section_svg,
     voltage_shares,
 )
+from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap

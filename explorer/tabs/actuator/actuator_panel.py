@@ -12,9 +12,9 @@ from explorer.tabs.actuator.lifted_picture import (
     LiftedScene,
     flown_twist,
     lifted_picture,
-    section_svg,
     voltage_shares,
 )
+from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap
