@@ -224,17 +224,24 @@ def _covered(spec: SectionSpec, placement: Placement) -> float:
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
     """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
-    blade, rotor, added = design.rotor.blade, design.rotor, installed.added
+    masses = installed.masses
+    return installed.on(heavier(design, masses.blade, installed.added.span, masses.aircraft))
+
+
+def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: float) -> Design:
+    """The design with a mass [kg] spread evenly over a span [m] of each blade, and with `aircraft` [kg] in all."""
+    blade, rotor = design.rotor.blade, design.rotor
     hinge = blade.flap_hinge * rotor.radius
-    inner, outer = (end - hinge for end in added.span)
-    heavier = replace(
+    inner, outer = (end - hinge for end in span)
+    line = mass / (outer - inner)
+    loaded = replace(
         blade,
-        mass=blade.mass + installed.masses.blade,
-        flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
-        flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
+        mass=blade.mass + mass,
+        flap_static_moment=blade.flap_static_moment + line * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + line * (outer**3 - inner**3) / 3.0,
     )
-    condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
-    return installed.on(replace(design, rotor=replace(rotor, blade=heavier), condition=condition))
+    condition = replace(design.condition, mass=design.condition.mass + aircraft)
+    return replace(design, rotor=replace(rotor, blade=loaded), condition=condition)
 
 
 def change_limit(

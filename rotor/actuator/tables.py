@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import ENOUGH, BreakEven
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import Concept, find_concept
@@ -162,3 +163,29 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def kilowatts(power: float) -> str:
     """Kilowatts with one decimal, without negative zero."""
     return f"{round(power / 1e3, 1) + 0.0:.1f}"
+
+
+def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
+    """What an actuator would have to be, a rotor a row."""
+    columns = (
+        "rotor", "µ", "optima apart °", "unlimited twist saves kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W",
+        "mass ≤ kg, no drive",
+    )  # fmt: skip
+    rows: list[tuple[str, ...]] = []
+    for even in lines:
+        needed, pair = even.requirement, even.pair
+        wanted = [NONE] * 4
+        if even.worthwhile:
+            wanted = [
+                f"{math.degrees(needed.twist):.1f}", f"{needed.mass:.1f}", f"{needed.drive:.0f}",
+                f"{even.mass_allowed(needed.twist):.1f}",
+            ]  # fmt: skip
+        mu = " and ".join(f"{one:g}" for one in pair.advance_ratios)
+        apart = f"{math.degrees(abs(even.change)):.1f}"
+        rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
+    notes = (
+        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
+        "unlimited twist saves over the best fixed blade) and all blades together gain no more than this mass while "
+        "it draws no more than this power; less of one allows more of the other. Mass alone: the last column.",
+    )
+    return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)
