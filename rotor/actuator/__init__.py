@@ -11,6 +11,7 @@ from rotor.actuator.fuel import Engines, engines_of
 from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
 from rotor.actuator.programmes import Programme, programmes
 from rotor.actuator.section import Host, Placement
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -18,6 +19,7 @@ from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details
 __all__ = (
     "Actuator",
     "ActuatorFlight",
+    "BreakEven",
     "ConditionPair",
     "DynamicTwist",
     "Engines",
@@ -26,6 +28,7 @@ __all__ = (
     "FlightMoment",
     "Host",
     "InstalledActuator",
+    "PaySearch",
     "PiezoPly",
     "Placement",
     "PowerMap",
@@ -33,15 +36,18 @@ __all__ = (
     "TorqueTube",
     "Verdict",
     "actuators",
+    "break_even",
     "engines_of",
     "find_actuator",
     "fly",
     "install",
     "judge",
+    "pay_sentence",
     "power_map",
     "programmes",
     "standard_flight",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",
+    "what_would_pay",
 )

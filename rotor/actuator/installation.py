@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
 from rotor.actuator.section import Host, Placement, SectionSpec, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
@@ -57,8 +57,10 @@ def balance_mass(mass: float, centre: float) -> float:
     return max(0.0, mass * (centre - axis) / (axis - nose))
 
 
-def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_area: float) -> MassBreakdown:
-    """Mass breakdown of one placement; `skin_area` [m²]: area of one layer on one blade, both skins."""
+def mass_breakdown(
+    actuator: Actuator, placement: Placement, blades: int, skin_area: float, length: float
+) -> MassBreakdown:
+    """Mass breakdown; `skin_area` [m²]: area of one layer on one blade, both skins; `length` [m]: of all segments."""
     limits = structure_data()["limits"]
     wiring, electronics = float(limits["wiring_share"]), float(limits["electronics_share"])
     if isinstance(actuator, ExtensionTwist):
@@ -67,8 +69,9 @@ def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_a
         own = actuator.material.density * actuator.thickness * placement.plies * skin_area
         nose = balance_mass((1.0 + wiring) * own, 0.5 * sum(placement.chord))
         return MassBreakdown(own, wiring * own, nose, electronics * own * blades, blades)
-    own = actuator.mass * placement.plies * len(placement.segments)
-    return MassBreakdown(own, wiring * own, 0.0, electronics * own * blades, blades)
+    packages = placement.plies * actuator.mass * len(placement.segments)
+    own = packages + placement.plies * actuator.link_mass * length
+    return MassBreakdown(own, wiring * packages, 0.0, electronics * packages * blades, blades)
 
 
 def addition(
@@ -96,7 +99,7 @@ class InstalledActuator:
     section_stiffness: float
     """GJ of the active section [N m²]."""
     moment: float
-    """M_a [N m]; 0 for a passive laminate."""
+    """M_a [N m], of tubes the largest of the segments; 0 for a passive laminate."""
     twist_rate: float
     """θ'_a of the section, not rotating [rad/m]."""
     skin_area: float
@@ -161,25 +164,31 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
     covered = _covered(spec, placement)
     lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
     areas = covered * lengths
-    masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()))
-    stiffness, moment = spec.stiffness, 0.0
+    masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()), float(lengths.sum()))
+    stiffness, moment = spec.stiffness, 0.0  # A tube stands beside the blade: its own stiffness is in its torque.
     if isinstance(actuator, PiezoPly):
         section = active_section(spec, actuator, placement)
         stiffness = torsional_stiffness(section)
         moment = stiffness * induced_twist_rate(section)
-    elif not isinstance(actuator, ExtensionTwist):
-        moment = placement.plies * actuator.torque
     added = addition(masses, placement, structure, stiffness - spec.stiffness)
     beam, still = (
         torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
     )
+    moments = np.full(len(lengths), moment)
     if isinstance(actuator, ExtensionTwist):
         shapes = rest_shapes = _along_the_blade(actuator, beam)
     else:
-        shapes, rest_shapes = (
-            np.stack([_segment_shape(one, structure, span, moment) for span in placement.segments])
+        units, rest_units = (
+            np.stack([_segment_shape(one, structure, span, 1.0) for span in placement.segments])
             for one in (beam, still)
         )
+        if isinstance(actuator, TorqueTube):
+            pairs = zip(units[:, -1], lengths, strict=True)
+            moments = np.array(
+                [actuator.working_torque(float(unit), float(length), placement.plies) for unit, length in pairs]
+            )
+            moment = float(moments.max())
+        shapes, rest_shapes = moments[:, None] * units, moments[:, None] * rest_units
     return InstalledActuator(
         actuator=actuator,
         placement=placement,
@@ -224,17 +233,24 @@ def _covered(spec: SectionSpec, placement: Placement) -> float:
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
     """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
-    blade, rotor, added = design.rotor.blade, design.rotor, installed.added
+    masses = installed.masses
+    return installed.on(heavier(design, masses.blade, installed.added.span, masses.aircraft))
+
+
+def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: float) -> Design:
+    """The design with a mass [kg] spread evenly over a span [m] of each blade, and with `aircraft` [kg] in all."""
+    blade, rotor = design.rotor.blade, design.rotor
     hinge = blade.flap_hinge * rotor.radius
-    inner, outer = (end - hinge for end in added.span)
-    heavier = replace(
+    inner, outer = (end - hinge for end in span)
+    line = mass / (outer - inner)
+    loaded = replace(
         blade,
-        mass=blade.mass + installed.masses.blade,
-        flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
-        flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
+        mass=blade.mass + mass,
+        flap_static_moment=blade.flap_static_moment + line * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + line * (outer**3 - inner**3) / 3.0,
     )
-    condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
-    return installed.on(replace(design, rotor=replace(rotor, blade=heavier), condition=condition))
+    condition = replace(design.condition, mass=design.condition.mass + aircraft)
+    return replace(design, rotor=replace(rotor, blade=loaded), condition=condition)
 
 
 def change_limit(

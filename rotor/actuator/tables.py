@@ -7,8 +7,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.catalogue import STEPS, ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import ENOUGH, BreakEven
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import Concept, find_concept
@@ -43,7 +44,7 @@ def table_5_1() -> ActuatorTable:
     """Actuator properties."""
     columns = (
         "actuator", "mode", "E1 GPa", "E2 GPa", "G12 GPa", "d pm/V", "ΔES mm", "α 1e-6/V", "voltage V",
-        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "grade",
+        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "readiness", "grade",
     )  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for actuator in actuators().values():
@@ -56,6 +57,7 @@ def table_5_1() -> ActuatorTable:
             if keys
         )
         grade = grade or "sourced"
+        ready = f"{actuator.provenance.readiness} of {len(STEPS)}"
         if isinstance(actuator, PiezoPly):
             low, high = actuator.voltage_range
             gap = actuator.electrode_gap
@@ -66,13 +68,17 @@ def table_5_1() -> ActuatorTable:
                 f"{actuator.d_along / gap * 1e6:.2f}", f"{low:g}…{high:g}",
                 f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}", f"{actuator.swing[0] * 1e6:.0f}",
                 f"{actuator.thickness * 1e3:.3g}", f"{actuator.material.density:.0f}",
-                "{:.0f}…{:.0f}".format(*actuator.temperature_range), grade,
+                "{:.0f}…{:.0f}".format(*actuator.temperature_range), ready, grade,
             ))  # fmt: skip
         else:
             heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range) if isinstance(actuator, TorqueTube) else NONE
-            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, grade))
+            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, ready, grade))
+    steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
+    tests = "; ".join(f"{one.id} {one.provenance.tested}" for one in actuators().values())
     notes = (
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
+        f"Readiness: the step reached of {steps} (Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, "
+        f"Aerospace 13(3) 297, 2026), placed by us: {tests}.",
         "Numbers and sources: assets/actuators.toml.",
     )
     return ActuatorTable("Table 5.1  Actuator properties", columns, tuple(rows), notes)
@@ -162,3 +168,29 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def kilowatts(power: float) -> str:
     """Kilowatts with one decimal, without negative zero."""
     return f"{round(power / 1e3, 1) + 0.0:.1f}"
+
+
+def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
+    """What an actuator would have to be, a rotor a row."""
+    columns = (
+        "rotor", "µ", "optima apart °", "unlimited twist saves kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W",
+        "mass ≤ kg, no drive",
+    )  # fmt: skip
+    rows: list[tuple[str, ...]] = []
+    for even in lines:
+        needed, pair = even.requirement, even.pair
+        wanted = [NONE] * 4
+        if even.worthwhile:
+            wanted = [
+                f"{math.degrees(needed.twist):.1f}", f"{needed.mass:.1f}", f"{needed.drive:.0f}",
+                f"{even.mass_allowed(needed.twist):.1f}",
+            ]  # fmt: skip
+        mu = " and ".join(f"{one:g}" for one in pair.advance_ratios)
+        apart = f"{math.degrees(abs(even.change)):.1f}"
+        rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
+    notes = (
+        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
+        "unlimited twist saves over the best fixed blade) and all blades together gain no more than this mass while "
+        "it draws no more than this power; less of one allows more of the other. Mass alone: the last column.",
+    )
+    return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)
