@@ -138,7 +138,7 @@ class Page:
         )  # fmt: skip
         """Everything that only follows."""
         BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self.camera.radius, self._curve.take)
-        self._views = SceneViews(context, self.scene, self.probe, self.actuator.shown)
+        self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
         bridge.on("nearest", lambda _: self._nearest_trim())
@@ -206,7 +206,7 @@ class Page:
         if not frame.only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
-        # Only at harmonics does the cut blade turn with the marked one.
+        # Only at harmonics does the lifted blade turn with the marked one.
         turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
         if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
@@ -301,7 +301,7 @@ class Page:
 
     @property
     def _actuator_in_frame(self) -> bool:
-        return self._actuator_inputs.shown or self._actuator_inputs.driven
+        return self.actuator.lifted or self._actuator_inputs.driven
 
     def _show_actuator(self, reading: Reading, solution: Solution) -> None:
         design, azimuth = reading.sliders or solution.design, math.radians(reading.view.azimuth_deg)

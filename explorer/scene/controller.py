@@ -170,16 +170,19 @@ class SceneController:
                 self.scene.rotor.turn(turned_blades(drawn.solution, drawn.view))
                 self._air.show(drawn.solution, drawn.view, scene_theme(drawn.view.dark))
 
+    def set_behind(self, behind: bool) -> None:
+        """Whether the aircraft flies on behind something that is looked at: its rotor turns, its words make room."""
+        self.scene.set_behind(behind)
+        self._page.spin(behind)
+        if not behind:
+            self.play(self._page.playing)
+
     def look(self, view: View) -> None:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
         if self.camera is not None:
             self.camera.aim(view)
-
-    def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
-        self.scene.set_seen(seen)
 
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""

@@ -57,8 +57,7 @@ class PageScene:
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
-        self.playing = False
-        """Whether the page moves the blades."""
+        self._played = self._spun = False
         self._motion: Solution | None = None
         call(client, "rotorScene.dress", SURFACES)
 
@@ -73,14 +72,27 @@ class PageScene:
         if self.playing:
             call(self._client, "rotorScene.turn", round(azimuth, 4))
 
+    @property
+    def playing(self) -> bool:
+        """Whether the page moves the blades."""
+        return self._motion is not None and (self._played or self._spun)
+
     def play(self, playing: bool) -> None:
-        """Let the page move the blades, or leave them to the scene again."""
-        if playing == self.playing or self._motion is None:
-            return
-        self.playing = playing
-        if playing:
+        """Let the page move the blades as it is told to, or leave them to the scene again."""
+        self._switch(playing, self._spun)
+
+    def spin(self, spinning: bool) -> None:
+        """Let the page turn the rotor by itself where nothing else does, or no more."""
+        if spinning != self._spun:
+            call(self._client, "rotorScene.spin", TURN_RATES["fast"] if spinning else 0.0)
+        self._switch(self._played, spinning)
+
+    def _switch(self, played: bool, spun: bool) -> None:
+        before = self.playing
+        self._played, self._spun = played, spun
+        if self.playing and not before and self._motion is not None:
             self._send(self._motion)
-        else:
+        elif before and not self.playing:
             call(self._client, "rotorScene.stop")
 
     def _send(self, solution: Solution) -> None:

@@ -50,7 +50,7 @@ class RotorNodes:
         """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame(f"{name}/disk", show_axes=False)
         self.words = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
-        self._image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))
+        self.image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))
         self._png_size = 0
         self.set_theme(theme)
         self.fit(rotor)
@@ -109,10 +109,10 @@ class RotorNodes:
 
     def show_disk(self, png: bytes, pixels: int) -> None:
         """Another picture of the disk, `pixels` along each edge."""
-        viser_compat.set_png(self._image, png)
+        viser_compat.set_png(self.image, png)
         if pixels != self._png_size and self._fitted is not None:
             self._png_size = pixels
-            self._image.render_width = self._image.render_height = 2.0 * half_width(self._fitted.radius, pixels)
+            self.image.render_width = self.image.render_height = 2.0 * half_width(self._fitted.radius, pixels)
 
     def set_theme(self, theme: SceneTheme) -> None:
         """Colours for a light page or a dark one."""
@@ -128,7 +128,7 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._seen, self._close, self._fitted = True, False, rotor
+        self._behind, self._close, self._fitted = False, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -182,9 +182,9 @@ class Scene:
             self.rotor.frame.position = np.zeros(3)
             self._set_visible()
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
-        self._seen = seen
+    def set_behind(self, behind: bool) -> None:
+        """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
+        self._behind = behind
         self._set_visible()
 
     def set_alone(self, alone: bool) -> None:
@@ -247,12 +247,12 @@ class Scene:
             handle.position = side * offset + letter_place(radius)
 
     def _set_visible(self) -> None:
-        self.rotor.frame.visible = self._seen
-        self.rotor.words.visible = not self._close
-        for handle in (self._airframe, self._shadow):
-            handle.visible = self._seen and not (self._beside or self._close or self._alone)
+        self.rotor.words.visible = not (self._close or self._behind)
+        self.rotor.image.visible = not self._behind
+        self._airframe.visible = not (self._beside or self._close or self._alone)
+        self._shadow.visible = self._airframe.visible and not self._behind
         for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
-            handle.visible = self._seen and self._beside
+            handle.visible = self._beside
 
 
 def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:

@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
-
-import viser
+from typing import Literal
 
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
@@ -13,7 +12,8 @@ from explorer.picture.camera_views import View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
-from explorer.tabs.actuator.cut_blade import fit_cut
+from explorer.tabs.actuator.actuator_panel import ActuatorPanel
+from explorer.tabs.actuator.lifted_blade import fit_lifted
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.probe_panel import ProbePanel
@@ -70,15 +70,11 @@ _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": 
 class SceneViews:
     """One session's."""
 
-    def __init__(
-        self, context: TabContext, scene: SceneController, probe: ProbePanel, cut: viser.GuiCheckboxHandle
-    ) -> None:
-        """`cut`: whether the blade is shown cut open."""
-        self._context, self._scene, self._probe, self._cut = context, scene, probe, cut
+    def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
+        self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
-        cut.on_update(lambda _: self._cut_switched())
         context.bridge.on("view", self.look)
         context.bridge.on("colours", self._colour)
         context.layout.watchers.append(self._mode_changed)
@@ -88,9 +84,12 @@ class SceneViews:
         context.keyboard.bind("rescale_default", partial(self._colour, "Default"))
         self._show()
 
-    def look(self, view: View) -> None:
-        """Show the rotor from there."""
-        self._close_cut()
+    def look(self, view: View | Literal["actuator"]) -> None:
+        """Show the rotor from there, or the blade with its actuator."""
+        if view == "actuator":
+            self._lift(True)
+            return
+        self._lift(False, view)
         self._view = view
         if view != "disk":
             self._hide_plan()
@@ -102,7 +101,9 @@ class SceneViews:
         """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
-        if self._view != "disk" or self._cut.value or (view.beside and pinned is not None):
+        if self._actuator.lifted and not self._actuator.fits:
+            self._lift(False)
+        if self._view != "disk" or self._actuator.lifted or (view.beside and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
@@ -126,24 +127,24 @@ class SceneViews:
 
     def _mode_changed(self) -> None:
         """Actuate opens on the blade that carries the actuator."""
-        wanted = self._context.layout.mode == "actuate"
-        if self._cut.value != wanted:
-            self._cut.value = wanted
+        self._lift(self._context.layout.mode == "actuate")
+        self._show()
 
-    def _close_cut(self) -> None:
-        if self._cut.value:
-            self._cut.value = False
-
-    def _cut_switched(self) -> None:
-        cut, camera = self._cut.value, self._scene.camera
-        self._scene.set_seen(not cut)
-        self._probe.set_seen(not cut)
-        if camera is not None:
-            if cut:
-                camera.aim_with(partial(fit_cut, camera.radius))
-            else:
-                camera.aim(self._view)
+    def _lift(self, out: bool, towards: View | None = None) -> None:
+        """Lift the blade out, the helicopter flying on behind it, or fly back to a view of the rotor."""
+        out, camera = out and self._actuator.fits, self._scene.camera
+        if out == self._actuator.lifted:
+            return
+        self._actuator.lift(out)
+        self._scene.set_behind(out)
+        self._probe.set_seen(not out)
+        if camera is not None and out:
+            camera.aim_with(partial(fit_lifted, camera.radius))
+        elif camera is not None and towards is None:
+            camera.aim(self._view)
         self._show()
 
     def _show(self) -> None:
-        self._context.bridge.set(views={"all": VIEWS, "now": "" if self._cut.value else self._view})
+        lifted, own = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
+        views = (*([("actuator", "Actuator")] if own else []), *VIEWS)
+        self._context.bridge.set(views={"all": views, "now": "actuator" if lifted else self._view})

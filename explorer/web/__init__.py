@@ -16,7 +16,7 @@ STYLES = ("widgets.css", "actuator.css", "frame.css", "panels.css", "big.css")
 """Of the page; those that come later outweigh those before."""
 SCRIPTS = (
     "viser.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js", "plan.js",
-    "rubber.js", "spoken.js",
+    "rubber.js", "flight.js", "spoken.js",
 )  # fmt: skip
 """Of the page, in the order in which they run: `viser.js` before viser's client, and `frame.js` defines `RX`."""
 

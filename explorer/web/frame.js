@@ -226,7 +226,7 @@
     telling = setTimeout(() => {
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
-      const wide = ['.rxf-inset', '.rxf-field'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
+      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
       const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
@@ -235,11 +235,11 @@
     }, 120);
   }
   RX.also('vibration', tellCover);
-  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['cut_labels', 'probe_label', 'beside_labels', 'hub_labels'];
+  const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels'];
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);

@@ -1,7 +1,7 @@
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, tied = [], motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  let surfaces = {}, lit = {}, tied = [], motion = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -28,6 +28,20 @@
         material.userData.dressed = changed = true;
         if (wanted.flat) material.depthWrite = false;
         else Object.assign(material, {roughness: wanted.roughness ?? 1, metalness: wanted.metalness ?? 0});
+      });
+    if (changed) viewer().requestRender?.();
+  };
+  // Pieces that shine by themselves: [colour, strength] by node. Looked at again and again for the same reason.
+  const light = () => {
+    let changed = false;
+    for (const [name, [colour, strength]] of Object.entries(lit))
+      viewer()?.nodeRefFromName?.[name]?.traverse?.(part => {
+        const {material} = part, wanted = `${colour} ${strength}`;
+        if (!part.isMesh || !material?.emissive || material.userData.lit === wanted) return;
+        material.emissive.set(colour);
+        material.emissiveIntensity = 0.9 * strength;
+        material.userData.lit = wanted;
+        changed = true;
       });
     if (changed) viewer().requestRender?.();
   };
@@ -90,19 +104,65 @@
   const step = now => {
     if (!motion) return;
     requestAnimationFrame(step);
-    if (!heard) return;
-    const passed = Math.min((now - before) / 1000, 0.1);
+    if (!heard && !spin) return;
+    const passed = Math.min((now - before) / 1000, 0.5);
+    if (spin && (!heard || now - heard.at > 400)) {  // By itself; drawn in software, in few steps.
+      if (calm.matches || (!sharp && passed < 0.25)) return;
+      before = now;
+      show(psi += spin * Math.min(passed, sharp ? 0.1 : 0.5));
+      return;
+    }
     before = now;
     const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3);
     if (calm.matches) {
       if (Math.abs(near(aim - psi)) < Math.PI / 6 || now - stepped < 500) return;
       psi = aim;
       stepped = now;
-    } else psi += rate * passed + near(aim - psi - rate * passed) * Math.min(1, 5 * passed);
+    } else psi += rate * Math.min(passed, 0.1) + near(aim - psi - rate * Math.min(passed, 0.1)) * Math.min(1, 5 * passed);
     show(psi);
   };
 
+  const smooth = t => t * t * t * (t * (6 * t - 15) + 10);
+  let flight = 0;
+
   window.rotorScene = {
+    // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the rotor's
+    // reference blade to where it is held, or back. `offset`: of the blade's origin from the flap hinge, along it.
+    lift(name, out, duration, held, offset) {
+      const client = viewer(), control = client.cameraControl, own = ++flight, begun = performance.now();
+      if (calm.matches || !control || !client.camera) return;
+      const vector = () => client.camera.position.clone(), get = () => ({p: control.getPosition(vector()), t: control.getTarget(vector())});
+      const start = get();
+      let last = start, goal = null;
+      const pose = () => {
+        const root = client.nodeRefFromName[name]?.parent, blade = client.nodeRefFromName[`/rotor/blade_0`];
+        if (!root || !blade) return null;
+        blade.updateWorldMatrix(true, false);
+        const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), place = vector();
+        at.decompose(place, turn, vector());
+        return {place: place.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
+      };
+      const frame = now => {
+        if (own !== flight) return;
+        const e = smooth(Math.min(1, (now - begun) / duration)), here = get();
+        if (!goal || here.p.distanceTo(last.p) > 1e-3 || here.t.distanceTo(last.t) > 1e-3) goal = here;
+        const p = start.p.clone().lerp(goal.p, e), t = start.t.clone().lerp(goal.t, e);
+        control.setLookAt(p.x, p.y, p.z, t.x, t.y, t.z, false);
+        last = get();
+        const blade = pose();
+        if (blade) {
+          const share = out ? e : 1 - e, [w, x, y, z] = held.wxyz;
+          const place = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
+          client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: place.toArray(), poseUpdateState: 'needsUpdate'};
+        }
+        client.requestRender?.();
+        if (e < 1) requestAnimationFrame(frame);
+      };
+      frame(begun);
+    },
+    glow(wanted) { lit = wanted; light(); },
+    // Turn at this rate [rad/s] while nothing is heard of the azimuth; 0: no more.
+    spin(wanted) { spin = wanted; },
     dress(wanted) { surfaces = wanted; },
     move(next) {
       const begins = !motion;
@@ -122,5 +182,5 @@
     stop() { motion = heard = mark = null; },
     get psi() { return psi; },
   };
-  setInterval(dress, 500);
+  setInterval(() => { dress(); light(); }, 500);
 })()

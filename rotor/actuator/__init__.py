@@ -6,29 +6,48 @@ contents of chapter 5 is known, so its numbers are not compared.
 """
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
+from rotor.actuator.fuel import Engines, engines_of
 from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
+from rotor.actuator.programmes import Programme, programmes
 from rotor.actuator.section import Host, Placement
-from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
     "Actuator",
+    "ActuatorFlight",
+    "BreakEven",
     "ConditionPair",
     "DynamicTwist",
+    "Engines",
     "ExtensionTwist",
+    "FlightLeg",
+    "FlightMoment",
     "Host",
     "InstalledActuator",
+    "PaySearch",
     "PiezoPly",
     "Placement",
     "PowerMap",
+    "Programme",
     "TorqueTube",
     "Verdict",
     "actuators",
+    "break_even",
+    "engines_of",
     "find_actuator",
+    "fly",
     "install",
     "judge",
+    "pay_sentence",
     "power_map",
+    "programmes",
+    "standard_flight",
     "try_actuator",
+    "verdict_details",
     "verdict_sentence",
+    "what_would_pay",
 )

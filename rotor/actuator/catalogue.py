@@ -8,12 +8,18 @@ from functools import cache
 from typing import Any, Literal
 
 from rotor.assets import asset_path
+from rotor.dynamics.structure import titanium
 from rotor.dynamics.thin_wall import Layer, Material
 from rotor.user_input import did_you_mean
 
 Electrodes = Literal["interdigitated", "continuous"]
 
-_UNITS = re.compile(r"_(gpa|kg_m3|mm|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
+_UNITS = re.compile(r"_(gpa|kg_m3|mm|m|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
+
+
+STEPS = ("numerical studies", "small-scale tests", "full-scale wind tunnel", "demonstrator", "production")
+"""Of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, Aerospace 13(3) 297,
+2026."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +30,15 @@ class DataProvenance:
     recalled: tuple[str, ...]
     """Keys of the data file that were recalled, not looked up."""
     assumed: tuple[str, ...]
+    readiness: int
+    """Step reached of `STEPS`."""
+    tested: str
+    """The test that it is placed by."""
+
+    @property
+    def readiness_text(self) -> str:
+        """The step and its test, for a reader."""
+        return f"{self.readiness} of {len(STEPS)}, {STEPS[self.readiness - 1]}: {self.tested}"
 
     def warnings(self, name: str) -> tuple[str, ...]:
         """Caveats of using the numbers, one sentence each."""
@@ -86,9 +101,15 @@ class TorqueTube:
     id: str
     name: str
     torque: float
-    """[N m] per tube, blocking: the torsional stiffness of the tube is not deducted."""
+    """[N m] per tube, blocking."""
+    free_rotation: float
+    """Of the unloaded tube [rad], where its torque has fallen to nothing."""
+    link_stiffness: float
+    """GJ of the passive tube that carries the torque along the segment [N m²]."""
+    link_mass: float
+    """Of that tube [kg/m]."""
     mass: float
-    """Package [kg] per tube."""
+    """Package near the hub [kg] per tube."""
     move_power: float
     """[W] per tube."""
     hold_power: float
@@ -99,6 +120,16 @@ class TorqueTube:
     temperature_range: tuple[float, float]
     """[°C]"""
     provenance: DataProvenance
+
+    def working_torque(self, compliance: float, length: float, count: int = 1) -> float:
+        """Moment of `count` tubes side by side on a segment of a length [m] that twists by compliance [rad/(N m)].
+
+        The tube's line T = T_b (1 − φ/φ_free) meets its load: φ = M c + (M/n) l/GJ_link. Source of the line between
+        blocking torque and free rotation, and of tests against torsional springs: Prahlad & Chopra, AIAA 2002-1445
+        (their curve is not straight). Range: heated through; hysteresis and the return stroke are not modelled.
+        """
+        load = count * compliance + length / self.link_stiffness
+        return count * self.torque / (1.0 + self.torque * load / self.free_rotation)
 
 
 @dataclass(frozen=True)
@@ -152,6 +183,16 @@ def derating(actuator: Actuator) -> float:
     return actuator.low_swing * model_to_test() if isinstance(actuator, PiezoPly) else 1.0
 
 
+def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
+    """Caveats of holding a twist for minutes."""
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    return (
+        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
+        "feedback or charge drive. Without voltage the blade returns to its jig twist.",
+    )
+
+
 @cache
 def _data() -> dict[str, Any]:
     return tomllib.loads(asset_path("actuators.toml").read_text(encoding="utf-8"))
@@ -187,10 +228,16 @@ def _ply(row: dict[str, Any]) -> PiezoPly:
 
 
 def _tube(row: dict[str, Any]) -> TorqueTube:
+    outer = 1e-3 * row["link_outer_mm"]
+    inner = outer - 2e-3 * row["link_wall_mm"]
+    metal = titanium()
     return TorqueTube(
         id=row["id"],
         name=row["name"],
         torque=row["torque_nm"],
+        free_rotation=1e-6 * row["free_shear_ppm"] * row["length_m"] / (0.5e-3 * row["diameter_mm"]),
+        link_stiffness=metal.g12 * math.pi / 32.0 * (outer**4 - inner**4),
+        link_mass=metal.density * math.pi / 4.0 * (outer**2 - inner**2),
         mass=row["mass_kg"],
         move_power=row["move_power_w"],
         hold_power=row["hold_power_w"],
@@ -212,7 +259,7 @@ def _extension_twist(row: dict[str, Any]) -> ExtensionTwist:
 
 
 def _provenance(row: dict[str, Any]) -> DataProvenance:
-    return DataProvenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]))
+    return DataProvenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]), row["readiness"], row["tested"])
 
 
 def _listed(keys: tuple[str, ...]) -> str:

@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
-from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.verdict import with_actuator_mass
+from rotor.actuator.installation import InstalledActuator, with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design

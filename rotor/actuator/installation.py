@@ -6,12 +6,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
 from rotor.actuator.section import Host, Placement, SectionSpec, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.structure import BladeStructure
+from rotor.design.twist import TwistLaw
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure, uh60a_torsion
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 from rotor.dynamics.torsion import (
@@ -22,6 +23,7 @@ from rotor.dynamics.torsion import (
     torsion_frequency,
     twist_under_moment,
 )
+from rotor.optimisation.limits import ChangeLimit
 
 
 @dataclass(frozen=True)
@@ -55,8 +57,10 @@ def balance_mass(mass: float, centre: float) -> float:
     return max(0.0, mass * (centre - axis) / (axis - nose))
 
 
-def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_area: float) -> MassBreakdown:
-    """Mass breakdown of one placement; `skin_area` [m²]: area of one layer on one blade, both skins."""
+def mass_breakdown(
+    actuator: Actuator, placement: Placement, blades: int, skin_area: float, length: float
+) -> MassBreakdown:
+    """Mass breakdown; `skin_area` [m²]: area of one layer on one blade, both skins; `length` [m]: of all segments."""
     limits = structure_data()["limits"]
     wiring, electronics = float(limits["wiring_share"]), float(limits["electronics_share"])
     if isinstance(actuator, ExtensionTwist):
@@ -65,8 +69,9 @@ def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_a
         own = actuator.material.density * actuator.thickness * placement.plies * skin_area
         nose = balance_mass((1.0 + wiring) * own, 0.5 * sum(placement.chord))
         return MassBreakdown(own, wiring * own, nose, electronics * own * blades, blades)
-    own = actuator.mass * placement.plies * len(placement.segments)
-    return MassBreakdown(own, wiring * own, 0.0, electronics * own * blades, blades)
+    packages = placement.plies * actuator.mass * len(placement.segments)
+    own = packages + placement.plies * actuator.link_mass * length
+    return MassBreakdown(own, wiring * packages, 0.0, electronics * packages * blades, blades)
 
 
 def addition(
@@ -94,7 +99,7 @@ class InstalledActuator:
     section_stiffness: float
     """GJ of the active section [N m²]."""
     moment: float
-    """M_a [N m]; 0 for a passive laminate."""
+    """M_a [N m], of tubes the largest of the segments; 0 for a passive laminate."""
     twist_rate: float
     """θ'_a of the section, not rotating [rad/m]."""
     skin_area: float
@@ -159,25 +164,31 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
     covered = _covered(spec, placement)
     lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
     areas = covered * lengths
-    masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()))
-    stiffness, moment = spec.stiffness, 0.0
+    masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()), float(lengths.sum()))
+    stiffness, moment = spec.stiffness, 0.0  # A tube stands beside the blade: its own stiffness is in its torque.
     if isinstance(actuator, PiezoPly):
         section = active_section(spec, actuator, placement)
         stiffness = torsional_stiffness(section)
         moment = stiffness * induced_twist_rate(section)
-    elif not isinstance(actuator, ExtensionTwist):
-        moment = placement.plies * actuator.torque
     added = addition(masses, placement, structure, stiffness - spec.stiffness)
     beam, still = (
         torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
     )
+    moments = np.full(len(lengths), moment)
     if isinstance(actuator, ExtensionTwist):
         shapes = rest_shapes = _along_the_blade(actuator, beam)
     else:
-        shapes, rest_shapes = (
-            np.stack([_segment_shape(one, structure, span, moment) for span in placement.segments])
+        units, rest_units = (
+            np.stack([_segment_shape(one, structure, span, 1.0) for span in placement.segments])
             for one in (beam, still)
         )
+        if isinstance(actuator, TorqueTube):
+            pairs = zip(units[:, -1], lengths, strict=True)
+            moments = np.array(
+                [actuator.working_torque(float(unit), float(length), placement.plies) for unit, length in pairs]
+            )
+            moment = float(moments.max())
+        shapes, rest_shapes = moments[:, None] * units, moments[:, None] * rest_units
     return InstalledActuator(
         actuator=actuator,
         placement=placement,
@@ -218,3 +229,63 @@ def _covered(spec: SectionSpec, placement: Placement) -> float:
     return sum(
         float(np.hypot(*np.diff(skin(spec, side, *placement.chord), axis=0).T).sum()) for side in ("upper", "lower")
     )
+
+
+def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
+    """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
+    masses = installed.masses
+    return installed.on(heavier(design, masses.blade, installed.added.span, masses.aircraft))
+
+
+def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: float) -> Design:
+    """The design with a mass [kg] spread evenly over a span [m] of each blade, and with `aircraft` [kg] in all."""
+    blade, rotor = design.rotor.blade, design.rotor
+    hinge = blade.flap_hinge * rotor.radius
+    inner, outer = (end - hinge for end in span)
+    line = mass / (outer - inner)
+    loaded = replace(
+        blade,
+        mass=blade.mass + mass,
+        flap_static_moment=blade.flap_static_moment + line * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + line * (outer**3 - inner**3) / 3.0,
+    )
+    condition = replace(design.condition, mass=design.condition.mass + aircraft)
+    return replace(design, rotor=replace(rotor, blade=loaded), condition=condition)
+
+
+def change_limit(
+    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
+) -> ChangeLimit:
+    """The actuator's range as a limit on the change of twist in a search.
+
+    Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
+    `best_actuated` uses the true shape along the active span.
+    """
+    share = installed.derating if derated else 1.0
+    ends = share * np.cumsum(installed.segment_twists)
+    stations = (root, *installed.placement.divisions, 1.0)
+    return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
+
+
+def segment_voltages(
+    installed: InstalledActuator, swings: tuple[tuple[float, ...], ...]
+) -> tuple[tuple[float, float], ...]:
+    """Voltages of each segment at both conditions [V].
+
+    A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie around
+    zero as far as the negative range allows; without voltage the blade then flies between its two twists.
+    """
+    actuator = installed.actuator
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    low = actuator.voltage_range[0]
+    found: list[tuple[float, float]] = []
+    for first, second in zip(*swings, strict=True):
+        a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
+        if installed.host.kind == "new":
+            offset = max(low, -0.5 * abs(b - a)) - min(a, b)
+            a, b = a + offset, b + offset
+        elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
+            a, b = -a, -b  # Fibres laid in the other direction.
+        found.append((a, b))
+    return tuple(found)

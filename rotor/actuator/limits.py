@@ -261,7 +261,7 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
         Limit(
             "torque", worst <= 1.0 + 1e-9, worst * installed.moment, installed.moment, "N·m",
             f"The required twist needs {worst * installed.moment:.0f} N·m; {installed.placement.plies} tube(s) per "
-            f"segment give {installed.moment:.0f} N·m, the torsional stiffness of the tubes not counted.",
+            f"segment give {installed.moment:.0f} of {installed.placement.plies * tube.torque:.0f} N·m when blocked.",
         ),
         Limit(
             "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",

@@ -81,14 +81,18 @@ class TwistOptimum:
     """Mean by shares of time [W]."""
 
 
-def best_twist(design: Design, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
-    """The concept's twist of least power at one condition."""
-    return _search((design,), (1.0,), concept, None, 1.0, starts)
+def best_twist(
+    design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
+) -> TwistOptimum:
+    """The concept's twist of least power at one condition; `alone`: from these starts and no others."""
+    return _search((design,), (1.0,), concept, None, 1.0, starts, alone=alone)
 
 
-def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
-    """The concept's fixed twist of least mean power, the reference for a new blade."""
-    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
+def best_fixed(
+    pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
+) -> TwistOptimum:
+    """The concept's fixed twist of least mean power; `alone`: from these starts and no others."""
+    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts, alone=alone)
 
 
 def best_actuated(
@@ -103,6 +107,21 @@ def best_actuated(
     return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
+def best_swings(
+    design: Design,
+    installed: InstalledActuator,
+    bounds: Sequence[tuple[float, float]],
+    *,
+    derating: float = 1.0,
+) -> TwistOptimum:
+    """Least power at one condition of a blade that keeps its twist, each segment's swing within its bounds."""
+    task = _Task((design,), (1.0,), None, installed, derating, 1.0, tuple(bounds))
+    reached = task.descend(())
+    if reached is None:
+        raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
+    return reached
+
+
 def _search(
     designs: tuple[Design, ...],
     shares: tuple[float, ...],
@@ -110,10 +129,12 @@ def _search(
     installed: InstalledActuator | None,
     derating: float,
     starts: Sequence[Sequence[float]],
+    *,
+    alone: bool = False,
 ) -> TwistOptimum:
     keeps_twist = installed is not None and installed.host.kind == "retrofit"
     jigs: list[Sequence[float]] = [()] if keeps_twist else list(starts)
-    if not keeps_twist and (installed is None or not starts):
+    if not keeps_twist and not alone and (installed is None or not starts):
         first = nearest(concept, designs[0].twist)
         jigs += [first, _flatter(concept, first)]
     found: list[TwistOptimum] = []
@@ -142,6 +163,7 @@ class _Task:
         installed: InstalledActuator | None,
         derating: float,
         orientation: float,
+        ends: tuple[tuple[float, float], ...] | None = None,
     ) -> None:
         self.designs = tuple(installed.on(design) for design in designs) if installed else designs
         self.shares, self.concept = shares, concept
@@ -152,7 +174,8 @@ class _Task:
             shapes = installed.shapes_in(designs[0])
             at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
             self.shapes = derating * (at - reference)
-        self.bounds = self._jig_bounds() + self._swing_bounds(installed, orientation)
+        swings = list(ends) if ends is not None else self._swing_bounds(installed, orientation)
+        self.bounds = self._jig_bounds() + swings
         self.low = np.array([low for low, _ in self.bounds])
         self.span = np.array([high - low for low, high in self.bounds])
 
@@ -206,7 +229,7 @@ class _Task:
     def _power(self, x: Array) -> tuple[float, Array] | None:
         """Mean power and its gradient by x; None when a condition does not trim."""
         values = (self.low + self.span * x).tolist()
-        own = len(values) - 2 * self.segments
+        own = len(values) - len(self.designs) * self.segments
         jig = values[:own]
         power, slope = 0.0, np.zeros_like(x)
         for k, (design, share) in enumerate(zip(self.designs, self.shares, strict=True)):
@@ -263,9 +286,14 @@ class Baseline:
         return self.fixed.power - self.ideal_power
 
     @property
+    def fixed_twist(self) -> TwistLaw:
+        """The law of the best fixed blade."""
+        return self.concept.twist(self.fixed.values)
+
+    @property
     def divisions(self) -> tuple[float, ...]:
         """r/R where the concept's segments meet."""
-        law = self.concept.twist(self.fixed.values)
+        law = self.fixed_twist
         if isinstance(law, PiecewiseLinearTwist):
             return law.breaks
         return () if len(self.fixed.values) == 1 else SMOOTH_DIVISIONS

@@ -9,6 +9,7 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pay import BreakEven
 from rotor.actuator.section import (
     Placement,
     SectionSpec,
@@ -21,6 +22,7 @@ from rotor.actuator.section import (
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data, uh60a_structure
+from rotor.line_chart import LineChart, Mark, Series
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,3 +177,31 @@ def _wall(spec: SectionSpec, installed: InstalledActuator) -> float:
     if installed.host.kind == "retrofit" or not isinstance(installed.actuator, PiezoPly):
         return passive_wall(spec)
     return passive_skin(spec, installed.actuator, placement)
+
+
+def break_even_charts(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> tuple[LineChart, LineChart]:
+    """Mass that just pays over twist, and drive power that just pays over mass.
+
+    actuator: name, range of twist [rad] and mass of all blades [kg] of the one to show beside the line.
+    """
+    half, twists, largest = 0.5 * even.ideal_saving, even.twists.tolist(), float(even.twists[-1])
+    degrees = tuple(np.degrees(twists).tolist())
+    driven = tuple(even.mass_allowed(twist, half) for twist in twists)
+    lines = [
+        Series("no drive power", degrees, tuple(even.masses.tolist()), "line", 1),
+        Series(f"{half:.0f} W of drive", degrees, driven, "dashed", 1),
+    ]
+    masses = tuple(np.linspace(0.0, float(even.masses[-1]), 21).tolist())
+
+    def watts(twist: float, mark: Mark) -> Series:
+        left = tuple(max(even.net(twist, mass), 0.0) for mass in masses)
+        return Series(f"{math.degrees(twist):.1f}° of twist", masses, left, mark, 1)
+
+    powers = (watts(largest, "line"), watts(0.5 * largest, "dashed"))
+    if actuator is not None:
+        name, twist, mass = actuator
+        lines.append(Series(name, (math.degrees(twist),), (mass,), "points", 2))
+    return (
+        LineChart("Pays below the line", "range of tip twist [°]", "mass of all blades [kg]", tuple(lines)),
+        LineChart("Pays below the line", "mass of all blades [kg]", "drive power [W]", powers),
+    )

@@ -120,7 +120,8 @@ def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Wa
     if spec.host.kind == "retrofit":
         wall = passive_wall(spec)
         return build_section(_panels(spec, wall, placement, active))
-    return build_section(_panels(spec, passive_skin(spec, ply, placement), placement, active))
+    plain = Placement(chord=placement.chord, plies=placement.plies, angle=placement.angle)
+    return build_section(_panels(spec, passive_skin(spec, ply, plain), placement, active))
 
 
 def passive_section(spec: SectionSpec) -> WallSection:

@@ -7,10 +7,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.catalogue import STEPS, ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import ENOUGH, BreakEven
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.verdict import Verdict, count, judge
+from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import Concept, find_concept
 
 NONE = "–"
@@ -43,7 +44,7 @@ def table_5_1() -> ActuatorTable:
     """Actuator properties."""
     columns = (
         "actuator", "mode", "E1 GPa", "E2 GPa", "G12 GPa", "d pm/V", "ΔES mm", "α 1e-6/V", "voltage V",
-        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "grade",
+        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "readiness", "grade",
     )  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for actuator in actuators().values():
@@ -56,6 +57,7 @@ def table_5_1() -> ActuatorTable:
             if keys
         )
         grade = grade or "sourced"
+        ready = f"{actuator.provenance.readiness} of {len(STEPS)}"
         if isinstance(actuator, PiezoPly):
             low, high = actuator.voltage_range
             gap = actuator.electrode_gap
@@ -66,13 +68,17 @@ def table_5_1() -> ActuatorTable:
                 f"{actuator.d_along / gap * 1e6:.2f}", f"{low:g}…{high:g}",
                 f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}", f"{actuator.swing[0] * 1e6:.0f}",
                 f"{actuator.thickness * 1e3:.3g}", f"{actuator.material.density:.0f}",
-                "{:.0f}…{:.0f}".format(*actuator.temperature_range), grade,
+                "{:.0f}…{:.0f}".format(*actuator.temperature_range), ready, grade,
             ))  # fmt: skip
         else:
             heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range) if isinstance(actuator, TorqueTube) else NONE
-            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, grade))
+            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, ready, grade))
+    steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
+    tests = "; ".join(f"{one.id} {one.provenance.tested}" for one in actuators().values())
     notes = (
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
+        f"Readiness: the step reached of {steps} (Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, "
+        f"Aerospace 13(3) 297, 2026), placed by us: {tests}.",
         "Numbers and sources: assets/actuators.toml.",
     )
     return ActuatorTable("Table 5.1  Actuator properties", columns, tuple(rows), notes)
@@ -128,7 +134,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
         "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
-        "mass kg", "torsion /rev", "fixed kW", "ideal kW", "gross kW", "net kW", "limits exceeded",
+        "mass kg", "torsion /rev", "ideal kW", "gross kW", "stiffness kW", "mass kW", "drive kW", "net kW",
+        "limits exceeded",
     )  # fmt: skip
     rows = [
         (
@@ -138,8 +145,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
             "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
             f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
-            kilowatts(verdict.ideal_saving - verdict.baseline.ideal_saving), kilowatts(verdict.ideal_saving),
-            kilowatts(verdict.gross_saving), kilowatts(verdict.net_saving),
+            kilowatts(verdict.ideal_saving), kilowatts(verdict.gross_saving), kilowatts(-verdict.stiffness_cost),
+            kilowatts(-verdict.mass_cost), kilowatts(-verdict.drive_cost), kilowatts(verdict.net_saving),
             ", ".join(limit.name for limit in verdict.broken) or "none",
         )
         for verdict in verdicts
@@ -149,9 +156,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     notes = (
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
         "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
-        "All savings against one blade: the twist as built for a retrofit, else the concept's best fixed one. Fixed: "
-        "by the concept's best fixed twist; ideal: by free in-flight twist; gross and net: within the actuator's "
-        "range, without and with its mass on board.",
+        f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
+        "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net. Ideal: gross "
+        "with unlimited twist in flight.",
     )
     return ActuatorTable(
         f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes
@@ -161,3 +168,29 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def kilowatts(power: float) -> str:
     """Kilowatts with one decimal, without negative zero."""
     return f"{round(power / 1e3, 1) + 0.0:.1f}"
+
+
+def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
+    """What an actuator would have to be, a rotor a row."""
+    columns = (
+        "rotor", "µ", "optima apart °", "unlimited twist saves kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W",
+        "mass ≤ kg, no drive",
+    )  # fmt: skip
+    rows: list[tuple[str, ...]] = []
+    for even in lines:
+        needed, pair = even.requirement, even.pair
+        wanted = [NONE] * 4
+        if even.worthwhile:
+            wanted = [
+                f"{math.degrees(needed.twist):.1f}", f"{needed.mass:.1f}", f"{needed.drive:.0f}",
+                f"{even.mass_allowed(needed.twist):.1f}",
+            ]  # fmt: skip
+        mu = " and ".join(f"{one:g}" for one in pair.advance_ratios)
+        apart = f"{math.degrees(abs(even.change)):.1f}"
+        rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
+    notes = (
+        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
+        "unlimited twist saves over the best fixed blade) and all blades together gain no more than this mass while "
+        "it draws no more than this power; less of one allows more of the other. Mass alone: the last column.",
+    )
+    return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)

@@ -1,46 +1,60 @@
 """Net benefit of an actuator: required and attainable twist, voltages, mass, power saving, and the sentence."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, find_actuator, holding_caveats
 from rotor.actuator.electrical import Drive, drive
-from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.fuel import engines_of, fuel_caveats
+from rotor.actuator.installation import InstalledActuator, install, segment_voltages, with_actuator_mass
 from rotor.actuator.limits import Limit, limits
-from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated
+from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, find_concept
-from rotor.optimisation.limits import ChangeLimit
+from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 NOTHING = 1e-6
 """Least twist used as a divisor [rad]."""
 
 
+Against = Literal["best-fixed", "as-built"]
+"""The blade that savings are counted from."""
+
+
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """One actuator, one concept, one pair of flight conditions. Angles [rad], powers [W], means over the pair."""
+    """One actuator, one concept, one pair of flight conditions. Angles [rad], powers [W], means over the pair.
+
+    All savings count from one blade, `against`, and add up: gross − stiffness − mass − drive = net (`savings`).
+    """
 
     installed: InstalledActuator
     baseline: Baseline
+    against: Against
     derating: float
     """Factor on the nominal twist used for the saving."""
     required_segments: Array
     """Change of twist between the optima, by segment [rad], (segments,)."""
     optimum: TwistOptimum
     """The best twist within the actuator's range, at both conditions."""
-    reference_power: float
-    """Power of the reference blade: twist as built for a retrofit, else the concept's best fixed blade."""
     resting: TwistOptimum
     """The blade with the actuator's stiffness and inertia but no voltage: twist as built for a retrofit, else the best
     fixed jig twist. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
-    net_power: float
-    """Power at these twists with the actuator's mass on board and its drive power."""
+    reference_powers: tuple[float, float]
+    """Of the blade that savings are counted from, by condition [W]."""
+    bare_power: float
+    """Mean of the blade at rest with the stiffness and inertia it has without the actuator [W]."""
+    free_power: float
+    """Mean with unlimited twist in flight on the blade that carries the actuator, without its mass [W]."""
+    loaded_powers: tuple[float, float]
+    """Driven, with the actuator's mass on board, by condition [W]; its drive is not in it."""
     drive: Drive
     limits: tuple[Limit, ...]
     caveats: tuple[str, ...]
@@ -82,32 +96,66 @@ class Verdict:
         return float(np.abs(self.attained_segments).sum())
 
     @property
+    def reference_power(self) -> float:
+        """Of the blade that savings are counted from [W]."""
+        return self._mean(self.reference_powers)
+
+    @property
+    def net_power(self) -> float:
+        """With the actuator's mass on board and its drive [W]."""
+        return self._mean(self.loaded_powers) + self.drive.hold_power
+
+    @property
     def gross_saving(self) -> float:
-        """Saving before the actuator's mass is counted [W]: of the twist, less the cost of the stiffness."""
-        return self.reference_power - self.optimum.power
+        """Saving of the twist that the actuator makes, before what it costs [W]; never above `ideal_saving`."""
+        return self.reference_power - self.optimum.power + self.stiffness_cost
+
+    @property
+    def ideal_saving(self) -> float:
+        """The same of unlimited twist in flight: of the concept, or of the plies where their shape is better [W]."""
+        return self.reference_power - self.free_power + self.stiffness_cost
 
     @property
     def stiffness_cost(self) -> float:
         """Power that the other stiffness and inertia of an elastic blade cost with no voltage [W]."""
-        return self.resting.power - self.reference_power
+        return self.resting.power - self.bare_power
 
     @property
-    def twist_saving(self) -> float:
-        """Saving of the change of twist on the same blade with no voltage [W], before the actuator's mass."""
-        return self.resting.power - self.optimum.power
+    def mass_cost(self) -> float:
+        """Power that carrying the actuator costs [W]."""
+        return self._mean(self.loaded_powers) - self.optimum.power
 
     @property
-    def ideal_saving(self) -> float:
-        """Of unlimited variable twist, over the same blade as the other savings [W].
-
-        `baseline.ideal_saving` is its part beyond the best fixed blade.
-        """
-        return self.reference_power - self.baseline.ideal_power
+    def drive_cost(self) -> float:
+        """Power that holding the twist takes [W]."""
+        return self.drive.hold_power
 
     @property
     def net_saving(self) -> float:
-        """Saving with the actuator's mass and drive power counted [W]."""
+        """Saving with stiffness, mass and drive counted [W]."""
         return self.reference_power - self.net_power
+
+    @property
+    def savings(self) -> tuple[tuple[str, float], ...]:
+        """Name and saving [W] of each part, costs negative; their sum is `net_saving`."""
+        parts = [("gross", self.gross_saving)]
+        if self.stiffness_cost:
+            parts.append(("stiffness", -self.stiffness_cost))
+        return (*parts, ("mass", -self.mass_cost), ("drive", 0.0 - self.drive_cost))
+
+    @property
+    def fuel_saving(self) -> float | None:
+        """Fuel saved [kg/s]; None where the engines of the aircraft have no source."""
+        engines = engines_of(self.baseline.pair.design.aircraft)
+        if engines is None:
+            return None
+        hold = self.drive.hold_power
+        pairs = zip(self.reference_powers, self.loaded_powers, strict=True)
+        saved = [engines.flow(before) - engines.flow(after + hold) for before, after in pairs]
+        return self._mean((saved[0], saved[1]))
+
+    def _mean(self, values: tuple[float, float]) -> float:
+        return sum(share * value for share, value in zip(self.baseline.pair.shares, values, strict=True))
 
     @property
     def broken(self) -> tuple[Limit, ...]:
@@ -134,7 +182,7 @@ class Verdict:
 
     @property
     def without_actuator(self) -> Design:
-        """The second condition of the reference blade."""
+        """The second condition of the same blade without it."""
         return self._fixed(self.baseline.fixed)
 
     def _fixed(self, jig: TwistOptimum) -> Design:
@@ -152,16 +200,19 @@ def try_actuator(
     share: float = 0.5,
     new_blade: bool = False,
     derated: bool = False,
+    against: Against = "best-fixed",
 ) -> Verdict:
     """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
 
     name: an actuator of `actuators()`, for example `MFC_P1`. share: fraction of time at the second advance ratio.
-    new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit. Raises ValueError with
+    new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit. against: the blade that
+    savings are counted from, the concept's best fixed one or `as-built`. Raises ValueError with
     one sentence for what cannot be used, RuntimeError where nothing trims.
     """
     host = Host("new", 0.5) if new_blade else Host()
     pair = ConditionPair(design, mu, share)
-    return judge(find_actuator(name), pair, find_concept(concept), default_placement(plies), host, derated=derated)
+    placement = default_placement(plies)
+    return judge(find_actuator(name), pair, find_concept(concept), placement, host, derated=derated, against=against)
 
 
 def judge(
@@ -173,111 +224,68 @@ def judge(
     *,
     derated: bool = False,
     counted: float | None = None,
+    against: Against = "best-fixed",
 ) -> Verdict:
     """Install the actuator, find the best twist within its range, add its mass, and compute the net saving.
 
     The segments are those of the concept. `derated` uses the twist measured on a test blade, `counted` any other factor
-    on the nominal twist. Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims.
+    on the nominal twist. `against`: the blade that savings are counted from. Raises ValueError for a blade that cannot
+    be built, RuntimeError where nothing trims.
     """
     host = host or Host()
     base = baseline(pair, concept)
-    rotor = pair.design.rotor
+    rotor, aircraft = pair.design.rotor, pair.design.aircraft
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     share = counted if counted is not None else installed.derating if derated else 1.0
-    resting = base.fixed
+    fixed = base.fixed
+    powers: dict[Against, tuple[float, float]] = {"best-fixed": _totals(fixed.solutions)}
+    if host.kind == "retrofit" or against == "as-built":
+        powers["as-built"] = _totals([solve(design).require() for design in pair.designs()])
+    resting = fixed
     if host.kind == "retrofit":
-        resting = TwistOptimum((), (), (), _mean_power(pair, pair.designs()))
-    reference = resting.power
+        resting = TwistOptimum((), (), (), _mean(pair, powers["as-built"]))
+    bare = resting.power
+    free = [best.power for best in base.best]
     if pair.design.elastic:
-        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[base.fixed.values])
+        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[fixed.values])
     reached = best_actuated(pair, base.concept, installed, derating=share, starts=[resting.values])
+    if pair.design.elastic:
+        free = [
+            best_twist(installed.on(design), base.concept, [best.values], alone=True).power
+            for design, best in zip(pair.designs(), base.best, strict=True)
+        ]
+    free = [min(power, own.power.total) for power, own in zip(free, reached.solutions, strict=True)]
     required = base.segment_changes(divisions)
     swing = tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
     driven = drive(installed, swing)
-    heavy = tuple(with_actuator_mass(solution.design, installed) for solution in reached.solutions)
+    heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists * share, NOTHING))
     return Verdict(
         installed=installed,
         baseline=base,
+        against=against,
         derating=share,
         required_segments=required,
         optimum=reached,
-        reference_power=reference,
         resting=resting,
-        net_power=_mean_power(pair, heavy) + driven.hold_power,
+        reference_powers=powers[against],
+        bare_power=bare,
+        free_power=_mean(pair, free),
+        loaded_powers=_totals(heavy),
         drive=driven,
         limits=limits(installed, asked, reached.solutions[-1]),
-        caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator)),
+        caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator), *fuel_caveats(aircraft)),
     )
 
 
-def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
-    """Caveats of holding a twist for minutes."""
-    if not isinstance(actuator, PiezoPly):
-        return ()
-    return (
-        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
-        "feedback or charge drive. Without voltage the blade returns to its jig twist.",
-    )
+def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:
+    first, second = (solution.power.total for solution in solutions)
+    return first, second
 
 
-def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
-    """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
-    blade, rotor, added = design.rotor.blade, design.rotor, installed.added
-    hinge = blade.flap_hinge * rotor.radius
-    inner, outer = (end - hinge for end in added.span)
-    heavier = replace(
-        blade,
-        mass=blade.mass + installed.masses.blade,
-        flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
-        flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
-    )
-    condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
-    return installed.on(replace(design, rotor=replace(rotor, blade=heavier), condition=condition))
-
-
-def change_limit(
-    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
-) -> ChangeLimit:
-    """The actuator's range as a limit on the change of twist in a search.
-
-    Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
-    `best_actuated` uses the true shape along the active span.
-    """
-    share = installed.derating if derated else 1.0
-    ends = share * np.cumsum(installed.segment_twists)
-    stations = (root, *installed.placement.divisions, 1.0)
-    return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
-
-
-def segment_voltages(
-    installed: InstalledActuator, swings: tuple[tuple[float, ...], ...]
-) -> tuple[tuple[float, float], ...]:
-    """Voltages of each segment at both conditions [V].
-
-    A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie around
-    zero as far as the negative range allows; without voltage the blade then flies between its two twists.
-    """
-    actuator = installed.actuator
-    if not isinstance(actuator, PiezoPly):
-        return ()
-    low = actuator.voltage_range[0]
-    found: list[tuple[float, float]] = []
-    for first, second in zip(*swings, strict=True):
-        a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
-        if installed.host.kind == "new":
-            offset = max(low, -0.5 * abs(b - a)) - min(a, b)
-            a, b = a + offset, b + offset
-        elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
-            a, b = -a, -b  # Fibres laid in the other direction.
-        found.append((a, b))
-    return tuple(found)
-
-
-def _mean_power(pair: ConditionPair, designs: tuple[Design, ...]) -> float:
-    solutions = [solve(design).require() for design in designs]
-    return sum(share * solution.power.total for share, solution in zip(pair.shares, solutions, strict=True))
+def _mean(pair: ConditionPair, powers: Sequence[float]) -> float:
+    return sum(share * power for share, power in zip(pair.shares, powers, strict=True))
 
 
 SMALL = 1.0
@@ -286,29 +294,42 @@ PRINTED = 50.0
 """Least power that shows in kilowatts with one decimal [W]."""
 
 
-def headline(verdict: Verdict) -> str:
-    """The outcome in one short sentence: net power against the one blade that the whole verdict is compared with."""
-    net, against = verdict.net_saving, reference(verdict)
-    if abs(net) < SMALL:
-        return f"No net benefit: saves as much as it costs vs. {against}."
-    if net < 0.0:
-        return f"No net benefit: costs {kw(-net)} vs. {against}."
-    if verdict.buildable:
-        return f"Net benefit: saves {kw(net)} vs. {against}."
-    return f"Cannot be built: it would save {kw(net)} vs. {against}."
-
-
 def verdict_sentence(verdict: Verdict) -> str:
-    """The headline, then reach, savings and limits; all powers count from the blade that the headline names."""
-    sentences = [headline(verdict), _reach(verdict), _savings(verdict)]
+    """The outcome in one line: what is saved, what that costs, and whether it pays."""
+    gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
+    text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
+    if verdict.net_saving < SMALL:
+        return f"{text}: not with this {_noun(verdict)}."
+    if verdict.pays:
+        return f"{text}: {kw(verdict.net_saving)} saved."
+    return f"{text}: {kw(verdict.net_saving)} saved, but it cannot be built ({_broken(verdict)})."
+
+
+def verdict_details(verdict: Verdict) -> str:
+    """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
+    sentences = [_reach(verdict), _savings(verdict), *_fuel(verdict)]
     if verdict.broken:
-        sentences.append(f"Limits exceeded: {', '.join(limit.name for limit in verdict.broken)}.")
+        sentences.append(f"Limits exceeded: {_broken(verdict)}.")
     return " ".join(sentences)
 
 
 def reference(verdict: Verdict) -> str:
     """The blade that all savings of a verdict count from."""
-    return "the twist as built" if verdict.installed.host.kind == "retrofit" else "the best fixed twist"
+    return "the blade as built" if verdict.against == "as-built" else "the best fixed blade"
+
+
+def _noun(verdict: Verdict) -> str:
+    match verdict.installed.actuator:
+        case PiezoPly():
+            return "ply"
+        case TorqueTube():
+            return "tube"
+        case ExtensionTwist():
+            return "laminate"
+
+
+def _broken(verdict: Verdict) -> str:
+    return ", ".join(limit.name for limit in verdict.broken)
 
 
 def _reach(verdict: Verdict) -> str:
@@ -325,20 +346,26 @@ def _reach(verdict: Verdict) -> str:
 
 
 def _savings(verdict: Verdict) -> str:
-    """Of stiffness and of twist, the cost of mass and drive, and what unlimited variable twist would save."""
-    cost = verdict.gross_saving - verdict.net_saving
-    concept, mass = verdict.baseline.concept.name, verdict.installed.masses.aircraft
-    stiffness = ""
+    """Each part of the net saving, and what unlimited variable twist would save."""
+    installed, concept = verdict.installed, verdict.baseline.concept.name
+    start = verdict.reference_power - verdict.bare_power
+    parts = [f"Against {reference(verdict)} its twist {_change(verdict.gross_saving)}"]
+    if abs(start) >= PRINTED:
+        parts[0] += f", where the twist as built {_change(start)}"
     if abs(verdict.stiffness_cost) >= PRINTED:
-        other = "softer" if verdict.installed.host.stiffness < 1.0 else "stiffer"
-        stiffness = f"With no voltage the {other} elastic blade {_change(-verdict.stiffness_cost)}. "
-    text = (
-        f"{stiffness}Within its reach the change of twist {_change(verdict.twist_saving)}; "
-        f"carrying {mass:.0f} kg and its drive cost {kw(cost)}. "
-        f"Unlimited variable twist ({concept}) would save {kw(verdict.ideal_saving)}"
-    )
-    fixed = verdict.ideal_saving - verdict.baseline.ideal_saving
-    return f"{text}, {kw(fixed)} of it with the best fixed twist." if abs(fixed) >= SMALL else f"{text}."
+        other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
+        parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")
+    parts.append(f"carrying {installed.masses.aircraft:.0f} kg costs {kw(verdict.mass_cost)}")
+    parts.append(f"its drive costs {kw(verdict.drive_cost)}")
+    return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {_change(verdict.ideal_saving)}."
+
+
+def _fuel(verdict: Verdict) -> list[str]:
+    saved = verdict.fuel_saving
+    if saved is None:
+        return []
+    word = "less" if saved >= 0.0 else "more"
+    return [f"Net {abs(3600.0 * saved):.1f} kg of fuel an hour {word}."]
 
 
 def _change(saving: float) -> str:

@@ -1,21 +1,31 @@
-"""`actuator`: required and attainable twist between two flight conditions, and the net saving."""
+"""`actuator`: required and attainable twist between two flight conditions, the net saving, and what would pay."""
 
 import argparse
 import json
 import math
-from dataclasses import asdict
+import textwrap
+from dataclasses import asdict, replace
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
+from rotor.actuator.pictures import break_even_charts
 from rotor.actuator.section import BladeKind, Host, Placement, default_placement
-from rotor.actuator.tables import ActuatorTable, table_5_1, table_5_2
-from rotor.actuator.verdict import PRINTED, Verdict, judge, verdict_sentence
+from rotor.actuator.tables import ActuatorTable, pay_table, table_5_1, table_5_2
+from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
+from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
+from rotor.files.make_design import make_design
+from rotor.line_chart import draw
 from rotor.optimisation.concepts import find_concept
+from rotor.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
@@ -50,9 +60,23 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
     parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
+    parser.add_argument(
+        "--against",
+        choices=("best-fixed", "as-built"),
+        default="best-fixed",
+        help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
+    )
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
+    parser.add_argument(
+        "--what-would-pay",
+        nargs="?",
+        choices=("this", "all"),
+        const="this",
+        help="what an actuator would have to be to pay on this rotor (all: on each), and the builds nearest to it",
+    )
+    parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
     add_design_arguments(parser)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
@@ -65,18 +89,26 @@ def run(args: argparse.Namespace) -> int:
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
     pair = ConditionPair(design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
-    check_blade(pair.design.aircraft)
+    if args.what_would_pay is None:
+        check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
     if args.harmonic is not None:
         Harmonic(args.harmonic, 0.0)
         if pair.design.active_twist is not None:
             raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     placement, host = _placement(args), _host(args.blade, args.stiffness)
+    if args.plot is not None and args.what_would_pay is None:
+        raise ValueError("--plot draws the break-even line: add --what-would-pay")
+    if args.plot is not None:
+        check_suffix(args.plot, ".svg")
+        check_writable(args.plot)
     try:
+        if args.what_would_pay is not None:
+            return _run_pay(args, pair)
         if args.table == "5.2":
             _show(table_5_2(pair, placement=placement, host=host, derated=args.derated), args.json)
             return 0
-        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
+        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
         turned = None
         if args.harmonic is not None:
             turned = phase_sweep(
@@ -108,8 +140,14 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "voltages_v": [list(pair) for pair in verdict.voltages],
         "added_mass_kg": verdict.installed.masses.aircraft,
         "torsion_frequency_per_rev": verdict.installed.frequency,
+        "against": verdict.against,
+        "ideal_saving_w": verdict.ideal_saving,
         "gross_saving_w": verdict.gross_saving,
+        "stiffness_cost_w": verdict.stiffness_cost,
+        "mass_cost_w": verdict.mass_cost,
+        "drive_cost_w": verdict.drive_cost,
         "net_saving_w": verdict.net_saving,
+        "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
         "limits": [
             {
                 "name": limit.name, "ok": limit.ok, "value": limit.value, "bound": limit.bound, "unit": limit.unit,
@@ -138,12 +176,18 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     unknown = (
         "required_twist_deg", "attainable_twist_deg", "attainable_twist_derated_deg", "feasible",
     )  # fmt: skip
-    numbers = ("added_mass_kg", "torsion_frequency_per_rev", "gross_saving_w", "net_saving_w")
+    numbers = (
+        "ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w",
+        "fuel_saving_kg_h",
+    )  # fmt: skip
     return {
         **known,
         "concept": args.concept,
         **dict.fromkeys(unknown),
         "voltages_v": [],
+        "added_mass_kg": None,
+        "torsion_frequency_per_rev": None,
+        "against": args.against,
         **dict.fromkeys(numbers),
         "limits": [],
         "caveats": [],
@@ -157,14 +201,21 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
     tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
+    saved = verdict.fuel_saving
+    fuel = (
+        "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
+    )
     lines = [
         verdict_sentence(verdict),
+        *textwrap.wrap(verdict_details(verdict), 120),
         "",
         f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
-        f"free in-flight twist saves    {_kw(verdict.ideal_saving)}",
-        f"gross saving                  {_kw(verdict.gross_saving)}",
-        f"net saving, mass and drive    {_kw(verdict.net_saving)}",
+        "",
+        f"savings against {reference(verdict)}",
+        f"  gross, by its twist         {_kw(verdict.gross_saving)}  (of unlimited twist: {_kw(verdict.ideal_saving)})",
+        *(f"  {name:<28}{_kw(saving)}" for name, saving in verdict.savings[1:]),
+        f"  net                         {_kw(verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
@@ -196,6 +247,74 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         ]
     lines += ["", *(f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)]
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
+
+
+ROTORS = (*SHIPPED_ROTORS, "hart2")
+"""Of `--what-would-pay all`."""
+
+
+def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
+    if args.what_would_pay == "all":
+        searches = [PaySearch(break_even(replace(pair, design=make_design(rotor=key))), (), ()) for key in ROTORS]
+    else:
+        searches = [what_would_pay(pair, derated=args.derated)]
+    first = searches[0]
+    if args.plot is not None:
+        best = None
+        if first.candidates:
+            one = first.candidates[0].installed
+            best = (one.actuator.name, one.attainable, one.masses.aircraft)
+        write_whole(args.plot, draw(break_even_charts(first.even, best)[0]))
+    if args.json:
+        records = [pay_record(search) for search in searches]
+        print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))
+        return 0
+    print(pay_table([search.even for search in searches]).text())
+    if args.what_would_pay == "this":
+        print("\n" + pay_sentence(first.even))
+        print(*filter(None, [search_sentence(first)]), *_builds(first), sep="\n")
+    return 0
+
+
+def _builds(search: PaySearch) -> list[str]:
+    lines = [
+        f"  {one.installed.actuator.id:<13} {one.installed.placement.plies} × "
+        f"{one.installed.placement.span[0]:.2f}…{one.installed.placement.span[1]:.2f} R, {one.installed.host.label}: "
+        f"{math.degrees(one.installed.attainable):.2f}°, {one.mass:.0f} kg, saves {one.saving:.0f} W, "
+        f"net {one.estimate:.0f} W"
+        for one in search.candidates[:5]
+    ]
+    judged = [f"  {verdict.installed.actuator.id}: {verdict_sentence(verdict)}" for verdict in search.verdicts]
+    return [*lines, *(["by trims"] if judged else []), *judged]
+
+
+def pay_record(search: PaySearch) -> dict[str, Any]:
+    """The JSON of `actuator --what-would-pay --json`; masses are of all blades."""
+    even, needed = search.even, search.even.requirement
+    return {
+        "rotor": even.pair.design.aircraft.name,
+        "advance_ratios": list(even.pair.advance_ratios),
+        "message": " ".join(filter(None, [pay_sentence(even), search_sentence(search)])),
+        "ideal_saving_w": even.ideal_saving,
+        "optima_apart_deg": math.degrees(abs(even.change)),
+        "pays_from": {
+            "twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive
+        } if even.worthwhile else None,
+        "line": {
+            "twist_deg": np.degrees(even.twists).tolist(), "gross_saving_w": even.gross.tolist(),
+            "mass_kg": even.masses.tolist(),
+        },
+        "builds": [
+            {
+                "actuator": one.installed.actuator.id, "plies": one.installed.placement.plies,
+                "span_r": list(one.installed.placement.span), "blade": one.installed.host.label,
+                "twist_deg": math.degrees(one.installed.attainable), "mass_kg": one.mass, "saving_w": one.saving,
+                "net_saving_w": one.estimate,
+            }
+            for one in search.candidates
+        ],
+        "judged": [record(verdict) for verdict in search.verdicts],
+    }  # fmt: skip
 
 
 def _show(table: ActuatorTable, as_json: bool) -> None:

@@ -15,9 +15,8 @@ from types import FrameType
 from typing import Any, get_args
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.installation import install
+from rotor.actuator.installation import change_limit, install
 from rotor.actuator.section import Host, default_placement
-from rotor.actuator.verdict import change_limit
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.airfoil.sections import TABLE_NAMES

@@ -6,7 +6,6 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,10 +16,11 @@ from explorer.charts.plots import Plot
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.picture import make_picture
+from explorer.picture.poses import rotate
 from explorer.tabs.actuator import actuator_controls as actuator_plots
 from explorer.tabs.actuator import actuator_controls as actuator_table
 from explorer.tabs.actuator import actuator_words as actuator_readout
-from explorer.tabs.actuator import cut_blade as actuator_cut
+from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_inputs import (
     CONCEPTS,
     MOST_SEGMENTS,
@@ -32,7 +32,14 @@ from explorer.tabs.actuator.actuator_inputs import (
 )
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers, answer, lean, sweep_task, verdict_tasks
 from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
-from explorer.tabs.actuator.cut_picture import cut_picture, flown_twist, section_svg, share_colour, voltage_shares
+from explorer.tabs.actuator.lifted_picture import (
+    drive_colour,
+    flown_twist,
+    glow,
+    lifted_picture,
+    voltage_shares,
+)
+from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap
@@ -112,85 +119,121 @@ def test_segments_fit_the_sliders(concept: str):
 def test_the_question_does_not_hang_on_speed_voltage_or_view():
     inputs = ActuatorInputs()
     fast = make_design(preset="flight", mu=0.3)
-    moved = replace(inputs, drives=FULL, shown=True, per_rev=1, crossed=True)
+    moved = replace(inputs, drives=FULL, per_rev=1, crossed=True)
     assert question_of(inputs, DESIGN) == question_of(moved, fast)
     assert question_of(inputs, DESIGN) != question_of(replace(inputs, plies=3), DESIGN)
 
 
 @pytest.mark.parametrize("blade", ["retrofit", "new"])
 @pytest.mark.parametrize("id", ALL)
-def test_the_cut_blade_is_whole_finite_and_small(id: str, blade):
+def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
+    """Small enough to be sent at every step of the flight bar."""
     inputs = ActuatorInputs(actuator=id, blade=blade, concept="three-segment", drives=FULL)
     installed = inputs.installed(DESIGN.rotor)
-    picture = cut_picture(inputs, installed, DESIGN, 0.0)
-    for mesh, colour in picture.solids:
-        assert np.isfinite(mesh.vertices).all()
-        assert mesh.faces.max() < len(mesh.vertices)
-        assert np.abs(mesh.vertices[:, 1]).max() < 0.5
-        assert all(0 <= channel <= 255 for channel in colour)
-    assert sum(len(mesh.vertices) for mesh, _ in picture.solids) < 25_000
-    assert np.isfinite(picture.ghost).all()
-    assert np.isfinite(picture.leads).all()
+    picture = lifted_picture(inputs, installed, DESIGN, 0.0)
+    for solid in picture.solids.values():
+        assert np.isfinite(solid.mesh.vertices).all()
+        assert solid.mesh.faces.max() < len(solid.mesh.vertices)
+        assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.WIDER
+    assert sum(len(solid.mesh.vertices) for solid in picture.solids.values()) < 9_000
+    assert all(np.isfinite(lines).all() for lines in picture.lines.values())
+    assert {"skin", "spar", "web", "shank", "drive_0"} <= set(picture.solids)
 
 
-def test_walls_stand_on_the_true_contour_and_plies_outside():
-    installed = ActuatorInputs().installed(DESIGN.rotor)
-    cut = actuator_cut.cut_blade(installed, DESIGN.rotor)
-    plies = [part for part in cut.parts if part.role == "ply"]
-    assert plies
+def test_plies_stand_outside_the_true_contour_where_they_are_placed():
+    inputs = ActuatorInputs(span=(0.3, 0.8))
+    blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
+    plies = [part for part in blade.parts if part.role == "ply"]
+    assert len(plies) == 2
     for part in plies:
-        upper = part.outer[:, 5, 1] > 0.0
-        away = part.inner[:, 5, 1] - part.outer[:, 5, 1]
+        assert part.inner is not None
+        assert_allclose((part.r[0], part.r[-1]), (0.3, 0.8))
+        upper = part.inner[:, 5, 1] > 0.0
+        away = part.outer[:, 5, 1] - part.inner[:, 5, 1]
         assert (np.where(upper, away, -away) > 0.0).all()
-    spar = next(part for part in cut.parts if part.role == "spar")
-    assert_allclose(spar.outer[:, 0, 0], 0.25 * float(DESIGN.rotor.blade.chord(0.5)), rtol=1e-6)
-    assert (spar.inner[:, 10, 1] > spar.outer[:, 10, 1]).all()  # The lower wall grows inwards.
+    skin = next(part for part in blade.parts if part.role == "skin")
+    chord = float(DESIGN.rotor.blade.chord(0.5))
+    assert_allclose(skin.outer[0, [0, skin.outer.shape[1] // 2], 0], (-0.75 * chord, 0.25 * chord), rtol=1e-6)
 
 
-def test_voltage_turns_the_tip_of_the_cut_blade_nose_up():
+def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
+    """By the magnified twist: the trailing edge of the tip goes down, the leading edge up."""
     inputs = ActuatorInputs(drives=FULL, magnified=10.0)
     installed = inputs.installed(DESIGN.rotor)
-    cut = actuator_cut.cut_blade(installed, DESIGN.rotor)
-    tail = [
-        cut_picture(each, installed, DESIGN, 0.0).solids[-4][0].vertices[:, 2].min()
-        for each in (ActuatorInputs(), inputs)
-    ]
-    assert len(cut.parts) >= 8
-    assert tail[1] < tail[0]  # Nose up is tail down.
+    rest, driven = (lifted_picture(each, installed, DESIGN, 0.0) for each in (ActuatorInputs(), inputs))
+    angles = []
+    for picture in (rest, driven):
+        ring = picture.lines["edges"][-38:, 0]  # The tip section, from its trailing edge over the nose.
+        nose, tail = ring[19], ring[0]
+        angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
+    assert_allclose(angles[1] - angles[0], 10.0 * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
+    assert len(rest.lines["ghost"]) == len(rest.lines["arrow"]) == 0
+    assert len(driven.lines["ghost"]) > 0
+    assert len(driven.lines["arrow"]) > 0
 
 
 def test_leads_run_from_the_box_to_every_segment():
     inputs = ActuatorInputs(concept="three-segment")
-    cut = actuator_cut.cut_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
-    leads = actuator_cut.lead_segments(cut, DESIGN.rotor, np.zeros(len(cut.edge_r)))
+    blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
+    leads = lifted.lead_segments(blade, np.zeros(len(blade.r)))
     ends = {round(float(x), 6) for x in leads[:, 1, 0]}
-    for low, _ in actuator_cut.spans_of(cut):
-        assert round(float(cut.outward(low)), 6) in ends
+    for low, _ in blade.spans:
+        assert round(float(blade.outward(low)), 6) in ends
 
 
-@pytest.mark.parametrize("aspect", [0.6, 0.9, 1.6])
-def test_the_close_up_holds_the_whole_blade(aspect: float):
-    camera = actuator_cut.fit_cut(DESIGN.rotor.radius, aspect)
-    inputs = ActuatorInputs(drives=FULL)
-    picture = cut_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
-    points = np.concatenate([mesh.vertices for mesh, _ in picture.solids]) - camera.position
-    forward = camera.look_at - camera.position
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, [0.0, 0.0, 1.0])
-    right /= np.linalg.norm(right)
-    depth = points @ forward
-    tangent = math.tan(FIELD_OF_VIEW / 2.0)
-    assert depth.min() > 1.0  # The near plane.
-    assert np.abs(points @ np.cross(right, forward) / depth).max() < tangent
-    assert np.abs(points @ right / depth).max() < tangent * aspect
+def test_crossed_fibres_are_drawn_the_other_way():
+    """Along the span the fibres of a ply run aft, crossed ones forward."""
+    inputs = ActuatorInputs()
+    blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
+    ply = next(part for part in blade.parts if part.role == "ply")
+    ways = []
+    for crossed in (False, True):
+        lines = lifted.fibre_segments(blade, ply, np.zeros(len(ply.r)), crossed)
+        step = (lines[:, 1] - lines[:, 0]).mean(axis=0)
+        ways.append(np.sign(step[0] * step[1]))
+    assert ways[0] == -ways[1] != 0.0
 
 
-def test_colours_of_voltage_are_two_sided():
-    red, _, blue = share_colour(1.0)
+def test_what_drives_a_piece_is_seen_in_its_light():
+    """Nothing without voltage, amber for positive voltage, blue for negative, and heat in a tube."""
+    assert glow(0.0)[1] == 0.0
+    (red, _, blue), strength = glow(1.0)
     assert red > blue
-    red, _, blue = share_colour(-1.0)
+    assert strength == 1.0
+    (red, _, blue), _ = glow(-0.5)
     assert blue > red
-    assert len(set(share_colour(0.0))) == 1
+    (red, _, blue), _ = glow(1.0, "tube")
+    assert red > blue
+    assert drive_colour(0.0) != drive_colour(1.0) != drive_colour(-1.0)
+    inputs = ActuatorInputs(drives=FULL)
+    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
+    assert {name for name, solid in picture.solids.items() if solid.glow} == {"drive_0", "drive_1"}
+
+
+def test_the_camera_holds_the_whole_lifted_blade_and_the_helicopter_beyond():
+    """At every size of the page: in front of the near plane, and the hub within the picture, above the blade."""
+    radius = DESIGN.rotor.radius
+    pose = lifted.lifted_pose(radius)
+    inputs = ActuatorInputs(drives=FULL)
+    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
+    vertices = np.concatenate([solid.mesh.vertices for solid in picture.solids.values()])
+    world = rotate(pose.wxyz, vertices) + pose.position
+    for aspect in (1.2, 1.6, 2.6):
+        camera = lifted.fit_lifted(radius, aspect)
+        forward = camera.look_at - camera.position
+        forward /= np.linalg.norm(forward)
+        right = np.cross(forward, [0.0, 0.0, 1.0])
+        right /= np.linalg.norm(right)
+        up, tangent = np.cross(right, forward), math.tan(FIELD_OF_VIEW / 2.0)
+        seen = world - camera.position
+        depth = seen @ forward
+        assert depth.min() > 2.0
+        assert np.abs(seen @ up / depth).max() < tangent
+        assert np.abs(seen @ right / depth).max() < tangent * aspect
+        hub = -camera.position
+        assert hub @ forward > 3.0 * depth.max()
+        assert abs(hub @ right / (hub @ forward)) < tangent * aspect
+        assert hub @ up / (hub @ forward) > (seen @ up / depth).mean()
 
 
 def test_the_harmonic_moves_the_colour_with_azimuth():
@@ -236,20 +279,6 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     table = actuator_table.table_panel({"MFC_P1": verdict}, question)
     assert table.count("computing…") == len(ALL) - 1
     assert "▲" in table  # Recalled data are marked.
-
-
-def test_the_balance_adds_up_to_the_net_saving(verdict: Verdict):
-    """Twist less stiffness less mass and drive; each bar begins where the one before it ends."""
-    panel = actuator_readout.verdict_panel(verdict, None).partition('data-explorer="balance"')[2]
-    kilowatts = [float(text.replace("−", "-")) for text in re.findall(r"([+−]?[\d.]+) kW</span>", panel)]
-    assert sum(kilowatts[:3]) == pytest.approx(kilowatts[3], abs=0.151)
-    assert kilowatts[3] == pytest.approx(1e-3 * verdict.net_saving, abs=0.051)
-    assert kilowatts[0] == pytest.approx(1e-3 * verdict.twist_saving, abs=0.051)
-    bars = [tuple(map(float, pair)) for pair in re.findall(r"left:([\d.]+)%;width:([\d.]+)%", panel)]
-    ends = [{round(left, 0), round(left + width, 0)} for left, width in bars]
-    assert all(one & two for one, two in pairwise(ends[:3]))
-    zero = float(re.findall(r'<u style="left:([\d.]+)%', panel)[0])
-    assert any(abs(zero - end) < 0.6 for end in ends[3])
 
 
 def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
@@ -399,7 +428,7 @@ def test_the_limit_beyond_which_more_twist_costs():
 def test_a_sweep_is_asked_for_once_for_all_amplitudes_and_phases():
     turning = ActuatorInputs(per_rev=2)
     task = sweep_task(turning, DESIGN)
-    assert task == sweep_task(replace(turning, amplitude=80.0, phase=90.0, shown=True), DESIGN)
+    assert task == sweep_task(replace(turning, amplitude=80.0, phase=90.0), DESIGN)
     assert task != sweep_task(replace(turning, drives=FULL), DESIGN)
     assert pickle.loads(pickle.dumps(task)) == task
     assert sweep_task(ActuatorInputs(), DESIGN) is None
@@ -419,7 +448,7 @@ def test_a_sweep_agrees_with_the_slider():
     assert_allclose(found.change(0.7, math.radians(200.0)), shown, atol=20.0)
 
 
-def test_the_cut_of_an_elastic_blade_is_as_flown():
+def test_the_lifted_blade_is_drawn_as_flown():
     """The part that voltage moves: zero at the root, and at the tip what the two trims differ by."""
     inputs = ActuatorInputs(drives=FULL, per_rev=2, amplitude=50.0)
     driven, rest = solve(inputs.apply(DESIGN)), solve(DESIGN)
@@ -431,8 +460,10 @@ def test_the_cut_of_an_elastic_blade_is_as_flown():
     pitch = driven.disk.theta[:, at] - rest.disk.theta[:, at]  # Collective and cyclic move every station alike.
     assert_allclose(flown.moved, pitch - pitch[0], atol=math.radians(0.03))
     installed = inputs.installed(DESIGN.rotor)
-    labels = [text for text, _ in cut_picture(inputs, installed, DESIGN, 0.5, flown).labels]
-    assert any(f"tip {math.degrees(flown.moved[-1]):+.2f}°" in text.replace("−", "-") for text in labels)
+    labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, 0.5, flown).labels if kind == "tip"]
+    tip = math.degrees(inputs.tip(installed, DESIGN))
+    assert labels == [f"{tip:+.2f}° at the tip, drawn × {inputs.magnified:g}"]
+    assert f">{tip:+.2f}°<" in actuator_readout.now_panel(inputs, installed, driven)  # One number on the page.
     rigid = make_design(preset="thesis", mu=0.2)
     assert flown_twist(solve(rigid), solve(rigid), 0.5) is None
 

@@ -12,6 +12,7 @@ from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.units import number
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_inputs import (
+    AGAINST,
     BLADES,
     CONCEPTS,
     HARMONICS,
@@ -117,64 +118,58 @@ def reach_plot(
     return Plot((r, *series), held_range(previous, min(0.0, float(seen.min())), max(0.2, float(seen.max()))))
 
 
-def fly_titles(advance_ratios: tuple[float, float]) -> tuple[str, ...]:
-    """The buttons that fly: without voltage, and at each of two conditions."""
-    return ("At rest", *("Hover" if mu == 0.0 else f"Cruise µ {mu:.2f}" for mu in advance_ratios))
-
-
 _USED = "#2f9e44"
 
 
 class ActuatorControls:
     """Widgets and the charts and texts between them, from top to bottom."""
 
-    def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None]) -> None:
-        """`moved`: something changed, by a hand or not."""
-        self._gui, self._moved = gui, moved
+    def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None], driven: Callable[[], None]) -> None:
+        """`moved`: something changed, by a hand or not. `driven`: a hand moved a voltage."""
+        self._gui, self._moved, self._driven = gui, moved, driven
         self._handles: dict[str, Any] = {}
         """By field of `ActuatorInputs`."""
         self._menus: dict[str, dict[str, Any]] = {}
         """What each title of a menu means."""
-        start = ActuatorInputs()
         self.verdict = gui.add_html("")
-        self.shown = self._watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
-        self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
-        self.now = gui.add_html("")
+        self._menu("actuator", "Actuator", {title: id for id, title in actuator_titles().items()})
+        self._slider("plies", "Plies per side", 1, 8, 1)
+        self._range("span", "Span [R]", 0.14, 1.0, 0.05)
         self._drives = [
-            self._watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")))
+            self._watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")), self._driven)
             for _ in range(MOST_SEGMENTS)
         ]
         self.bar = gui.add_html("")
-        self.fly_buttons = gui.add_button_group("Fly at", fly_titles(start.advance_ratios), hint=hint("fly"))
-        self.numbers = gui.add_html("")
-        with gui.add_folder("Actuator and placement"):
-            self._menu("actuator", "Actuator", {title: id for id, title in actuator_titles().items()})
-            self._slider("plies", "Plies per side", 1, 8, 1)
-            self._range("span", "Span [R]", 0.14, 1.0, 0.05)
+        self.now = gui.add_html("")
+        with gui.add_folder("Placement and blade", expand_by_default=False):
             self._range("chord", "Chord [c]", 0.0, 0.95, 0.05, "chord_range")
             self._menu("blade", "Blade type", BLADES, "blade_type")
             self._slider("stiffness", "New blade GJ ×", 0.2, 1.5, 0.05)
             self._handles["crossed"] = self._watched(gui.add_checkbox("Fibres at −45°", False, hint=hint("crossed")))
             self._slider("counted", "Derating [%]", 40.0, 100.0, 1.0, "derating")
-        with gui.add_folder("Mission conditions"):
+            self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
+        with gui.add_folder("Mission conditions", expand_by_default=False):
             titles = {find_concept(name).title: name for name in CONCEPTS}
             self._menu("concept", "Concept", titles, "actuator_concept")
             self._range("advance_ratios", "µ from, to", 0.0, 0.4, 0.02, "pair")
-        self.chart = Chart(
-            gui,
-            "Δtwist [°]",
-            (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
-            # Attainable, the same as counted, required, used, now.
-            (line(BASELINE, 1.5), line(BASELINE, 1.5, (5, 3)), line(NOW), line(_USED, 1.5), line(THIS)),
-            (0.1, 1.02),
-        )
-        self.segments = gui.add_html("")
-        self.section = gui.add_html("")
-        self.limits = gui.add_html("")
-        with gui.add_folder("All actuators on this blade"):
+            self._menu("against", "Savings against", AGAINST)
+        with gui.add_folder("Reach and limits", expand_by_default=False):
+            self.numbers = gui.add_html("")
+            self.chart = Chart(
+                gui,
+                "Δtwist [°]",
+                (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
+                # Attainable, the same as counted, required, used, now.
+                (line(BASELINE, 1.5), line(BASELINE, 1.5, (5, 3)), line(NOW), line(_USED, 1.5), line(THIS)),
+                (0.1, 1.02),
+            )
+            self.segments = gui.add_html("")
+            self.section = gui.add_html("")
+            self.limits = gui.add_html("")
+        with gui.add_folder("All actuators on this blade", expand_by_default=False):
             self.table = gui.add_html("")
         self.electrodes = ElectrodesPanel(gui)
-        with gui.add_folder("Harmonic active twist"):
+        with gui.add_folder("Harmonic active twist", expand_by_default=False):
             gui.add_html(words.unmeasured())
             self._menu("per_rev", "Harmonic", HARMONICS, "harmonic")
             self._slider("amplitude", "Amplitude [%]", 0.0, 100.0, 1.0)
@@ -200,7 +195,7 @@ class ActuatorControls:
         values = {name: _read(handle.value) for name, handle in self._handles.items()}
         values |= {name: menu[self._handles[name].value] for name, menu in self._menus.items()}
         drives = tuple(float(handle.value) for handle in self._drives)
-        return ActuatorInputs(**values, drives=drives, shown=bool(self.shown.value))
+        return ActuatorInputs(**values, drives=drives)
 
     def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
         """Which widgets there are, and what they are called."""
@@ -213,7 +208,7 @@ class ActuatorControls:
         passive = isinstance(installed.actuator, ExtensionTwist)
         ply, turning = isinstance(installed.actuator, PiezoPly), inputs.per_rev > 0
         seen = {
-            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply, "magnified": inputs.shown,
+            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply,
             "stiffness": inputs.blade == "new", "amplitude": turning, "phase": turning,
         }  # fmt: skip
         for name, visible in seen.items():
@@ -221,8 +216,6 @@ class ActuatorControls:
         self._handles["span"].label = "Span {:.2f}–{:.2f}".format(*inputs.span)
         self._handles["chord"].label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
         self._handles["advance_ratios"].label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
-        if self.fly_buttons.options != (titles := fly_titles(inputs.advance_ratios)):
-            self.fly_buttons.options = titles
         self.swept.visible = turning
         for chart in (self.over_phase, self.over_amplitude):
             chart.set_visible(turning)
@@ -230,35 +223,44 @@ class ActuatorControls:
     def reset(self) -> None:
         """Nothing driven."""
         self._handles["per_rev"].value = next(iter(HARMONICS))
+        self.rest()
+
+    def rest(self) -> None:
+        """No steady voltage."""
         self.drive((0.0,) * MOST_SEGMENTS)
 
-    def drive_as(
+    def other_baseline(self) -> None:
+        """Count savings from the other blade."""
+        now = self._handles["against"]
+        now.value = next(title for title in AGAINST if title != now.value)
+
+    def drive_through(
         self,
         installed: InstalledActuator,
         swings: tuple[tuple[float, ...], ...],
-        voltages: tuple[tuple[float, float], ...],
-        which: int,
+        voltages: tuple[tuple[float, ...], ...],
+        x: float,
     ) -> None:
-        """Sliders as the verdict has them at one of its conditions."""
+        """Sliders as a flight has them, `x` legs from its first: swings and voltages by leg and segment.
+
+        Fibres are laid the other way where the voltages of the flight oppose its twists.
+        """
         actuator = find_actuator(installed.actuator.id)
+        shares = np.asarray(swings, dtype=float)
         if isinstance(actuator, PiezoPly):
-            unit = actuator.voltage_swing
-            shares = [pair[which] / unit for pair in voltages]
-            wanted = [swing[which] for swing in zip(*swings, strict=True)]
-            # Fibres laid the other way where the verdict's voltages oppose its twists.
-            opposed = (
-                installed.host.kind == "retrofit" and sum(a * b for a, b in zip(shares, wanted, strict=True)) < 0.0
-            )
-            self._handles["crossed"].value = opposed
-        else:
-            shares = list(swings[which])
-        drives = [drive_of(actuator, swing) for swing in shares]
+            wanted, shares = shares, np.asarray(voltages, dtype=float) / actuator.voltage_swing
+            opposed = installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
+            if self._handles["crossed"].value != opposed:
+                self._handles["crossed"].value = opposed
+        legs = np.arange(len(shares))
+        drives = [drive_of(actuator, float(np.interp(x, legs, share))) for share in shares.T]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
 
     def drive(self, drives: tuple[float, ...]) -> None:
         """Move the voltage sliders."""
         for handle, drive in zip(self._drives, drives, strict=True):
-            handle.value = round(drive)
+            if handle.value != round(drive):
+                handle.value = round(drive)
         self._moved(False)
 
     def _slider(self, name: str, label: str, low: float, high: float, step: float, entry: str = "") -> None:
@@ -277,8 +279,15 @@ class ActuatorControls:
         handle = self._gui.add_dropdown(label, tuple(meanings), hint=hint(entry or name))
         self._handles[name] = self._watched(handle)
 
-    def _watched(self, handle: Any) -> Any:
-        handle.on_update(lambda event: self._moved(event.client is not None))
+    def _watched(self, handle: Any, by_hand: Callable[[], None] = lambda: None) -> Any:
+        """`by_hand`: called on top where the user moves it."""
+
+        def heard(event: Any) -> None:
+            if event.client is not None:
+                by_hand()
+            self._moved(event.client is not None)
+
+        handle.on_update(heard)
         return handle
 
 

@@ -12,6 +12,7 @@ from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, twisted
 from rotor.actuator.section import BladeKind, Host, Placement
+from rotor.actuator.verdict import Against
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
@@ -23,6 +24,8 @@ CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Those whose divisions an actuator can be laid out for before any optimum is known."""
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
 BLADES: dict[str, BladeKind] = {"Existing blade (retrofit)": "retrofit", "New blade, softer in torsion": "new"}
+AGAINST: dict[str, Against] = {"Best fixed blade": "best-fixed", "Blade as built": "as-built"}
+"""The blade that savings count from."""
 HARMONICS = {"Off": 0, "1/rev": 1, "2/rev": 2}
 
 
@@ -42,6 +45,7 @@ class ActuatorInputs:
     counted: float = 100.0
     """Per cent of the nominal twist to count on."""
     concept: str = "linear"
+    against: Against = "best-fixed"
     advance_ratios: tuple[float, float] = (0.0, 0.3)
     drives: tuple[float, ...] = (0.0,) * MOST_SEGMENTS
     """Per cent of the positive or of the negative voltage, segments from the root."""
@@ -52,10 +56,8 @@ class ActuatorInputs:
     """Per cent of half the voltage range."""
     phase: float = 0.0
     """[°]"""
-    shown: bool = False
-    """Whether the blade is shown cut open instead of the rotor."""
-    magnified: float = 5.0
-    """How much the actuator's part of the twist is exaggerated in the cut blade."""
+    magnified: float = 8.0
+    """How much the actuator's part of the twist is exaggerated in the lifted blade."""
 
     @property
     def host(self) -> Host:
@@ -94,6 +96,10 @@ class ActuatorInputs:
     def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
         """The steady twist that the actuator adds at r/R, as counted on [rad]."""
         return self.share * installed.change(self.swings(installed), r)
+
+    def tip(self, installed: InstalledActuator, design: Design) -> float:
+        """Steady twist of the tip, as counted on [rad]: of the blade at rest where the trim is elastic."""
+        return self.share * float(np.asarray(self.swings(installed)) @ installed.shapes_in(design)[:, -1])
 
     def turning(self, installed: InstalledActuator, elastic: bool = False) -> DynamicTwist | None:
         """What the whole range makes at the chosen harmonic, as counted on; at rest for an elastic trim."""
@@ -154,13 +160,14 @@ class Question:
     placement: Placement
     host: Host
     share: float
+    against: Against = "best-fixed"
 
 
 def question_of(inputs: ActuatorInputs, design: Design) -> Question:
     """What the tab asks about a design; ValueError for a pair of equal conditions."""
-    start = replace(design.condition, advance_ratio=inputs.advance_ratios[0])
+    start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
     pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
-    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.share)
+    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.share, inputs.against)
 
 
 def swing_of(actuator: Actuator, drive: float) -> float:

@@ -1,16 +1,20 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
-from dataclasses import replace
-from typing import Any
-
 import viser
 
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
-from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.actuator_tasks import PoolAnswers, VerdictTask, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
+from explorer.tabs.actuator.actuator_tasks import FlightTask, PoolAnswers, sweep_task, verdict_tasks
 from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
-from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
+from explorer.tabs.actuator.flight_bar import FlightBar
+from explorer.tabs.actuator.lifted_picture import (
+    LiftedScene,
+    flown_twist,
+    lifted_picture,
+    voltage_shares,
+)
+from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap
@@ -31,9 +35,12 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(self, context: TabContext) -> None:
-        self._context, client = context, context.client
+        self._context = context
         self._touched = False
-        self._cut = CutScene(client.scene, context.bridge)
+        self._blade = LiftedScene(context.client, context.bridge)
+        self.lifted = False
+        """Whether the blade is wanted outside the rotor."""
+        self._radius = 1.0
         # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
         self._verdicts = PoolAnswers(context.pool, 5, context.wake)
         self._maps = PoolAnswers(context.pool, 3, context.wake)
@@ -42,17 +49,35 @@ class ActuatorPanel:
         self._undriven = solver.BaselineCache()
         self._sent: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
-        self._asked: Question | None = None
         self._before: tuple[object, ...] = ()
-        self._controls = ActuatorControls(context.gui, self._moved)
-        self._controls.fly_buttons.on_click(self._fly_clicked)
-        self.shown = self._controls.shown
+        self._flights = PoolAnswers(context.pool, 4, context.wake)
+        self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
+        self._flight_bar = FlightBar(context, self._controls)
+        context.bridge.on("against", lambda _: self._controls.other_baseline())
         self.inputs = self._controls.inputs
 
     def stop(self) -> None:
         """The browser has left."""
         self._verdicts.stop()
         self._maps.stop()
+        self._flights.stop()
+        self._blade.stop()
+
+    @property
+    def fits(self) -> bool:
+        """Whether this rotor's blade is known well enough to carry an actuator."""
+        return self._context.inputs().aircraft.key == KNOWN_BLADE
+
+    def lift(self, out: bool) -> None:
+        """Lift one blade out towards the viewer, or let it fly back."""
+        self.lifted = out
+        if out:
+            self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
+            self._blade.hold(self._radius)
+        else:
+            self._blade.release(self._radius)
+            self._flight_bar.hide()
+        self._context.wake()
 
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
@@ -64,24 +89,22 @@ class ActuatorPanel:
             inputs.turning(installed, design.elastic)  # Resonance of a rigid trim is reported here.
             question = question_of(inputs, design)
         except ValueError as error:
-            self._cut.hide()
+            self._blade.release(self._radius)
             self._drawn = None
             self.show_problem(str(error))
             return
         self._controls.arrange(inputs, installed)
         alone = self._undriven.solve(design) if inputs.driven else None
         self._draw(inputs, installed, design, psi, solution, alone or solution)
-        change = solution.power.total - alone.power.total if alone is not None and alone.converged else None
-        self._set("now", self._controls.now, words.now_panel(inputs, installed, change, solution))
+        self._set("now", self._controls.now, words.now_panel(inputs, installed, solution))
         self._show_sweep(inputs, design)
         self._set("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
         self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
         self._set("bar", self._controls.bar, words.voltage_bar(installed.actuator))
-        self._asked = question
         now = (inputs, design)
         self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._show_verdict(inputs, installed, question, design.rotor.blade.root_cutout)
+        self._show_verdict(inputs, installed, question, design)
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
@@ -105,7 +128,7 @@ class ActuatorPanel:
         self._controls.reset()
 
     def _show_verdict(
-        self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float
+        self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
     ) -> None:
         outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
         outcome = outcomes[question.actuator]
@@ -116,6 +139,11 @@ class ActuatorPanel:
         show("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
         show("limits", places.limits, words.limits_panel(verdict))
         show("table", places.table, table_panel(outcomes, question))
+        task = None if verdict is None else FlightTask(question, verdict)
+        self._flights.ask(() if task is None else (task,), 0.0)
+        if self.lifted:
+            self._flight_bar.show(self._context.inputs(), design, installed, outcome, self._flights.answer(task))
+        root = design.rotor.blade.root_cutout
         places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
         self._verdict = verdict or self._verdict
 
@@ -128,8 +156,8 @@ class ActuatorPanel:
         solution: Solution,
         alone: Solution,
     ) -> None:
-        if not inputs.shown:
-            self._cut.hide()
+        if not self.lifted:
+            self._blade.release(self._radius)
             self._drawn = None
             return
         turning = inputs.per_rev > 0 or design.elastic
@@ -137,30 +165,16 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
+        picture = lifted_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
         with self._context.client.atomic():
-            self._cut.show(picture)
+            self._blade.hold(self._radius)
+            self._blade.show(picture)
         self._context.client.flush()
 
     def _set(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
         if self._sent.get(name) != content:
             self._sent[name] = content
             handle.content = content
-
-    def _fly_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        self._touched = True
-        which = event.target.options.index(event.target.value) - 1
-        if which < 0:
-            self._controls.drive((0.0,) * MOST_SEGMENTS)
-            return
-        verdict = None if self._asked is None else self._verdicts.answer(VerdictTask(self._asked))
-        if not isinstance(verdict, Verdict):
-            self._context.wake()
-            self._context.notify("No verdict yet", "Its voltages are being computed.")
-            return
-        self._controls.drive_as(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
-        mu = verdict.baseline.pair.advance_ratios[which]
-        self._context.set_inputs(replace(self._context.inputs(), advance_ratio=mu))
 
     def _moved(self, by_hand: bool) -> None:
         self._touched = self._touched or by_hand

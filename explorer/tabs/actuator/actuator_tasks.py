@@ -3,12 +3,15 @@
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from itertools import chain, pairwise
 from typing import Any, Protocol
 
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
 from rotor.actuator.catalogue import actuators, find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.harmonic import PowerMap, power_map
 from rotor.actuator.verdict import Verdict, judge
 from rotor.design.design import Design
@@ -41,6 +44,7 @@ def answer(question: Question) -> Outcome:
             question.placement,
             question.host,
             counted=question.share,
+            against=question.against,
         )
     except (ValueError, RuntimeError) as error:
         return str(error)
@@ -60,6 +64,38 @@ def verdict_tasks(question: Question) -> tuple[VerdictTask, ...]:
     """The chosen actuator first, then all others."""
     others = (id for id in actuators() if id != question.actuator)
     return tuple(VerdictTask(replace(question, actuator=id)) for id in (question.actuator, *others))
+
+
+@dataclass(frozen=True)
+class FlightTask:
+    """The flight of one judged actuator. It pickles."""
+
+    question: Question
+    verdict: Verdict = field(compare=False)
+    """The answer to that question."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> ActuatorFlight | str:
+        """The flight, or the sentence that says why there is none."""
+        del tell, stop
+        try:
+            return fly(self.verdict, flight_legs(self.verdict.baseline.pair.design))
+        except (ValueError, RuntimeError) as error:
+            return str(error)
+
+
+@lru_cache(maxsize=8)
+def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
+    """The standard flight of a design, with a leg half way between any two."""
+    legs = standard_flight(design)
+    halves = [
+        FlightLeg(
+            f"{a.name} to {b.name}",
+            0.5 * (a.advance_ratio + b.advance_ratio),
+            0.5 * (a.climb_speed + b.climb_speed),
+        )
+        for a, b in pairwise(legs)
+    ]
+    return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])
 
 
 @dataclass(frozen=True)
@@ -87,7 +123,7 @@ def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
     if not inputs.per_rev or design.hovering:
         return None
     plain = ActuatorInputs()
-    steady = replace(inputs, amplitude=0.0, phase=0.0, shown=False, magnified=plain.magnified)
+    steady = replace(inputs, amplitude=0.0, phase=0.0, magnified=plain.magnified)
     steady = replace(steady, advance_ratios=plain.advance_ratios)
     return SweepTask(replace(steady.apply(design), active_twist=None), steady)
 

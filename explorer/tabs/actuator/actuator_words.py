@@ -2,7 +2,6 @@
 
 import math
 from html import escape
-from itertools import pairwise
 
 import numpy as np
 
@@ -10,13 +9,13 @@ from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import Outcome
-from explorer.tabs.actuator.cut_picture import drive_text, share_colour
+from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.harmonic import PowerMap, tip_response
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import Limit
-from rotor.actuator.verdict import Verdict, headline, verdict_sentence
+from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.reproduce.report import typographic
@@ -32,7 +31,7 @@ def voltage_bar(actuator: Actuator) -> str:
     low, high, unit = -100.0, 100.0, "%"
     if isinstance(actuator, PiezoPly):
         low, high, unit = *actuator.voltage_range, "V"
-    stops = ",".join(css(share_colour(k / 8.0)) for k in range(-8, 9))
+    stops = ",".join(css(drive_colour(k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks = "".join(
         f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'
@@ -51,28 +50,18 @@ def sweep_panel(sentence: str) -> str:
     return f'<div class="rx rx-small" data-explorer="swept">{escape(sentence)}</div>'
 
 
-def now_panel(
-    inputs: ActuatorInputs, installed: InstalledActuator, change_w: float | None, solution: Solution | None = None
-) -> str:
-    """What the sliders make of the blade at this moment, and what that does to power. `solution` with the actuator."""
-    elastic = solution is not None and solution.elastic is not None
-    tip = math.degrees(float(inputs.change(installed, 1.0)))
-    if not inputs.driven:
-        power = '<span class="rx-dim">at rest: no change to the design</span>'
-    elif change_w is None:
-        power = '<span class="rx-dim">no trim to compare with</span>'
-    else:
-        kind = "" if abs(change_w) < 50.0 else " rx-less" if change_w < 0.0 else " rx-more"
-        power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
-    drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
-    lines = [f'<div class="rx-dim rx-small">tip relative to root, now: {drives}</div>']
+def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: Solution) -> str:
+    """What the sliders make of the blade at this moment. `solution` with the actuator."""
+    elastic = solution.elastic is not None
+    tip = math.degrees(inputs.tip(installed, solution.design))
+    lines: list[str] = []
     response = inputs.turning(installed, elastic)
     if response is not None:
         half = math.degrees(response.amplitude)
         if half:
             used = number(0.01 * inputs.amplitude * half, 2)
             text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
-            if elastic and solution is not None:
+            if elastic:
                 flown = math.degrees(tip_response(solution, inputs.per_rev)[0])
                 text = (
                     f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev on a blade at rest; flown, with the "
@@ -84,9 +73,12 @@ def now_panel(
     over = over_range(inputs, installed)
     if over:
         lines.append(f'<div class="rxa-bad rx-small">{escape(over)}</div>')
+    drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
+    words = f"tip twist at {drives}" if inputs.driven else "tip twist, at rest"
     return (
         '<div class="rx" data-explorer="actuator-now"><div class="rxa-now">'
-        f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b>{power}</div>{"".join(lines)}</div>'
+        f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b><span class="rx-dim">{words}</span></div>'
+        f"{''.join(lines)}</div>"
     )
 
 
@@ -128,9 +120,7 @@ def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Ver
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
         ("twist commanded", f"{number(nominal * inputs.share, 2)}°"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
-        ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
-        ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
         ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]
     cells = "".join(
@@ -146,36 +136,18 @@ def problem_panel(problem: str) -> str:
 
 
 def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
-    """The verdict's sentence, or that it is on its way, with the one before."""
-    if outcome is None:
-        old = "" if before is None else f'<div class="rx-faded">{escape(verdict_sentence(before))}</div>'
-        return _box(
-            "wait",
-            "computing",
-            f"Net benefit? Computing the optimum twist at both conditions, then the best within reach.{old}",
-        )
+    """The verdict in one line, and what it rests on folded; on its way, the one before."""
     if isinstance(outcome, str):
         return problem_panel(outcome)
-    lead, sentence = headline(outcome), verdict_sentence(outcome)
-    name = escape(outcome.installed.actuator.name)
-    why = f"<details><summary>{name}: reach and limits</summary>{escape(sentence.removeprefix(lead))}</details>"
-    return _box("yes" if outcome.pays else "no", "ready", f"<b>{escape(lead)}</b>{_balance(outcome)}{why}")
-
-
-def _balance(verdict: Verdict) -> str:
-    """What the saving is made of, as bars one below the other: each begins where the one before it ends."""
-    parts = [("twist", verdict.twist_saving), ("stiffness", -verdict.stiffness_cost)]
-    parts.append(("mass, drive", verdict.net_saving - verdict.gross_saving))
-    ends = np.cumsum([0.0, *(saving for _, saving in parts)])
-    spans = [*pairwise(ends), (0.0, ends[-1])]
-    low, span = ends.min(), max(float(np.ptp(ends)), 1.0)
-    rows = "".join(
-        f'<span>{name}</span><span class="rxa-track"><u style="left:{100.0 * -low / span:.1f}%"></u>'
-        f'<i class="rxa-{"loss" if end < start else "gain"}" style="left:{100.0 * (min(start, end) - low) / span:.1f}%;'
-        f'width:{100.0 * abs(end - start) / span:.1f}%"></i></span><span class="rx-num">{_kw(saving)}</span>'
-        for (name, saving), (start, end) in zip([*parts, ("<b>net saving</b>", ends[-1])], spans, strict=True)
-    )
-    return f'<div class="rxa-bars" data-explorer="balance">{rows}</div>'
+    shown = outcome or before
+    if shown is None:
+        return _box("wait", "computing", "<b>Computing what the actuator saves and what it costs…</b>")
+    name = escape(shown.installed.actuator.name)
+    why = f"<details><summary>{name}: reach and limits</summary>{escape(verdict_details(shown))}</details>"
+    text = f"<b>{escape(verdict_sentence(shown))}</b>{why}"
+    if outcome is None:
+        return _box("wait", "computing", f'<div class="rx-faded">{text}</div><small>computing…</small>')
+    return _box("yes" if shown.pays else "no", "ready", text)
 
 
 def _box(look: str, kind: str, text: str) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.catalogue import TorqueTube, find_actuator
 from rotor.actuator.electrical import capacitance, drive, harmonic_drive
 from rotor.actuator.harmonic import dynamic_twist
 from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install
@@ -147,10 +147,46 @@ def test_four_degrees_need_870_newton_metres():
     assert_allclose(installed.attainable, installed.moment / installed.section_stiffness * length, rtol=0.10)
 
 
+def tube(count: int, host: Host | None = None, divisions: tuple[float, ...] = ()) -> InstalledActuator:
+    placement = default_placement(count, divisions)
+    return install(find_actuator("SMA_tube"), placement, host or Host("new", 1.0), uh60a_rotor("flight"))
+
+
 def test_one_tube_of_shape_memory():
-    """395 N·m on the flown blade: 4° need about 2.2 tubes."""
-    installed = install(find_actuator("SMA_tube"), default_placement(1), Host("new", 1.0), uh60a_rotor("flight"))
-    assert_allclose(math.radians(4.0) / installed.attainable, 2.2, rtol=0.10)
+    """395 N·m blocked would need 2.2 tubes for 4° on the flown blade; a quarter goes into the stroke, so it takes 3."""
+    installed = tube(1)
+    assert_allclose(math.radians(4.0) / installed.attainable * installed.moment / 395.0, 2.2, rtol=0.10)
+    assert math.degrees(tube(3).attainable) < 4.0 < math.degrees(tube(4).attainable)
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+@pytest.mark.parametrize("stiffness", [0.25, 1.0])
+def test_the_tube_works_where_its_line_meets_its_load(count: int, stiffness: float):
+    """Rotation of the tube = twist of the blade + wind-up of the link; torque = what is left at that rotation.
+
+    By hand: free rotation 3 % × 600/18 = 1 rad; the titanium link 44/38 mm has GJ 6854 N·m².
+    """
+    installed = tube(count, Host("new", stiffness))
+    free, link = 0.03 * 600.0 / 18.0, 110e9 / 2.62 * math.pi / 32.0 * (0.044**4 - 0.038**4)
+    length = (0.9292 - 0.2433) * 8.1788
+    each = installed.moment / count
+    rotation = installed.attainable + each * length / link
+    assert_allclose(each, 395.0 * (1.0 - rotation / free), rtol=1e-6)
+
+
+def test_a_tube_that_works_on_nothing_soft_gives_its_blocking_torque():
+    actuator = find_actuator("SMA_tube")
+    assert isinstance(actuator, TorqueTube)
+    assert_allclose(actuator.working_torque(0.0, 0.0, 2), 790.0)
+    soft = actuator.working_torque(1e3, 0.0)
+    assert_allclose(soft * 1e3, actuator.free_rotation, rtol=1e-3)  # It turns freely.
+
+
+def test_tubes_of_two_segments_have_a_link_each():
+    """Shorter segments twist less and wind up less, so each tube keeps more of its torque."""
+    whole, parts = tube(1), tube(1, divisions=(0.5,))
+    assert parts.moment > whole.moment
+    assert_allclose(parts.masses.actuator - whole.masses.actuator, 8.2, rtol=1e-9)  # A second package, the same link.
 
 
 def test_segments_add_up():

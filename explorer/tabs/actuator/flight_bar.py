@@ -1,0 +1,200 @@
+"""The flight bar of Actuate: tip twist from hover to fast flight, and the one balance of power, as the page draws them.
+
+`explorer/web/flight.js` draws both; the bar sets the flight condition by the inputs of the sliders, and the voltages.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from explorer.model.inputs import Inputs
+from explorer.model.units import Units, number
+from explorer.tabs.actuator.actuator_controls import ActuatorControls
+from explorer.tabs.actuator.actuator_tasks import flight_legs
+from explorer.tabs.context import TabContext
+from rotor.actuator.flight import ActuatorFlight, FlightLeg
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.verdict import Verdict, reference, verdict_sentence
+from rotor.design.design import Design
+from rotor.line_chart import round_ticks
+
+HALVES = 2
+"""Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
+_SECONDS = 3600.0
+_LEAST = math.radians(1.5)
+"""Least height of the chart either way [rad]: with little twist the curves do not fill it."""
+
+
+def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
+    """µ and rate of climb [m/s] at a place of the bar, which counts named legs from 0; between legs straight."""
+    at = np.arange(len(legs)) / HALVES
+    mu = float(np.interp(x, at, [leg.advance_ratio for leg in legs]))
+    climb = float(np.interp(x, at, [leg.climb_speed for leg in legs]))
+    return round(mu, 3), round(climb, 2)
+
+
+def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
+    """Where on the bar an advance ratio is: it grows from leg to leg."""
+    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
+
+
+def flight_state(
+    legs: Sequence[FlightLeg],
+    flight: ActuatorFlight | None,
+    known: bool,
+    advance_ratio: float,
+    tip_speed: float,
+    units: Units,
+    problem: str = "",
+) -> dict[str, Any]:
+    """What the page draws the tip twist from: angles in degrees, powers in the main unit.
+
+    `known`: the flight is that of the present question, else one before.
+    """
+    unit = units.power[0]
+    state: dict[str, Any] = {
+        "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in legs[::HALVES]],
+        "at": round(place_of(legs, advance_ratio), 3),
+        "kind": "ready" if known and flight else "problem" if problem else "computing",
+        "words": problem or ("computing…" if not known else ""),
+        "unit": unit.symbol,
+    }
+    low, high = -_LEAST, _LEAST
+    if flight is not None:
+        curves = np.concatenate((flight.wanted, flight.reached, flight.reach))
+        low, high = min(low, float(curves.min())), max(high, float(curves.max()))
+        state |= {
+            "wanted": _degrees(flight.wanted),
+            "reached": _degrees(flight.reached),
+            "reach": _degrees(flight.reach),
+            "net": [round(unit.of(float(net)), 2) for net in flight.net_saving],
+        }
+    margin = 0.06 * (high - low)
+    ends = math.degrees(low - margin), math.degrees(high + margin)
+    return state | {"range": [round(end, 3) for end in ends], "ticks": round_ticks(*ends, 4)}
+
+
+def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
+    if leg.advance_ratio == 0.0 and leg.climb_speed == 0.0:
+        return "0 kt" if units.speed[0].symbol == "kt" else "µ 0"
+    speed = units.speed[0].text(leg.advance_ratio * tip_speed)
+    return f"{speed}, {units.climb.text(leg.climb_speed, 1, sign=True)}" if leg.climb_speed else speed
+
+
+def _degrees(angles: Any) -> list[float]:
+    return [round(math.degrees(float(angle)), 3) for angle in angles]
+
+
+def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> dict[str, Any]:
+    """What the page draws the balance from. `known`: the verdict is that of the present question, else one before."""
+    kind = "ready" if known and verdict else "problem" if problem else "computing"
+    if verdict is None:
+        sentence = problem or "Computing what the actuator saves and what it costs…"
+        return {
+            "kind": kind, "unit": units.power[0].symbol, "where": "", "bars": [], "against": "best fixed blade",
+            "fuel": "", "fuel_kind": "", "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net",
+            "sentence": sentence,
+        }  # fmt: skip
+    unit, net = units.power[0], verdict.net_saving
+    bars = [
+        _bar(name if not k else f"− {name}", power, units, False) for k, (name, power) in enumerate(verdict.savings)
+    ]
+    bars.append(_bar("= net", net, units, True))
+    first, second = verdict.baseline.pair.advance_ratios
+    fuel, caveats = verdict.fuel_saving, " ".join(text for text in verdict.caveats if "uel" in text)
+    used = None if fuel is None else -_SECONDS * fuel
+    return {
+        "kind": kind,
+        "unit": unit.symbol,
+        "where": f"mean of µ {first:g} and µ {second:g}",
+        "bars": bars,
+        "against": reference(verdict).removeprefix("the "),
+        "fuel": "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour",
+        "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
+        "fuel_note": caveats,
+        "net": f"{signed(net, units)} {unit.symbol}",
+        "net_kind": "loss" if net < 0.0 else "gain",
+        "net_words": "net",
+        "sentence": verdict_sentence(verdict),
+    }
+
+
+def _bar(name: str, power: float, units: Units, total: bool) -> dict[str, Any]:
+    text = signed(power, units)
+    kind = {"−": "loss", "+": "gain"}.get(text[0], "")
+    return {"name": name, "value": round(units.power[0].of(power), 3), "text": text, "kind": kind, "total": total}
+
+
+def signed(power: float, units: Units) -> str:
+    """A saving [W] in the main unit, with one decimal."""
+    return number(units.power[0].of(power), 1, sign=True)
+
+
+class FlightBar:
+    """One client's."""
+
+    def __init__(self, context: TabContext, controls: ActuatorControls) -> None:
+        self._context, self._controls = context, controls
+        self._flight: ActuatorFlight | None = None
+        """The last one known."""
+        self._verdict: Verdict | None = None
+        self._legs: tuple[FlightLeg, ...] = ()
+        self._installed: InstalledActuator | None = None
+        self._flown: float | None = None
+        """Where on the bar the voltages follow the flight; None where a hand set them."""
+        context.bridge.on("fly", self._fly)
+
+    def show(
+        self,
+        inputs: Inputs,
+        design: Design,
+        installed: InstalledActuator,
+        verdict: Verdict | str | None,
+        flight: ActuatorFlight | str | None,
+    ) -> None:
+        """Follow the session. Verdict and flight: the sentence that says why there is none, or None on their way."""
+        self._legs, self._installed = flight_legs(design), installed
+        known = isinstance(flight, ActuatorFlight)
+        if isinstance(flight, ActuatorFlight) and flight is not self._flight:
+            self._flight = flight
+            if self._flown is not None:
+                self._drive(self._flown)
+        if isinstance(verdict, Verdict):
+            self._verdict = verdict
+        units, speed = self._context.units, design.rotor.tip_speed
+        problem = flight if isinstance(flight, str) else verdict if isinstance(verdict, str) else ""
+        wrong = verdict if isinstance(verdict, str) else ""
+        self._context.bridge.set(
+            flight=flight_state(
+                self._legs, None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem
+            ),
+            earns=earns_state(None if wrong else self._verdict, isinstance(verdict, Verdict), units, wrong),
+        )
+
+    def hide(self) -> None:
+        """The blade is back in the rotor: what the flight drove is at rest again."""
+        self._context.bridge.set(flight=None, earns=None)
+        if self._flown is not None:
+            self.leave_to_hand()
+            self._controls.rest()
+
+    def leave_to_hand(self) -> None:
+        """A hand moved a voltage: it stays until the bar moves again."""
+        self._flown = None
+
+    def _fly(self, x: Any) -> None:
+        if self._context.held or not self._legs:
+            return
+        self._flown = min(max(float(x), 0.0), (len(self._legs) - 1) / HALVES)
+        mu, climb = condition_at(self._legs, self._flown)
+        self._drive(self._flown)
+        self._context.drag_to(replace(self._context.inputs(), advance_ratio=mu, climb_m_s=climb))
+
+    def _drive(self, x: float) -> None:
+        """Voltages as the flight has them there."""
+        flight, installed = self._flight, self._installed
+        if flight is not None and installed is not None and flight.swings:
+            self._controls.drive_through(installed, flight.swings, flight.voltages, HALVES * x)

@@ -1,0 +1,340 @@
+"""The blade lifted out of the rotor, as arrays: skin, spar, web and actuator from the true sections, and its camera.
+
+Axes of a blade: x outward, y to the leading edge, z up. It is drawn `WIDER` times as wide as it is long.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from explorer.picture.camera_views import Camera, framed
+from explorer.picture.poses import Pose, about, compose, rotate
+from explorer.picture.solids import Mesh
+from rotor.actuator.catalogue import PiezoPly, TorqueTube
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import electronics_station
+from rotor.actuator.section import SectionSpec, section_spec, skin
+from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.dynamics.structure import structure_data, uh60a_structure
+
+WIDER = 2.7
+"""A blade is sixteen times as long as it is wide: drawn so, its plies would be threads."""
+THICKER = 5.0
+"""Plies are drawn this much thicker, or they would be lines."""
+SIDES = ("upper", "lower")
+LIFT = 0.0008
+"""Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
+MIDDLE = 0.55
+"""r/R of the origin."""
+
+
+@dataclass(frozen=True, eq=False)
+class BladePart:
+    """One piece: a line across the chord, thickened, at each station."""
+
+    role: str
+    """skin, spar, web, ply, tube or laminate."""
+    segment: int
+    """The electrical segment that it belongs to; −1 for a piece that is not driven."""
+    r: Array
+    """(stations,)."""
+    outer: Array
+    """(stations, points, 2): y, z."""
+    inner: Array | None = None
+    """None for a sheet."""
+
+
+@dataclass(frozen=True, eq=False)
+class LiftedBlade:
+    """The blade without twist."""
+
+    parts: tuple[BladePart, ...]
+    rings: Array
+    """Section outlines from the upper trailing edge over the nose, (stations, points, 2)."""
+    r: Array
+    """Of the rings."""
+    box: tuple[float, float]
+    """Where the electronics sit, r/R."""
+    radius: float
+
+    def outward(self, r: Array | float) -> Array:
+        """x of a station [m]."""
+        return self.radius * (np.asarray(r, dtype=float) - MIDDLE)
+
+    @property
+    def spans(self) -> list[tuple[float, float]]:
+        """Driven stretches, root to tip."""
+        numbers = sorted({part.segment for part in self.parts if part.segment >= 0})
+        own = [[part.r for part in self.parts if part.segment == number] for number in numbers]
+        return [(min(float(r[0]) for r in each), max(float(r[-1]) for r in each)) for each in own]
+
+
+@lru_cache(maxsize=8)
+def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
+    """The pieces for an actuator on a blade."""
+    spec = section_spec(uh60a_structure(rotor.radius), installed.host)
+    data = structure_data()["section"]
+    placement, actuator = installed.placement, installed.actuator
+    web = float(data["spar_web_c"] if installed.host.kind == "retrofit" else data["box_end_c"])
+    r = stations((rotor.blade.root_cutout, 1.0), 32)
+    rings = np.stack([outline(spec, rotor, float(at)) for at in r])
+    spar = np.stack([_within(spec, rotor, float(at), web) for at in r])
+    pieces = [BladePart("skin", -1, r, rings), BladePart("spar", -1, r, spar), _web(spec, rotor, web, r)]
+    driven = [(k, span) for k, span in enumerate(placement.segments) if span[1] - span[0] > 1e-6]
+    if isinstance(actuator, PiezoPly):
+        far = LIFT + THICKER * placement.plies * actuator.thickness
+        pieces += [_ply(spec, rotor, side, placement.chord, span, far, k) for k, span in driven for side in SIDES]
+    elif isinstance(actuator, TorqueTube):
+        pieces += [_tube(0.5 * actuator.diameter, span, k) for k, span in driven]
+    else:
+        pieces.append(BladePart("laminate", 0, r, 1.012 * rings))
+    return LiftedBlade(tuple(pieces), rings, r, electronics_station(installed), rotor.radius)
+
+
+def _ply(
+    spec: SectionSpec,
+    rotor: Rotor,
+    side: str,
+    chord: tuple[float, float],
+    span: tuple[float, float],
+    far: float,
+    segment: int,
+) -> BladePart:
+    """Plies on one side, from `LIFT` to `far` off the contour [m]."""
+    r = stations(span, 28)
+    lines = np.stack([_line(spec, rotor, float(at), side, chord, 14) for at in r])
+    along = np.gradient(lines, axis=1)
+    normal = np.stack((-along[..., 1], along[..., 0]), axis=-1)
+    normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
+    # Towards the outside: up on the upper side; the line runs aft, to −y.
+    normal *= -1.0 if side == "upper" else 1.0
+    return BladePart("ply", segment, r, lines + far * normal, lines + LIFT * normal)
+
+
+def _web(spec: SectionSpec, rotor: Rotor, at: float, r: Array) -> BladePart:
+    """The wall across the section at x/c."""
+    lines = []
+    for station in r:
+        top, bottom = (_line(spec, rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
+        lines.append(bottom + np.linspace(0.0, 1.0, 3)[:, None] * (top - bottom))
+    rear = np.stack(lines)
+    return BladePart("web", -1, r, rear, rear + np.array([0.012, 0.0]))
+
+
+def _tube(radius: float, span: tuple[float, float], segment: int) -> BladePart:
+    """A torque tube about the quarter chord."""
+    r = stations(span, 28)
+    angle = np.linspace(0.0, 2.0 * np.pi, 21)
+    circle = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    size = min(radius, 0.02)
+    outer = np.broadcast_to(size * circle, (len(r), 21, 2))
+    return BladePart("tube", segment, r, outer, 0.8 * outer)
+
+
+def outline(spec: SectionSpec, rotor: Rotor, r: float) -> Array:
+    """From the upper trailing edge over the nose to the lower one, (points, 2)."""
+    upper, lower = (_line(spec, rotor, r, side, (0.0, 1.0), 20) for side in SIDES)
+    return np.concatenate((upper[::-1], lower[1:]))
+
+
+def _within(spec: SectionSpec, rotor: Rotor, r: float, web: float) -> Array:
+    """The spar, a little inside the skin so that the two do not share a surface, (points, 2)."""
+    upper, lower = (_line(spec, rotor, r, side, (0.0, web), 12) for side in SIDES)
+    ring = np.concatenate((upper[::-1], lower[1:]))
+    return ring.mean(axis=0) + 0.95 * (ring - ring.mean(axis=0))
+
+
+def stations(span: tuple[float, float], whole: int) -> Array:
+    """r/R at which a stretch is drawn; `whole`: how many a blade would have from hub to tip."""
+    return np.linspace(*span, max(2, round(whole * (span[1] - span[0])) + 1))
+
+
+def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: tuple[float, float], points: int) -> Array:
+    """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
+    inner, outer, weight = rotor.blade.section_at(r)
+    scale = float(rotor.blade.chord(r)) / spec.chord
+    line = np.zeros((points, 2))
+    for name, share in ((inner, 1.0 - weight), (outer, weight)):
+        if share:
+            own = replace(spec, contour=_contour(name))
+            line += share * skin(own, side, *chord, points)
+    return scale * np.stack((0.25 * spec.chord - line[:, 0], line[:, 1]), axis=1)
+
+
+def _contour(section: str) -> str:
+    return "sc1094r8" if section.startswith("sc1094r8") else "sc1095"
+
+
+def part_mesh(blade: LiftedBlade, part: BladePart, twist: Array) -> Mesh:
+    """The piece with the blade's twist [rad] at its stations: a sheet with its tip closed, or a closed solid."""
+    outer = _turned(blade, part.r, part.outer, twist)
+    if part.inner is None:
+        half = outer.shape[1] // 2
+        tip = np.stack((outer[-1, : half + 1], outer[-1, half:][::-1]))
+        return _grids([outer, tip])
+    inner = _turned(blade, part.r, part.inner, twist)
+    sides = [np.stack((outer[:, k], inner[:, k]), axis=1) for k in (0, -1)]
+    return _grids([outer, inner, *sides, *(np.stack((outer[k], inner[k])) for k in (0, -1))])
+
+
+def edge_segments(blade: LiftedBlade, twist: Array) -> Array:
+    """Both edges, root and tip section of the blade with this twist at its rings [rad], (segments, 2, 3)."""
+    rings = _turned(blade, blade.r, blade.rings, twist)
+    nose = rings.shape[1] // 2
+    return _joined([rings[:, nose], rings[:, 0], rings[0], rings[-1]])
+
+
+def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array, crossed: bool) -> Array:
+    """Fibres on the outside of a ply or laminate, at 45° in the drawing, `crossed` at −45°, (segments, 2, 3)."""
+    surface = _turned(blade, part.r, part.outer, twist)
+    length = float(surface[-1, 0, 0] - surface[0, 0, 0])
+    width = float(np.linalg.norm(np.diff(surface[0], axis=0), axis=1).sum())
+    share, lines = np.linspace(0.0, 1.0, 9), list[Array]()
+    for start in np.arange(-width, length, _FIBRE_STEP):
+        along = start + width * (1.0 - share if crossed else share)
+        inside = (along >= 0.0) & (along <= length)
+        if inside.sum() > 1:
+            lines.append(_on(surface, along[inside] / length, share[inside]))
+    return _joined(lines)
+
+
+_FIBRE_STEP = 0.13
+"""[m], along the span."""
+
+
+def _on(surface: Array, along: Array, across: Array) -> Array:
+    """Points of a grid (stations, points, 3) at shares of its rows and columns."""
+    rows, columns = surface.shape[:2]
+    i, j = along * (rows - 1), across * (columns - 1)
+    a, b = np.minimum(i.astype(int), rows - 2), np.minimum(j.astype(int), columns - 2)
+    u, v = (i - a)[:, None], (j - b)[:, None]
+    near = (1.0 - v) * surface[a, b] + v * surface[a, b + 1]
+    far = (1.0 - v) * surface[a + 1, b] + v * surface[a + 1, b + 1]
+    raised = (1.0 - u) * near + u * far
+    return raised + np.array([0.0, 0.0, 0.004])
+
+
+def root_parts(blade: LiftedBlade, rotor: Rotor, twist: float) -> tuple[Mesh, Mesh]:
+    """Shank and black box."""
+    start, end = rotor.blade.flap_hinge, rotor.blade.root_cutout
+    angle = np.linspace(0.0, 2.0 * np.pi, 25)
+    circle = 0.05 * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    rings = _turned(blade, np.array([start, end + 0.004]), np.stack((circle, circle)), np.full(2, twist))
+    hub_side = np.stack((rings[0], np.broadcast_to(rings[0].mean(axis=0), rings[0].shape)))
+    corner = np.array([[-0.10, 0.052], [0.09, 0.052], [0.09, 0.10], [-0.10, 0.10], [-0.10, 0.052]])
+    ends = _turned(blade, np.array([blade.box[0], _box_end(blade)]), np.stack((corner, corner)), np.full(2, twist))
+    caps = [np.stack((end[[0, 1]], end[[3, 2]])) for end in ends]
+    return _grids([rings, hub_side]), _grids([*(ends[:, k : k + 2] for k in range(4)), *caps])
+
+
+def lead_segments(blade: LiftedBlade, twist: Array) -> Array:
+    """Leads from the black box along the nose to the inner end of each segment, (segments, 2, 3).
+
+    `twist` at the blade's rings.
+    """
+    starts = sorted({float(part.r[0]) for part in blade.parts if part.role in ("ply", "tube")})
+    lines: list[Array] = []
+    for number, start in enumerate(starts):
+        end = _box_end(blade)
+        r = np.unique(np.concatenate(([end, start], blade.r[(blade.r > end) & (blade.r < start)])))
+        y = 0.09 + 0.012 * number
+        top = np.interp(r, blade.r, [_top(ring, y) for ring in blade.rings])
+        path = np.stack((np.full(len(r), y), top + 0.006), axis=1)[:, None]
+        lines.append(_turned(blade, r, path, np.interp(r, blade.r, twist))[:, 0])
+    return _joined(lines)
+
+
+def _box_end(blade: LiftedBlade) -> float:
+    return min(blade.box[1], float(blade.r[0]) - 0.004)
+
+
+def arc_segments(blade: LiftedBlade, still: float, now: float) -> Array:
+    """An arrow at the tip's trailing edge from the angle it has at rest to the one it has now [rad], (segments, 2, 3);
+    empty where they are too close to be seen."""
+    if abs(now - still) < math.radians(0.5):
+        return np.zeros((0, 2, 3))
+    reach = 1.16 * float(blade.rings[-1, 0, 0])
+    angles = np.linspace(still, now, 17)
+    line = _arc(blade, reach, angles)
+    back = angles[-1] - math.copysign(min(math.radians(3.0), 0.6 * abs(now - still)), now - still)
+    barbs = [np.stack((line[-1], _arc(blade, reach * side, np.array([back]))[0])) for side in (0.955, 1.045)]
+    return _joined([line, *barbs])
+
+
+def _arc(blade: LiftedBlade, reach: float, angles: Array) -> Array:
+    return _turned(blade, np.full(len(angles), 1.004), np.tile([[reach, 0.0]], (len(angles), 1))[:, None], angles)[:, 0]
+
+
+def anchor(blade: LiftedBlade, r: float, y: float, z: float, twist: float) -> Array:
+    """A point of the twisted blade, (3,)."""
+    return _turned(blade, np.array([r]), np.array([[[y, z]]]), np.array([twist]))[0, 0]
+
+
+def _turned(blade: LiftedBlade, r: Array, lines: Array, twist: Array) -> Array:
+    """(stations, points, 2) with a nose-up twist at each → (stations, points, 3), drawn wider."""
+    cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
+    y, z = WIDER * lines[..., 0], WIDER * lines[..., 1]
+    x = np.broadcast_to(blade.outward(r)[:, None], y.shape)
+    return np.stack((x, y * cos - z * sin, y * sin + z * cos), axis=-1)
+
+
+def _joined(lines: list[Array]) -> Array:
+    """Polylines as pairs of points, (segments, 2, 3)."""
+    pairs = [np.stack((line[:-1], line[1:]), axis=1) for line in lines if len(line) > 1]
+    return np.concatenate(pairs) if pairs else np.zeros((0, 2, 3))
+
+
+def _grids(grids: list[Array]) -> Mesh:
+    """Sheets of quadrilaterals, (rows, columns, 3) each, that share no vertices: their edges stay sharp."""
+    vertices, faces, count = [], [], 0
+    for grid in grids:
+        rows, columns = grid.shape[:2]
+        index = count + np.arange(rows * columns).reshape(rows, columns)
+        a, b, c, d = index[:-1, :-1], index[:-1, 1:], index[1:, :-1], index[1:, 1:]
+        faces += [np.stack((a.ravel(), b.ravel(), d.ravel()), 1), np.stack((a.ravel(), d.ravel(), c.ravel()), 1)]
+        vertices.append(grid.reshape(-1, 3))
+        count += rows * columns
+    return Mesh(np.concatenate(vertices), np.concatenate(faces).astype(np.uint32))
+
+
+def _top(ring: Array, y: float) -> float:
+    upper = ring[: len(ring) // 2 + 1]
+    return float(np.interp(y, upper[:, 0], upper[:, 1]))
+
+
+_AROUND, _ABOVE = math.radians(62.0), math.radians(15.0)
+"""The helicopter is seen from starboard, so far from behind, so far above."""
+_NEARER, _RISING, _ROLLED = math.radians(27.0), math.radians(2.0), math.radians(18.0)
+"""The lifted blade: its tip towards the viewer, its tip up, its upper side towards the viewer."""
+_FROM_HUB = (-1.55, -1.55, 7.0)
+"""Of the lifted blade, in radii: right, up and towards the viewer."""
+_MARGIN = 0.96
+
+
+def _view() -> tuple[Array, Array, Array]:
+    """Right, up and towards the viewer."""
+    level = math.cos(_ABOVE)
+    backward = np.array([math.cos(_AROUND) * level, math.sin(_AROUND) * level, math.sin(_ABOVE)])
+    right = np.array([-math.sin(_AROUND), math.cos(_AROUND), 0.0])
+    return right, np.cross(backward, right), backward
+
+
+def lifted_pose(radius: float) -> Pose:
+    """Where the blade of a rotor of this radius [m] is held, in the world."""
+    heading = _AROUND + 0.5 * math.pi - _NEARER
+    turn = compose(about(2, heading), about(1, -_RISING), about(0, _ROLLED))
+    place = sum(share * axis for share, axis in zip(_FROM_HUB, _view(), strict=True))
+    return Pose(turn, radius * np.asarray(place))
+
+
+def fit_lifted(radius: float, aspect: float) -> Camera:
+    """As near to the lifted blade as it allows, root at the far left, tip at the near right; the helicopter beyond."""
+    pose = lifted_pose(radius)
+    ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
+    box = np.array(
+        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
+    )
+    return framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)

@@ -1,0 +1,354 @@
+"""The lifted blade: its meshes, lines and labels, and its handles in the scene."""
+
+import math
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from explorer.hosting import viser_compat
+from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import call
+from explorer.model.units import number
+from explorer.picture.solids import Mesh
+from explorer.tabs.actuator import lifted_blade as lifted
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
+from explorer.theme.colours import Rgb, css
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
+from rotor.actuator.installation import InstalledActuator
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+NODE = "/lifted"
+"""Name of the lifted blade in the scene."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """How a piece of the lifted blade looks; albedos are dark, for the page's lights bleach."""
+
+    colour: Rgb
+    opacity: float | None = None
+    """None: opaque."""
+
+
+SURFACES = {
+    "skin": Surface((92, 106, 130), 0.34),
+    "spar": Surface((44, 50, 60), 0.42),
+    "web": Surface((30, 34, 42)),
+    "shank": Surface((40, 44, 52)),
+    "box": Surface((14, 42, 30)),
+    "ply": Surface((70, 40, 22)),
+    "tube": Surface((84, 66, 50)),
+    "laminate": Surface((90, 84, 60), 0.5),
+}
+EDGE: Rgb = (178, 20, 6)
+"""Of the lifted blade: that of the reference blade."""
+GHOST: Rgb = (128, 133, 140)
+LEAD: Rgb = (214, 136, 24)
+FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
+"""At rest, and at full voltage."""
+ARROW: Rgb = (37, 99, 235)
+LEADER: Rgb = (128, 136, 150)
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A mesh, how it looks and how it glows."""
+
+    mesh: Mesh
+    surface: Surface
+    glow: tuple[Rgb, float] | None = None
+    """Colour and strength, 0…1."""
+
+
+@dataclass(frozen=True, eq=False)
+class LiftedPicture:
+    """What the scene assigns."""
+
+    solids: dict[str, Solid]
+    lines: dict[str, Array]
+    """By name, (segments, 2, 3)."""
+    labels: tuple[tuple[str, str, Array], ...]
+    """Kind, text and where it stands [m]."""
+    lit: float
+    """How brightly the fibres shine, 0…1."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlownTwist:
+    """Twist of an elastic blade at one azimuth [rad], (stations,)."""
+
+    r: Array
+    still: Array
+    """Elastic twist without voltage."""
+    moved: Array
+    """What voltage changes: twist of the plies and what the blade answers, zero at the root."""
+
+
+def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwist | None:
+    """From trims with and without the actuator; None for a rigid blade."""
+    driven, alone = solution.disk.elastic_twist, undriven.disk.elastic_twist
+    if driven is None or alone is None:
+        return None
+    r, design = solution.disk.r, solution.design
+    at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
+    moved = driven[:, at] - alone[:, at] + design.twist(r) - undriven.design.twist(r)
+    given = [np.zeros(len(r)) if one is None else one(r, np.array([psi]))[:, 0]
+             for one in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
+    moved = moved + given[0] - given[1]
+    return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
+
+
+def lifted_picture(
+    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float, flown: FlownTwist | None = None
+) -> LiftedPicture:
+    """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator.
+
+    With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage.
+    """
+    rotor = design.rotor
+    blade = lifted.lifted_blade(installed, rotor)
+
+    def still(r: Array) -> Array:
+        jig = design.twist(np.maximum(r, rotor.blade.root_cutout))
+        return jig if flown is None else jig + np.interp(r, flown.r, flown.still)
+
+    def moved(r: Array) -> Array:
+        if flown is not None:
+            return np.interp(r, flown.r, flown.moved)
+        return inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
+
+    def twist(r: Array) -> Array:
+        return still(r) + inputs.magnified * moved(r)
+
+    shares = voltage_shares(inputs, installed, psi)
+    solids: dict[str, Solid] = {}
+    fibres: list[Array] = []
+    for part in blade.parts:
+        driven = part.segment >= 0
+        name = f"drive_{sum(key.startswith('drive') for key in solids)}" if driven else part.role
+        light = glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
+        solids[name] = Solid(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
+        if part.role in ("ply", "laminate"):
+            fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
+    root = float(twist(np.array([rotor.blade.root_cutout]))[0])
+    shank, box = lifted.root_parts(blade, rotor, root)
+    solids["shank"] = Solid(shank, SURFACES["shank"])
+    if not isinstance(installed.actuator, ExtensionTwist):
+        solids["box"] = Solid(box, SURFACES["box"])
+    rings = twist(blade.r)
+    ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
+    labels, leaders = _labels(inputs, installed, blade, twist, inputs.tip(installed, design))
+    return LiftedPicture(
+        solids,
+        {
+            "edges": lifted.edge_segments(blade, rings),
+            "ghost": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
+            "leads": lifted.lead_segments(blade, rings),
+            "fibres": np.concatenate(fibres) if fibres else _NONE,
+            "arrow": lifted.arc_segments(blade, *ends),
+            "leaders": leaders,
+        },
+        labels,
+        max((abs(share) for share in shares), default=0.0),
+    )
+
+
+_NONE = np.zeros((0, 2, 3))
+
+
+def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: float) -> tuple[float, ...]:
+    """Of each segment, −1…1 of its positive or negative side, with the harmonic at this azimuth."""
+    steady = inputs.drive_shares(installed)
+    if not inputs.per_rev or not isinstance(installed.actuator, PiezoPly):
+        return steady
+    wave = 0.01 * inputs.amplitude * math.cos(inputs.per_rev * psi - math.radians(inputs.phase))
+    low, high = installed.actuator.voltage_range
+    shares = []
+    for volts in inputs.volts(installed):
+        now = volts + 0.5 * installed.actuator.voltage_swing * (-wave if inputs.crossed else wave)
+        shares.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
+    return tuple(min(max(share, -1.0), 1.0) for share in shares)
+
+
+def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
+    """Light of a driven piece at −1…1 of its range: amber, blue for negative voltage; the heat of a tube."""
+    strength = min(abs(share), 1.0)
+    if role == "tube":
+        return (255, round(40 + 130 * strength), round(10 + 40 * strength**2)), strength
+    return ((255, 78, 0) if share >= 0.0 else (0, 66, 255)), strength
+
+
+def drive_colour(share: float) -> Rgb:
+    """Of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
+    colour, strength = glow(share)
+    return mixed(SURFACES["ply"].colour, colour, strength)
+
+
+def mixed(one: Rgb, other: Rgb, share: float) -> Rgb:
+    """A colour on the way from one to another."""
+    red, green, blue = (round(a + (b - a) * share) for a, b in zip(one, other, strict=True))
+    return red, green, blue
+
+
+def drive_text(inputs: ActuatorInputs, installed: InstalledActuator, segment: int) -> str:
+    """What drives a segment, in words."""
+    if isinstance(installed.actuator, PiezoPly):
+        return f"{number(inputs.volts(installed)[segment], sign=True)} V"
+    return f"{number(100.0 * inputs.drive_shares(installed)[segment], sign=True)} %"
+
+
+def _labels(
+    inputs: ActuatorInputs,
+    installed: InstalledActuator,
+    blade: lifted.LiftedBlade,
+    twist: Callable[[Array], Array],
+    tip: float,
+) -> tuple[tuple[tuple[str, str, Array], ...], Array]:
+    """Words, and the lines that lead to what they name. `tip`: its twist [rad]."""
+    places: list[tuple[str, str, Array, Array]] = []
+
+    def put(text: str, r: float, y: float, z: float, above: float, kind: str = "lifted") -> None:
+        foot = lifted.anchor(blade, r, y, z, float(twist(np.array([r]))[0]))
+        places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
+
+    if not isinstance(installed.actuator, ExtensionTwist):
+        put(
+            f"Drive electronics, {number(installed.masses.electronics, 1)} kg in all",
+            sum(blade.box) / 2.0,
+            0.0,
+            0.1,
+            0.95,
+        )
+    for k, (low, high) in enumerate(blade.spans):
+        drive = drive_text(inputs, installed, k)
+        text = f"{_what(inputs, installed)}: {drive}" if not k else f"{k + 1}: {drive}"
+        put(text, low + 0.56 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
+    if round(math.degrees(tip), 2):
+        times = f" at the tip, drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else " at the tip"
+        put(f"{number(math.degrees(tip), 2, sign=True)}°{times}", 1.0, -0.52, 0.0, -0.45, "tip")
+    lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
+    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
+
+
+def _what(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
+    """The actuator where it sits, in words."""
+    placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg a blade"
+    where = "{:.2f}–{:.2f} R".format(*placement.span)
+    if isinstance(installed.actuator, PiezoPly):
+        plies, angle = "ply" if placement.plies == 1 else "plies", "−45" if inputs.crossed else "45"
+        return f"{placement.plies} {plies} a side at {angle}°, {where}, {mass}"
+    if isinstance(installed.actuator, TorqueTube):
+        return f"{installed.actuator.name}, {where}, {mass}"
+    return installed.actuator.name
+
+
+_NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
+_LINES: dict[str, tuple[Rgb, float]] = {
+    "edges": (EDGE, 2.2), "ghost": (GHOST, 1.6), "leads": (LEAD, 3.0), "fibres": (FIBRE[0], 1.1), "arrow": (ARROW, 5.0),
+    "leaders": (LEADER, 1.2),
+}  # fmt: skip
+"""Colours and widths [px] by name."""
+
+
+def _even(colour: Rgb, segments: int) -> NDArray[np.uint8]:
+    """For each point, since the page cannot change from one colour for all to one for each."""
+    return np.tile(np.array(colour, dtype=np.uint8), (segments, 2, 1))
+
+
+FLIES = 0.9
+"""How long the blade flies out of the rotor or back [s]."""
+
+
+class LiftedScene:
+    """Under its own frame. The page moves it from the rotor to its place and back (`rotorScene.lift`)."""
+
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
+        """`bridge`: of the frame, which draws the labels."""
+        self._client, self._api, self._bridge = client, client.scene, bridge
+        self._frame = self._api.add_frame(NODE, show_axes=False, visible=False)
+        self._solids: dict[str, viser.MeshHandle] = {}
+        self._lines = {
+            name: self._api.add_line_segments(
+                f"{NODE}/{name}", _NOTHING, _even(colour, 1), thickness=pixels, thickness_units="screen", visible=False
+            )
+            for name, (colour, pixels) in _LINES.items()
+        }
+        self._held = False
+        self._leaving: threading.Timer | None = None
+
+    def hold(self, radius: float) -> None:
+        """Lift the blade of a rotor of this radius [m] out, or leave it where it is held."""
+        if self._leaving is not None:
+            self._leaving.cancel()
+        pose = lifted.lifted_pose(radius)
+        viser_compat.place(self._frame, pose.wxyz, pose.position)
+        if not self._held:
+            self._held = True
+            self._move(True, radius)
+        self._frame.visible = True
+
+    def show(self, picture: LiftedPicture) -> None:
+        """Assign one frame; call it inside `client.atomic()`."""
+        for name, solid in picture.solids.items():
+            vertices, surface = solid.mesh.vertices.astype(np.float32), solid.surface
+            if name not in self._solids:
+                self._solids[name] = self._api.add_mesh_simple(
+                    f"{NODE}/{name}", vertices, solid.mesh.faces, color=surface.colour, opacity=surface.opacity,
+                    side="double", cast_shadow=False, receive_shadow=False,
+                )  # fmt: skip
+                continue
+            handle = self._solids[name]
+            if not np.array_equal(handle.faces, solid.mesh.faces):
+                # Never faces without their vertices: of two sizes, the page must not draw a mixture.
+                handle.visible = False
+                handle.vertices, handle.faces = vertices, solid.mesh.faces
+            handle.vertices, handle.color, handle.opacity = vertices, surface.colour, surface.opacity
+            handle.visible = True
+        for name in self._solids.keys() - picture.solids.keys():
+            self._solids[name].visible = False
+        for name, handle in self._lines.items():
+            segments = picture.lines[name]
+            handle.visible = len(segments) > 0
+            if len(segments):
+                colour = mixed(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
+                handle.points, handle.colors = segments.astype(np.float32), _even(colour, len(segments))
+        lit = {f"{NODE}/{name}": solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
+        call(
+            self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
+        )
+        labels = [
+            {"text": text, "node": NODE, "at": np.round(at, 3).tolist(), "kind": kind}
+            for kind, text, at in picture.labels
+        ]
+        self._bridge.set(lifted_labels=labels)
+
+    def release(self, radius: float) -> None:
+        """Let the blade fly back; then nothing of it is left."""
+        if not self._held:
+            return
+        self._held = False
+        self._bridge.set(lifted_labels=[])
+        self._move(False, radius)
+        self._leaving = threading.Timer(FLIES, self._hide)
+        self._leaving.daemon = True
+        self._leaving.start()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        if self._leaving is not None:
+            self._leaving.cancel()
+
+    def _hide(self) -> None:
+        if not self._held:
+            self._frame.visible = False
+
+    def _move(self, out: bool, radius: float) -> None:
+        pose = lifted.lifted_pose(radius)
+        held = {"wxyz": pose.wxyz.tolist(), "position": pose.position.tolist()}
+        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIES, held, lifted.MIDDLE * radius)

@@ -1,0 +1,181 @@
+// Actuate: tip twist over a flight that is scrubbed or played, and what the actuator earns.
+(() => {
+  const {text, part} = RX, page = document.documentElement;
+  const card = part('fly'), earns = part('earns'), WHOLE = 14000, SEND = 70;  // [ms] of a played flight, and between two messages.
+  const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
+  const degrees = (value, digits = 2) => `${Math.abs(value) < 0.5 * 10 ** -digits ? '' : value < 0 ? '−' : '+'}${Math.abs(value).toFixed(digits)}°`;
+  const LEFT = 46, RIGHT = 16;
+  let at = 0, own = 0, sent = 0, waiting = 0, playing = 0, before = 0, moved = -Infinity;
+
+  const last = () => RX.state.flight.legs.length - 1;
+  const between = (values, x) => {
+    const step = last() / (values.length - 1), k = clamp(Math.floor(x / step), 0, values.length - 2), u = x / step - k;
+    return (1 - u) * values[k] + u * values[k + 1];
+  };
+
+  // By hand or by itself: the marker follows at once, the server hears of it a few times a second.
+  function go(x) {
+    at = clamp(x, 0, last());
+    moved = performance.now();
+    mark();
+    const rest = sent + SEND - moved;
+    clearTimeout(waiting);
+    waiting = setTimeout(() => { sent = performance.now(); RX.send('fly', Math.round(1000 * at) / 1000); }, Math.max(0, rest));
+  }
+  function stop() {
+    if (!playing) return;
+    cancelAnimationFrame(playing);
+    playing = 0;
+    setTimeout(() => RX.send('hold', false), SEND + 80);
+    button();
+  }
+  function play() {
+    if (playing) return stop();
+    if (at > last() - 0.02) go(0);
+    before = performance.now();
+    RX.send('hold', true);
+    const step = now => {
+      playing = requestAnimationFrame(step);
+      go(at + last() * Math.min(now - before, 200) / WHOLE);
+      before = now;
+      if (at >= last()) stop();
+    };
+    playing = requestAnimationFrame(step);
+    button();
+  }
+  function button() {
+    const place = card.querySelector('[data-fly=play]');
+    if (!place) return;
+    place.innerHTML = RX.icon(playing ? 'pause' : 'play');
+    place.ariaLabel = playing ? 'Stop the flight' : 'Fly from hover to fast';
+  }
+
+  card.addEventListener('click', event => {
+    const near = event.target.closest('[data-fly]');
+    if (!near) return;
+    if (near.dataset.fly === 'play') return play();
+    stop();
+    go(Number(near.dataset.fly));
+  });
+  card.addEventListener('input', event => { if (event.target.type === 'range') { stop(); go(Number(event.target.value)); } });
+  card.addEventListener('pointerdown', event => {
+    if (event.target.type !== 'range') return;
+    own++;
+    RX.send('hold', true);
+    addEventListener('pointerup', () => { own = 0; setTimeout(() => RX.send('hold', false), SEND + 80); }, {once: true});
+  });
+
+  let scale = null;
+  RX.paint('flight', now => {
+    if (page.toggleAttribute('data-flight', Boolean(now)) !== !card.hidden) { RX.again('power', 'inset', 'strip'); dispatchEvent(new Event('resize')); }
+    card.hidden = !now;
+    if (!now) { stop(); card.innerHTML = ''; return; }
+    if (!own && !playing && performance.now() - moved > 900) at = clamp(now.at, 0, last());
+    if (!card.firstChild) {
+      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b><span class="rxf-dim rxf-num" data-words></span></div>
+        <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button><input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`;
+      button();
+    }
+    const slider = card.querySelector('input'), legs = card.querySelector('.rxf-fly-bar > div');
+    slider.max = last();
+    const names = JSON.stringify(now.legs);
+    if (legs.dataset.names !== names) {
+      legs.dataset.names = names;
+      legs.innerHTML = now.legs.map(([name, words], k) => `<button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}"><b>${text(name)}</b><small>${text(words)}</small></button>`).join('');
+    }
+    card.toggleAttribute('data-faded', now.kind !== 'ready');
+    card.dataset.kind = now.kind;
+    draw(now);
+    mark();
+  });
+
+  // Everything but the marker.
+  function draw(now) {
+    const svg = card.querySelector('svg'), width = card.clientWidth - 28, height = svg.clientHeight;
+    if (width < 120 || height < 30) return;
+    const [y0, y1] = now.range, X = x => LEFT + x / last() * (width - LEFT - RIGHT), Y = y => 8 + (y1 - y) / (y1 - y0) * (height - 16);
+    scale = {X, Y, width, height};
+    let inside = now.ticks.map(v => `<path d="M${LEFT} ${Y(v).toFixed(1)}H${width - RIGHT}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${LEFT - 7}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${degrees(v, Math.abs(v % 1) > .01 ? 1 : 0)}</text>`).join('');
+    if (now.wanted) {
+      const step = last() / (now.wanted.length - 1), cuts = [];
+      now.net.forEach((net, k) => {
+        if (k && (net > 0) !== (now.net[k - 1] > 0)) cuts.push((k - 1 + now.net[k - 1] / (now.net[k - 1] - net)) * step);
+        cuts.push(k * step);
+      });
+      for (let k = 1; k < cuts.length; k++) {
+        const gains = between(now.net, (cuts[k - 1] + cuts[k]) / 2) > 0;
+        inside += `<rect x="${X(cuts[k - 1]).toFixed(1)}" width="${(X(cuts[k]) - X(cuts[k - 1]) + .3).toFixed(1)}" y="${Y(now.reach[1]).toFixed(1)}" height="${(Y(now.reach[0]) - Y(now.reach[1])).toFixed(1)}" class="rxf-fly-band" ${gains ? 'data-gains' : ''}/>`;
+      }
+      const held = now.wanted.map(y => clamp(y, ...now.reach)), line = values => values.map((y, k) => `${X(k * step).toFixed(1)} ${Y(y).toFixed(1)}`);
+      inside += `<path d="M${[...line(now.wanted), ...line(held).reverse()].join('L')}Z" class="rxf-fly-gap"/><path d="M${line(now.reached).join('L')}" class="rxf-fly-reached"/><path d="M${line(now.wanted).join('L')}" class="rxf-fly-wanted"/>`;
+      const gaps = now.wanted.map((y, k) => Math.abs(y - held[k])), worst = gaps.indexOf(Math.max(...gaps));
+      const end = now.wanted.length - 1, above = now.wanted[end] > now.reached[end];
+      inside += `<text x="${width - RIGHT - 4}" y="${Y(now.wanted[end]) + (above ? -7 : 17)}" text-anchor="end" class="rxf-fly-name" data-wanted>wanted</text><text x="${width - RIGHT - 4}" y="${Y(now.reached[end]) + (above ? 17 : -7)}" text-anchor="end" class="rxf-fly-name" data-reached>reached</text>`;
+      if (Y(now.reach[0]) - Y(now.reach[1]) > 18) inside += `<text x="${LEFT + 6}" y="${Y(now.reach[1]) + 14}" class="rxf-fly-name">within reach</text>`;
+      if (gaps[worst] > 0.15) {
+        const y = Y((now.wanted[worst] + held[worst]) / 2), x = X(worst * step);
+        inside += `<text x="${clamp(x, LEFT + 8, width - RIGHT - 8)}" y="${y + 4}" text-anchor="${worst === end ? 'end' : worst ? 'middle' : 'start'}" class="rxf-fly-short">short by ${gaps[worst].toFixed(1)}°</text>`;
+      }
+    }
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.innerHTML = `${inside}<g data-marker></g>`;
+  }
+
+  function mark() {
+    const now = RX.state.flight, slider = card.querySelector('input');
+    if (!now || !slider || !scale) return;
+    if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
+    slider.style.setProperty('--at', `${100 * at / last()}%`);
+    const {X, Y, width, height} = scale, x = X(at), near = now.legs[Math.round(at)];
+    card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', k === Math.round(at)));
+    let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
+    if (now.wanted) {
+      const wanted = between(now.wanted, at), reached = between(now.reached, at), net = between(now.net, at);
+      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(reached)}" r="6.5" class="rxf-fly-dot"/>`;
+      said = degrees(reached);
+      words = `of ${degrees(wanted)} wanted${now.kind === 'ready' ? ` · net ${net < 0 ? '−' : '+'}${Math.abs(net).toFixed(1)} ${now.unit} here` : ' · computing…'}`;
+      slider.ariaValueText = `${near[0]}: ${said} ${words}`;
+    } else slider.ariaValueText = near[0];
+    const group = card.querySelector('[data-marker]');
+    if (group) group.innerHTML = inside;
+    const place = card.querySelector('[data-words]');
+    if (place.textContent !== words) place.textContent = words;
+    card.querySelector('[data-explorer=tip-twist]').textContent = said;
+  }
+
+  // One waterfall: where the power goes.
+  RX.paint('earns', now => {
+    earns.hidden = !now;
+    RX.again('power');
+    if (!now) { earns.innerHTML = ''; return; }
+    earns.toggleAttribute('data-faded', now.kind !== 'ready');
+    earns.innerHTML = `<div class="rxf-head"><b>What it earns</b><span class="rxf-dim">${text(now.unit)}, against</span><button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button></div><svg role="img"></svg>
+      <div class="rxf-earns-foot"><span class="rxf-dim">${text(now.where)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
+    const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
+    if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
+    let sum = 0;
+    const ends = bars.map(bar => { const from = bar.total ? 0 : sum; sum = bar.total ? bar.value : sum + bar.value; return [from, sum]; });
+    const all = [0, ...ends.flat()], low = Math.min(...all), high = Math.max(...all), span = Math.max(high - low, 1e-6);
+    const Y = v => 20 + (high - v) / span * (height - 62), room = width / bars.length, wide = Math.min(64, 0.66 * room);
+    let inside = `<path d="M0 ${Y(0).toFixed(1)}H${width}" stroke="var(--rx-faint)"/>`;
+    bars.forEach((bar, k) => {
+      const [from, to] = ends[k], x = room * (k + .5), top = Math.min(Y(from), Y(to)), tall = Math.max(2, Math.abs(Y(to) - Y(from))), up = to > from;
+      if (k) inside += `<path d="M${room * (k - .5) + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (bar.total ? wide / 2 : -wide / 2)}" class="rxf-earns-link"/>`;
+      inside += `<rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3" class="rxf-earns-bar" data-kind="${bar.kind}" ${bar.total ? 'data-total' : ''}/>
+        <text x="${x}" y="${(up ? top - 5 : top + tall + (bar.total ? 18 : 14)).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.kind}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
+        <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${bar.total ? 'data-total' : ''}>${text(bar.name)}</text>`;
+    });
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
+    svg.innerHTML = inside;
+  });
+  // The card of power tells the same verdict in the place of the change since a grab.
+  RX.also('power', () => {
+    const now = RX.state.earns, change = part('power').querySelector('.rxf-change');
+    if (!now || !change) return;
+    change.innerHTML = `<div class="rxf-since rxf-num" data-explorer="since"><span data-kind="${now.kind === 'ready' ? now.net_kind : ''}">${text(now.net)}</span> <small>${text(now.net_words)}</small></div><div class="rxf-why">${text(now.sentence)}</div>`;
+    const under = part('power').querySelector('.rxf-sub');
+    if (under) under.textContent = 'at this twist, without its mass';
+  });
+  for (const [name, place] of [['flight', card], ['earns', earns]]) new ResizeObserver(() => { if (RX.state[name]) RX.again(name); }).observe(place);
+})();

@@ -1,0 +1,244 @@
+"""An actuator over a flight: the tip twist that each leg wants, what the actuator reaches, and the power it takes."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotor.actuator.catalogue import PiezoPly
+from rotor.actuator.fuel import engines_of
+from rotor.actuator.installation import with_actuator_mass
+from rotor.actuator.optimum import best_swings, best_twist
+from rotor.actuator.verdict import NOTHING, Verdict
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+@dataclass(frozen=True)
+class FlightLeg:
+    """One steady part of a flight."""
+
+    name: str
+    advance_ratio: float
+    climb_speed: float = 0.0
+    """[m/s], negative in descent."""
+
+    def of(self, design: Design) -> Design:
+        """The design on this leg."""
+        condition = replace(design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed)
+        return replace(design, condition=condition)
+
+
+def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
+    """Hover, a climb of 5 m/s (about 1000 ft/min) near the speed of least power, cruise and fast flight.
+
+    Level in place of the climb where the models of the design know no axial flow.
+    """
+    climb = FlightLeg("climb", 0.15, 5.0) if design.models.disk_axial_flow else FlightLeg("slow", 0.15)
+    return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
+
+
+UNLIMITED = math.radians(20.0)
+"""Either way, by segment [rad]: more than any optimum asks for."""
+
+
+@dataclass(frozen=True)
+class FlightMoment:
+    """A flight between two of its legs, by straight lines."""
+
+    advance_ratio: float
+    climb_speed: float
+    """[m/s]"""
+    wanted: float
+    """[rad]"""
+    reached: float
+    """[rad]"""
+    reference_power: float
+    """[W]"""
+    power_with: float
+    """[W]"""
+
+    @property
+    def net_saving(self) -> float:
+        """[W]"""
+        return self.reference_power - self.power_with
+
+
+@dataclass(frozen=True, eq=False)
+class ActuatorFlight:
+    """An actuator over the legs of a flight. It pickles, and holds no solution.
+
+    Twists are of the tip relative to the root, less that of the blade with no voltage (a tube at rest) [rad]; of the
+    blade at rest where the trim is elastic. Powers are of all rotors [W]. Arrays are (legs,).
+    """
+
+    legs: tuple[FlightLeg, ...]
+    wanted: Array
+    """Of least power on each leg by the same blade and actuator, were its range without end."""
+    reached: Array
+    """Of least power within its range."""
+    reach: tuple[float, float]
+    """Both ends of the range."""
+    swings: tuple[tuple[float, ...], ...]
+    """By leg and segment, as a share of the whole range."""
+    voltages: tuple[tuple[float, ...], ...]
+    """By leg and segment [V]; each empty for actuators without voltage."""
+    power_fixed: Array
+    """Best fixed blade of the verdict, without the actuator."""
+    power_built: Array
+    """Twist as built, without the actuator."""
+    power_ideal: Array
+    """Unlimited twist, of the concept or by the actuator, on the blade that carries it, without its mass."""
+    power_with: Array
+    """Driven, with the actuator's stiffness, mass and drive."""
+    reference_power: Array
+    """Of the blade that the verdict counts from: one of the first two."""
+    fuel_saving: Array | None
+    """[kg/s]; None where the engines have no source."""
+    designs: tuple[Design, ...]
+    """The driven blade on each leg, without the actuator's mass."""
+
+    @property
+    def shortfall(self) -> Array:
+        """Wanted twist beyond the range, signed [rad]; zero within it."""
+        return self.wanted - np.clip(self.wanted, *self.reach)
+
+    @property
+    def net_saving(self) -> Array:
+        """Saving with stiffness, mass and drive counted [W]."""
+        return self.reference_power - self.power_with
+
+    def at(self, x: float) -> FlightMoment:
+        """The flight at x legs from the first, 0 … legs − 1; between legs by straight lines."""
+        place = np.arange(len(self.legs), dtype=float)
+
+        def value(of: Array | list[float]) -> float:
+            return float(np.interp(x, place, of))
+
+        return FlightMoment(
+            value([leg.advance_ratio for leg in self.legs]),
+            value([leg.climb_speed for leg in self.legs]),
+            value(self.wanted),
+            value(self.reached),
+            value(self.reference_power),
+            value(self.power_with),
+        )
+
+
+def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFlight:
+    """Fly the actuator of a verdict over these legs: its jig twist and range stay, its drive follows the flight.
+
+    legs: None for those of `standard_flight`.
+
+    Everything is trimmed, each leg from the one before. Takes a second or two for four legs. RuntimeError with one
+    sentence that names the leg where nothing trims.
+    """
+    legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs
+    if not legs:
+        raise ValueError("a flight needs a leg: give at least one FlightLeg")
+    installed, base, pair = verdict.installed, verdict.baseline, verdict.baseline.pair
+    segments = _segments(verdict)
+    window, rest = [one.window for one in segments], np.array([one.rest for one in segments])
+    keeps = installed.host.kind == "retrofit"
+    jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
+    shapes = verdict.derating * installed.shapes_in(pair.design)[:, -1]
+    unlimited = [(-each, each) for each in UNLIMITED / np.maximum(np.abs(shapes), NOTHING)]
+    parameters = list(base.fixed.values)
+    flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
+    powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "ideal", "with")}
+    wanted: list[tuple[float, ...]] = []
+    swings: list[tuple[float, ...]] = []
+    designs: list[Design] = []
+    for leg in legs:
+        design = leg.of(pair.design)
+        try:
+            for name, law in (("fixed", base.fixed_twist), ("built", design.twist)):
+                flown[name] = trim = solve(replace(design, twist=law), flown[name]).require()
+                powers[name].append(trim.power.total)
+            best = best_twist(installed.on(design), base.concept, [parameters], alone=True)
+            blade = replace(design, twist=jig)
+            free = best_swings(blade, installed, unlimited, derating=verdict.derating)
+            reached = free
+            if any(not low <= swing <= high for swing, (low, high) in zip(free.swings[0], window, strict=True)):
+                reached = best_swings(blade, installed, window, derating=verdict.derating)
+            driven = reached.solutions[0].design
+            flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
+        except RuntimeError as error:
+            raise RuntimeError(f"{leg.name}: {error}") from None
+        parameters = list(best.values)
+        wanted.append(free.swings[0])
+        powers["ideal"].append(min(best.power, free.power, reached.power))
+        powers["with"].append(heavy.power.total + verdict.drive.hold_power)
+        swings.append(reached.swings[0])
+        designs.append(driven)
+    made = {name: np.array(values) for name, values in powers.items()}
+    counted = made["built" if verdict.against == "as-built" else "fixed"]
+    ends = np.sort((np.array(window) - rest[:, None]) * shapes[:, None], axis=1).sum(axis=0)
+    engines = engines_of(pair.design.aircraft)
+    saved = None
+    if engines is not None:
+        pairs = zip(counted, made["with"], strict=True)
+        saved = np.array([engines.flow(before) - engines.flow(after) for before, after in pairs])
+    return ActuatorFlight(
+        legs=tuple(legs),
+        wanted=(np.array(wanted) - rest) @ shapes,
+        reached=(np.array(swings) - rest) @ shapes,
+        reach=(float(ends[0]), float(ends[1])),
+        swings=tuple(swings),
+        voltages=tuple(_volts(verdict, segments, one) for one in swings),
+        power_fixed=made["fixed"],
+        power_built=made["built"],
+        power_ideal=made["ideal"],
+        power_with=made["with"],
+        reference_power=counted,
+        fuel_saving=saved,
+        designs=tuple(designs),
+    )
+
+
+@dataclass(frozen=True)
+class _Segment:
+    """How a segment's swing follows its drive: swing = rest + per_unit × drive."""
+
+    rest: float
+    """Swing undriven."""
+    per_unit: float
+    """Swing per volt; per whole stroke where there is no voltage."""
+    ends: tuple[float, float]
+    """[V], or 0 and 1."""
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Lowest and highest swing."""
+        first, second = (self.rest + self.per_unit * end for end in self.ends)
+        return min(first, second), max(first, second)
+
+    def drive(self, swing: float) -> float:
+        """[V], or the share of the stroke."""
+        return (swing - self.rest) / self.per_unit
+
+
+def _segments(verdict: Verdict) -> list[_Segment]:
+    """The segments of a verdict, with the offset and the direction of the fibres that its voltages have."""
+    actuator, retrofit = verdict.installed.actuator, verdict.installed.host.kind == "retrofit"
+    pairs = list(zip(*verdict.optimum.swings, strict=True))
+    if not isinstance(actuator, PiezoPly):
+        return [_Segment(0.0, math.copysign(1.0, first + second), (0.0, 1.0)) for first, second in pairs]
+    found: list[_Segment] = []
+    for (first, second), (a, b) in zip(pairs, verdict.voltages, strict=True):
+        per_volt = 1.0 / actuator.voltage_swing
+        if retrofit:
+            turned = (first * a + second * b) < 0.0  # Fibres laid in the other direction.
+            found.append(_Segment(0.0, -per_volt if turned else per_volt, actuator.voltage_range))
+        else:
+            found.append(_Segment(first - a * per_volt, per_volt, actuator.voltage_range))
+    return found
+
+
+def _volts(verdict: Verdict, segments: list[_Segment], swings: tuple[float, ...]) -> tuple[float, ...]:
+    if not verdict.voltages:
+        return ()
+    return tuple(one.drive(swing) for one, swing in zip(segments, swings, strict=True))

@@ -1,0 +1,315 @@
+"""What an actuator would have to be: the break-even line of twist, mass and drive, and a search that ranks builds.
+
+The break-even line knows no blade structure, so it holds for any rotor: twist is linear along the blade, its range is
+used at both conditions, the mass lies evenly on the blades over the span where plies would be. With the range x and
+the mass m of all blades together
+
+    net(x, m, W) = gross(x) − cost(m) − W,   gross(x) = P_fixed − min over θ of [s₁ P₁(θ) + s₂ P₂(θ + x)]
+
+and the line is where net = 0. P_fixed is the best fixed blade, s the shares of time.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from rotor.actuator.catalogue import ExtensionTwist, actuators
+from rotor.actuator.electrical import drive
+from rotor.actuator.installation import InstalledActuator, heavier, install
+from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_fixed
+from rotor.actuator.section import Host, default_placement
+from rotor.actuator.verdict import Verdict, judge
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
+from rotor.dynamics.torsion import Addition, stiffer_blade
+from rotor.optimisation.concepts import find_concept
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.units import GRAVITY
+
+POINTS = 9
+"""Of the break-even line, zero included."""
+ENOUGH = 0.9
+"""Share of the ideal saving that a requirement asks for: the last tenth takes twist without end."""
+WORTH = 1e-4
+"""Least ideal saving, over power, that an actuator is looked for."""
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """An actuator that just pays: half of what its twist saves goes to mass, half to drive."""
+
+    twist: float
+    """Range of the tip relative to the root [rad]."""
+    mass: float
+    """Of all blades and their electronics [kg]."""
+    drive: float
+    """Held all the time [W]."""
+
+
+@dataclass(frozen=True, eq=False)
+class BreakEven:
+    """Where an actuator of linear twist begins to pay on one rotor; arrays are (points,), twist ascending from zero."""
+
+    pair: ConditionPair
+    fixed_power: float
+    """Mean of the best fixed blade [W]."""
+    change: float
+    """Between the optima of both conditions, tip relative to root, signed [rad]; the last of `twists` is its size."""
+    twists: Array
+    """Range of the tip relative to the root [rad]."""
+    gross: Array
+    """Saving before mass and drive [W]."""
+    rates: Array
+    """Linear twist at the first condition [rad per radius]."""
+    masses: Array
+    """Mass of all blades whose carrying costs as much as the twist saves [kg]."""
+
+    @property
+    def ideal_saving(self) -> float:
+        """Of unlimited twist [W]."""
+        return float(self.gross[-1])
+
+    @property
+    def worthwhile(self) -> bool:
+        """Whether there is a saving to look for."""
+        return self.ideal_saving > WORTH * self.fixed_power
+
+    def saving(self, twist: float) -> float:
+        """Gross saving of a range of twist [W], between trims by straight lines."""
+        return float(np.interp(twist, self.twists, self.gross))
+
+    def cost(self, mass: float) -> float:
+        """Power that carrying a mass costs [W]; beyond the line with its last slope."""
+        x, y = self.masses, self.gross
+        if mass <= x[-1]:
+            return float(np.interp(mass, x, y))
+        return float(y[-1] + (mass - x[-1]) * (y[-1] - y[-2]) / (x[-1] - x[-2]))
+
+    def net(self, twist: float, mass: float, watts: float = 0.0) -> float:
+        """Net saving [W] of a range [rad], a mass of all blades [kg] and a drive power [W]."""
+        return self.saving(twist) - self.cost(mass) - watts
+
+    def mass_allowed(self, twist: float, watts: float = 0.0) -> float:
+        """Mass of all blades that just pays [kg]; 0 where the drive alone costs more."""
+        return float(np.interp(self.saving(twist) - watts, self.gross, self.masses))
+
+    @property
+    def requirement(self) -> Requirement:
+        """Twist for most of the ideal saving, and the mass and drive that share it evenly."""
+        wanted = ENOUGH * self.ideal_saving
+        twist = float(np.interp(wanted, self.gross, self.twists))
+        return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
+
+
+def break_even(pair: ConditionPair) -> BreakEven:
+    """The break-even line of a pair of flight conditions, any rotor; a second or two.
+
+    Raises RuntimeError with one sentence where nothing trims.
+    """
+    base = baseline(pair, find_concept("linear"))
+    (first,), (second,) = (best.values for best in base.best)
+    root = pair.design.rotor.blade.root_cutout
+    largest = second - first
+    twists = np.linspace(0.0, abs(largest), POINTS)
+    task = _Flown(base)
+    gross, rates, masses = np.zeros(POINTS), np.zeros(POINTS), np.zeros(POINTS)
+    rates[0] = base.fixed.values[0]
+    for k in range(1, POINTS):
+        swing = math.copysign(float(twists[k]), largest)
+        rates[k], power = task.best(swing, (min(first, base.fixed.values[0] - swing), max(first, base.fixed.values[0])))
+        gross[k] = max(base.fixed.power - power, float(gross[k - 1]))
+        masses[k] = task.mass(float(rates[k]), swing, base.fixed.power, float(masses[k - 1]))
+    span = 1.0 - root
+    return BreakEven(pair, base.fixed.power, span * largest, span * twists, gross, rates, masses)
+
+
+class _Flown:
+    """Mean power of a linear twist that differs between both conditions; each trim starts from the one before."""
+
+    def __init__(self, base: Baseline) -> None:
+        self.base, self.pair = base, base.pair
+        self.trims: list[Solution | None] = [None, None]
+
+    def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
+        """With a mass on all blades together [kg]."""
+        total = 0.0
+        for k, (design, share, rate) in enumerate(zip(self.pair.designs(), self.pair.shares, rates, strict=True)):
+            made = self.base.concept.apply(design, [rate])
+            self.trims[k] = trim = solve(with_mass(made, mass), self.trims[k]).require()
+            total += share * trim.power.total
+        return total
+
+    def best(self, swing: float, between: tuple[float, float]) -> tuple[float, float]:
+        """The rate at the first condition of least power, and that power."""
+        low, high = min(between) - 0.01, max(between) + 0.01
+        found = minimize_scalar(
+            lambda rate: self.power((rate, rate + swing)), bounds=(low, high), method="bounded", options={"xatol": 1e-5}
+        )
+        return float(found.x), float(found.fun)
+
+    def mass(self, rate: float, swing: float, target: float, start: float) -> float:
+        """The mass with which that twist takes the target power [kg], by secants."""
+        rates = (rate, rate + swing)
+        a, b = start, start + max(1.0, 1e-3 * self.pair.design.condition.mass)
+        fa, fb = self.power(rates, a) - target, self.power(rates, b) - target
+        for _ in range(12):
+            a, b, fa = b, b - fb * (b - a) / (fb - fa), fb
+            fb = self.power(rates, b) - target
+            if abs(fb) < 1e-3:
+                break
+        return max(b, 0.0)
+
+
+def with_mass(design: Design, mass: float) -> Design:
+    """The design with a mass [kg] spread evenly on all blades over the span where plies would be.
+
+    On a test stand, which has no weight, the rotor makes so much more thrust; ValueError where its collective is given.
+    """
+    if not mass:
+        return design
+    low, high = (end * design.rotor.radius for end in default_placement().span)
+    made = heavier(design, mass / design.rotor.blades, (low, high), mass)
+    stand = design.condition.stand
+    if stand is None:
+        return made
+    weight = GRAVITY * mass
+    if stand.thrust is not None:
+        more = replace(stand, thrust=stand.thrust + weight)
+    elif stand.ct_over_sigma is not None:
+        loading = weight / (design.thrust_unit * design.rotor.solidity)
+        more = replace(stand, ct_over_sigma=stand.ct_over_sigma + loading)
+    else:
+        raise ValueError("the collective is given, so the rotor carries no weight: give the stand a thrust")
+    return replace(made, condition=replace(made.condition, stand=more))
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One build of an actuator, as the break-even line ranks it."""
+
+    installed: InstalledActuator
+    hold: float
+    """Drive power held all the time [W]."""
+    stiffness_cost: float
+    """Of the blade's torsional stiffness, at rest, with its best fixed twist [W]."""
+    saving: float
+    """Of its twist by the break-even line [W]."""
+    mass_cost: float
+    """By the break-even line [W]."""
+
+    @property
+    def estimate(self) -> float:
+        """Net saving by the break-even line, before it is judged by trims [W]."""
+        return self.saving - self.mass_cost - self.hold - self.stiffness_cost
+
+    @property
+    def earned(self) -> float:
+        """Saving over cost: above one it pays. The lightest build loses least, so the net alone would rank by mass."""
+        gain = self.saving + max(-self.stiffness_cost, 0.0)
+        return gain / max(self.mass_cost + self.hold + max(self.stiffness_cost, 0.0), 1e-9)
+
+    @property
+    def mass(self) -> float:
+        """Of the aircraft [kg]."""
+        return self.installed.masses.aircraft
+
+
+@dataclass(frozen=True, eq=False)
+class PaySearch:
+    """The break-even line of a rotor, and the builds that come nearest to paying."""
+
+    even: BreakEven
+    candidates: tuple[Candidate, ...]
+    """Those that earn most of their cost first; empty where the blade's structure is not known."""
+    verdicts: tuple[Verdict, ...]
+    """Of the first candidates, judged by trims, best net saving first."""
+
+
+PLIES = (1, 2, 4)
+SPANS = ((0.2433, 0.9292), (0.2433, 0.6), (0.6, 0.9292))
+"""r/R: the whole span of plies, its inner and its outer part."""
+HOSTS = (Host("new", 1.0), Host("new", 0.5), Host("new", 0.25))
+"""A retrofit starts from the twist as built and so from behind; it is judged on request only."""
+
+
+def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = False) -> PaySearch:
+    """Search material, layers, span and stiffness for the net saving, against the break-even line.
+
+    Every build is ranked by the line and its stiffness; the first of each of `judged` actuators is judged by trims.
+    Without a known blade structure there is the line alone. Takes some ten seconds.
+    """
+    even = break_even(pair)
+    if pair.design.aircraft.key != KNOWN_BLADE or not even.worthwhile:
+        return PaySearch(even, (), ())
+    base = baseline(pair, find_concept("linear"))
+    found: list[Candidate] = []
+    for host in HOSTS:
+        stiffness = _stiffness_cost(base, host)
+        for actuator, plies, span in product(actuators().values(), PLIES, SPANS):
+            if isinstance(actuator, ExtensionTwist):
+                continue  # It would need another rotor speed.
+            try:
+                made = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
+            except ValueError:
+                continue  # The plies alone are stiffer than the blade.
+            hold = drive(made, (0.0,)).hold_power
+            twist = made.attainable * (made.derating if derated else 1.0)
+            found.append(Candidate(made, hold, stiffness, even.saving(twist), even.cost(made.masses.aircraft)))
+    found.sort(key=lambda one: -one.earned)
+    firsts: dict[str, Candidate] = {}
+    for one in found:
+        firsts.setdefault(one.installed.actuator.id, one)
+    verdicts = [
+        judge(one.installed.actuator, pair, base.concept, one.installed.placement, one.installed.host, derated=derated)
+        for one in list(firsts.values())[:judged]
+    ]
+    return PaySearch(even, tuple(found), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)))
+
+
+def _stiffness_cost(base: Baseline, host: Host) -> float:
+    """Power that another torsional stiffness costs at rest [W], with the best fixed twist of its own."""
+    design = base.pair.design
+    if host.stiffness == 1.0 or not design.elastic:
+        return 0.0
+    low, high = (end * design.rotor.radius for end in default_placement().span)
+    nothing = Addition((low, high), 0.0, 0.0, 0.0)
+    structure = stiffer_blade(uh60a_torsion(design.rotor.radius), host.stiffness, nothing)
+    blade = replace(design.rotor.blade, structure=structure)
+    pair = replace(base.pair, design=replace(design, rotor=replace(design.rotor, blade=blade)))
+    return best_fixed(pair, base.concept, [base.fixed.values], alone=True).power - base.fixed.power
+
+
+def search_sentence(search: PaySearch) -> str:
+    """How near the best build comes, in one line; empty without a search."""
+    if not search.candidates:
+        return ""
+    best = search.candidates[0]
+    twist = math.degrees(best.installed.attainable)
+    what = (
+        f"{best.installed.actuator.name}, {best.installed.placement.plies} a side or segment, "
+        f"{best.installed.host.label}: {twist:.1f}° for {best.mass:.0f} kg"
+    )
+    count, paying = len(search.candidates), sum(one.earned > 1.0 for one in search.candidates)
+    if paying:
+        return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost."
+    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost."
+
+
+def pay_sentence(even: BreakEven) -> str:
+    """What an actuator would have to be for this rotor, in one line."""
+    needed, ideal = even.requirement, even.ideal_saving
+    change = math.degrees(abs(even.change))
+    if not even.worthwhile:
+        return (
+            f"No actuator pays: unlimited twist saves {ideal:.0f} W of {even.fixed_power / 1e3:.0f} kW "
+            f"({change:.1f}° between the optima)."
+        )
+    return (
+        f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W; "
+        f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg."
+    )

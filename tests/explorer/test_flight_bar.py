@@ -1,0 +1,186 @@
+"""The flight bar of Actuate without a browser: what the page draws, and what a place of the bar sets."""
+
+import math
+import pickle
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import viser
+from numpy.testing import assert_allclose
+
+from explorer.model.inputs import Inputs
+from explorer.model.units import AVIATION, SI
+from explorer.tabs.actuator.actuator_controls import ActuatorControls
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, question_of
+from explorer.tabs.actuator.actuator_tasks import FlightTask, answer, flight_legs, lean
+from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
+from rotor.actuator.flight import ActuatorFlight, standard_flight
+from rotor.actuator.verdict import Verdict, verdict_sentence
+from rotor.files.make_design import make_design
+
+RIGID = replace(make_design(mu=0.2), models=replace(make_design(mu=0.2).models, elastic_twist=False))
+QUESTION = question_of(ActuatorInputs(), RIGID)
+LEGS = flight_legs(RIGID)
+
+
+@pytest.fixture(scope="module")
+def verdict() -> Verdict:
+    found = answer(QUESTION)
+    assert isinstance(found, Verdict)
+    return lean(found)
+
+
+@pytest.fixture(scope="module")
+def flight(verdict: Verdict) -> ActuatorFlight:
+    found = pickle.loads(pickle.dumps(FlightTask(QUESTION, verdict))).run(None, None)
+    assert isinstance(found, ActuatorFlight)
+    return found
+
+
+def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs():
+    assert LEGS[::HALVES] == standard_flight(RIGID)
+    for k, leg in enumerate(standard_flight(RIGID)):
+        assert condition_at(LEGS, float(k)) == (leg.advance_ratio, leg.climb_speed)
+        assert place_of(LEGS, leg.advance_ratio) == pytest.approx(k)
+    (mu, climb), (one, two) = condition_at(LEGS, 0.5), standard_flight(RIGID)[:2]
+    assert mu == pytest.approx(0.5 * (one.advance_ratio + two.advance_ratio), abs=5e-4)
+    assert climb == pytest.approx(0.5 * (one.climb_speed + two.climb_speed), abs=5e-3)
+    assert place_of(LEGS, 0.5) == len(standard_flight(RIGID)) - 1  # Faster than the flight: its end.
+
+
+def test_the_page_draws_the_flight_as_it_was_computed(flight: ActuatorFlight):
+    state = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, SI)
+    assert state["kind"] == "ready"
+    assert_allclose(state["wanted"], np.degrees(flight.wanted), atol=6e-4)
+    assert_allclose(state["reached"], np.degrees(flight.reached), atol=6e-4)
+    assert_allclose(state["net"], 1e-3 * flight.net_saving, atol=6e-3)
+    low, high = state["range"]
+    for curve in ("wanted", "reached", "reach"):
+        assert low < min(state[curve]) <= max(state[curve]) < high
+    assert [name for name, _ in state["legs"]] == ["hover", "climb", "cruise", "fast"]
+    assert condition_at(LEGS, state["at"])[0] == pytest.approx(0.2, abs=2e-3)
+    other = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, AVIATION)
+    assert_allclose(other["net"], flight.net_saving / 745.7, atol=6e-3)
+    assert other["unit"] == "hp"
+
+
+def test_what_is_being_computed_is_said_and_keeps_its_place(flight: ActuatorFlight, verdict: Verdict):
+    """The same keys, so that nothing jumps; the curves of the question before stay, marked."""
+    speed = RIGID.rotor.tip_speed
+    first, before, wrong = (
+        flight_state(LEGS, None, False, 0.2, speed, SI),
+        flight_state(LEGS, flight, False, 0.2, speed, SI),
+        flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim"),
+    )
+    assert (first["kind"], first["words"]) == ("computing", "computing…")
+    assert "wanted" not in first
+    assert before["kind"] == "computing"
+    assert before["wanted"] == flight_state(LEGS, flight, True, 0.2, speed, SI)["wanted"]
+    assert (wrong["kind"], wrong["words"]) == ("problem", "hover: does not trim")
+    assert earns_state(None, False, SI).keys() == earns_state(verdict, True, SI).keys()
+    assert earns_state(None, False, SI)["kind"] == earns_state(verdict, False, SI)["kind"] == "computing"
+    assert earns_state(None, False, SI, "no blade")["sentence"] == "no blade"
+
+
+def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
+    state = earns_state(verdict, True, SI)
+    *parts, total = state["bars"]
+    assert sum(bar["value"] for bar in parts) == pytest.approx(total["value"], abs=5e-3)
+    assert total["value"] == pytest.approx(1e-3 * verdict.net_saving, abs=1e-3)
+    assert total["total"]
+    assert state["net"] == f"{total['text']} kW"
+    assert state["sentence"] == verdict_sentence(verdict)
+    for bar in state["bars"]:  # Red is loss and green is gain.
+        assert bar["kind"] == ("" if abs(bar["value"]) < 0.05 else "gain" if bar["value"] > 0.0 else "loss")
+    assert verdict.fuel_saving is not None
+    burnt = -3600.0 * verdict.fuel_saving
+    assert state["fuel"].replace("−", "-") == f"{burnt:+.1f} kg of fuel an hour"
+    assert state["fuel_kind"] == ("loss" if burnt > 0.0 else "gain")
+
+
+class Stage:
+    """A bar with true widgets, and the page and sliders as a test sees them."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.shown: dict[str, Any] = {}
+        self.actions: dict[str, Callable[[Any], None]] = {}
+        self.inputs = Inputs()
+        bridge = SimpleNamespace(set=self.shown.update, on=self.actions.__setitem__)
+        self.context: Any = SimpleNamespace(
+            bridge=bridge, held=False, units=SI, inputs=lambda: self.inputs, drag_to=self._drag
+        )
+        self.controls = ActuatorControls(server.gui, lambda _: None, lambda: self.bar.leave_to_hand())
+        self.bar = FlightBar(self.context, self.controls)
+
+    def _drag(self, inputs: Inputs) -> None:
+        self.inputs = inputs
+
+    def show(self, verdict: Verdict | None, flight: ActuatorFlight | None) -> None:
+        installed = self.controls.inputs().installed(RIGID.rotor)
+        self.bar.show(self.inputs, RIGID, installed, verdict, flight)
+
+    def tip(self) -> float:
+        """What the sliders make of the blade [rad]."""
+        now = self.controls.inputs()
+        return now.tip(now.installed(RIGID.rotor), RIGID)
+
+
+@pytest.fixture
+def stage(server: viser.ViserServer) -> Stage:
+    return Stage(server)
+
+
+def test_a_place_of_the_bar_sets_condition_and_voltages(stage: Stage, flight: ActuatorFlight, verdict: Verdict):
+    """By the inputs of the sliders; the blade has the twist that the chart says is reached there."""
+    stage.show(verdict, flight)
+    for x, leg in enumerate(standard_flight(RIGID)):
+        stage.actions["fly"](x)
+        assert (stage.inputs.advance_ratio, stage.inputs.climb_m_s) == (leg.advance_ratio, leg.climb_speed)
+        assert_allclose(stage.tip(), flight.reached[HALVES * x], atol=math.radians(0.02))  # In whole per cent.
+    stage.actions["fly"](0.25)
+    assert_allclose(stage.tip(), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02))
+    stage.actions["fly"](99)
+    assert stage.inputs.advance_ratio == LEGS[-1].advance_ratio
+
+
+def test_the_voltages_follow_once_the_flight_is_known(stage: Stage, flight: ActuatorFlight, verdict: Verdict):
+    stage.show(None, None)
+    stage.actions["fly"](3)
+    assert stage.inputs.advance_ratio == LEGS[-1].advance_ratio  # The condition needs no answer.
+    assert stage.tip() == 0.0
+    stage.show(verdict, flight)
+    assert_allclose(stage.tip(), flight.reached[-1], atol=math.radians(0.02))
+
+
+def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(
+    stage: Stage, flight: ActuatorFlight, verdict: Verdict
+):
+    stage.show(verdict, flight)
+    stage.actions["fly"](3)
+    stage.bar.hide()
+    assert stage.tip() == 0.0
+    assert stage.shown["flight"] is stage.shown["earns"] is None
+    stage.actions["fly"](3)
+    stage.bar.leave_to_hand()
+    stage.bar.hide()
+    assert stage.tip() != 0.0
+
+
+def test_a_follower_does_not_fly(stage: Stage, flight: ActuatorFlight, verdict: Verdict):
+    stage.show(verdict, flight)
+    stage.context.held = True
+    before = stage.inputs
+    stage.actions["fly"](3)
+    assert stage.inputs == before
+    assert stage.tip() == 0.0
+
+
+def test_the_question_does_not_hang_on_the_climb_and_the_baseline_is_part_of_it():
+    """The bar climbs; the verdict is of level flight."""
+    climbing = replace(RIGID, condition=replace(RIGID.condition, climb_speed=5.0))
+    assert question_of(ActuatorInputs(), climbing) == QUESTION
+    assert question_of(ActuatorInputs(against="as-built"), RIGID) != QUESTION

@@ -1,0 +1,112 @@
+"""An actuator over a flight, against its verdict, the beam model and trims of its own."""
+
+import math
+import pickle
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.installation import with_actuator_mass
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pictures import twist_under_voltage
+from rotor.actuator.section import Host, default_placement
+from rotor.actuator.verdict import Verdict, judge
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
+from rotor.trim.solve import solve
+
+LEGS = (FlightLeg("hover", 0.0), FlightLeg("climb", 0.15, 5.0), FlightLeg("fast", 0.3))
+
+
+@cache
+def verdict(kind: str = "new", id: str = "MFC_P1", preset: str = "flight", concept: str = "linear") -> Verdict:
+    design = make_design(preset=preset)
+    coarse = replace(design, models=replace(design.models, elements=16, azimuths=36))
+    host = Host() if kind == "retrofit" else Host("new", 0.5)
+    pair = ConditionPair(coarse, (0.0, 0.3))
+    return judge(find_actuator(id), pair, find_concept(concept), default_placement(2), host)
+
+
+@cache
+def flown(kind: str = "new", id: str = "MFC_P1") -> ActuatorFlight:
+    return fly(verdict(kind, id), LEGS)
+
+
+@pytest.mark.parametrize(("kind", "id"), [("retrofit", "MFC_P1"), ("new", "MFC_P1"), ("new", "SMA_tube")])
+def test_the_legs_of_the_verdict_save_what_the_verdict_says(kind: str, id: str):
+    """Both find the least power within one range; the flight may drive the first condition too, which a jig does as
+    well for a new blade, but for the shape of the plies."""
+    judged, both = verdict(kind, id), fly(verdict(kind, id), (LEGS[0], LEGS[2]))
+    mean = float(both.net_saving.mean())
+    assert mean >= judged.net_saving - 1.0
+    assert_allclose(mean, judged.net_saving, rtol=1e-6 if kind == "retrofit" else 0.01)
+    assert judged.fuel_saving is not None
+    assert both.fuel_saving is not None
+    assert_allclose(both.fuel_saving.mean(), judged.fuel_saving, rtol=0.01)
+
+
+@pytest.mark.parametrize("kind", ["retrofit", "new"])
+def test_what_is_wanted_is_reached_within_the_range_and_cut_at_its_end(kind: str):
+    flight = flown(kind)
+    inside = flight.shortfall == 0.0
+    assert_allclose(flight.reached[inside], flight.wanted[inside], atol=math.radians(0.03))
+    ends = np.where(flight.wanted < flight.reach[0], *flight.reach)
+    assert_allclose(flight.reached[~inside], ends[~inside], atol=1e-6)
+    assert not inside.all()
+    assert_allclose(flight.reach[1] - flight.reach[0], abs(verdict(kind).installed.rest_shapes[0, -1]), rtol=1e-9)
+
+
+def test_voltages_make_the_reached_twist():
+    """By the beam model: zero volts is the zero of the twists."""
+    judged = verdict("new", preset="thesis")  # Rigid: the shapes are those of the rotating blade.
+    legs = standard_flight(judged.baseline.pair.design)
+    assert not any(leg.climb_speed for leg in legs)  # Its models know level flight only.
+    flight = fly(judged, legs)
+    for volts, twist in zip(flight.voltages, flight.reached, strict=True):
+        assert_allclose(twist_under_voltage(judged.installed, volts).twist[-1], twist, atol=1e-9)
+
+
+def test_the_powers_are_those_of_trims():
+    judged, flight = verdict(), flown()
+    for k, leg in enumerate(LEGS):
+        heavy = solve(with_actuator_mass(flight.designs[k], judged.installed)).require().power.total
+        assert_allclose(flight.power_with[k], heavy + judged.drive.hold_power, rtol=1e-6)
+        fixed = replace(leg.of(judged.baseline.pair.design), twist=judged.baseline.fixed_twist)
+        assert_allclose(flight.power_fixed[k], solve(fixed).require().power.total, rtol=1e-6)
+        assert flight.power_ideal[k] <= solve(flight.designs[k]).require().power.total + 0.5
+    assert flight.designs[1].condition.climb_speed == 5.0
+    # A climb at 5 m/s takes m g V_c more than level flight, and a little for the tail rotor.
+    level = fly(judged, (FlightLeg("level", 0.15),)).power_fixed[0]
+    extra = judged.baseline.pair.design.condition.weight * 5.0
+    assert 0.9 < (flight.power_fixed[1] - level) / extra < 1.15
+
+
+def test_between_two_legs_by_straight_lines():
+    flight = flown()
+    middle = flight.at(0.5)
+    assert middle.advance_ratio == pytest.approx(0.075)
+    assert middle.climb_speed == pytest.approx(2.5)
+    assert middle.net_saving == pytest.approx(float(flight.net_saving[:2].mean()))
+    assert flight.at(2.0).reached == flight.reached[2]
+    assert flight.at(9.0) == flight.at(2.0)
+    assert len(pickle.dumps(flight)) < 100_000  # No solution is carried along.
+
+
+def test_a_leg_that_does_not_trim_is_named():
+    with pytest.raises(RuntimeError, match="fast: "):
+        fly(verdict(), (FlightLeg("hover", 0.0), FlightLeg("fast", 0.59)))
+    with pytest.raises(ValueError, match="needs a leg"):
+        fly(verdict(), ())
+
+
+@pytest.mark.slow
+def test_the_standard_flight_of_two_segments():
+    flight = fly(verdict(concept="two-segment"))
+    assert len(flight.voltages[0]) == 2
+    assert all(-500.001 <= volts <= 1500.001 for leg in flight.voltages for volts in leg)
+    assert np.all(flight.power_ideal <= flight.power_fixed + verdict(concept="two-segment").stiffness_cost * 2.0)

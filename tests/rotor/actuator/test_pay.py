@@ -1,0 +1,158 @@
+"""The break-even line against trims of its own, the search of builds, and the command."""
+
+import json
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import (
+    ENOUGH,
+    BreakEven,
+    PaySearch,
+    break_even,
+    pay_sentence,
+    search_sentence,
+    what_would_pay,
+    with_mass,
+)
+from rotor.actuator.pictures import break_even_charts
+from rotor.actuator.tables import pay_table
+from rotor.design.twist import LinearTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+
+def pair(rotor: str = "uh60a") -> ConditionPair:
+    design = make_design(rotor=rotor, inflow="drees")
+    return ConditionPair(replace(design, models=replace(design.models, elements=16, azimuths=36)), (0.0, 0.3))
+
+
+@cache
+def line(rotor: str = "uh60a") -> BreakEven:
+    return break_even(pair(rotor))
+
+
+def flown(even: BreakEven, k: int, mass: float) -> float:
+    """Mean power at point k with a mass on the blades, by trims from nothing."""
+    powers: list[float] = []
+    span = 1.0 - even.pair.design.rotor.blade.root_cutout
+    for design, part in zip(even.pair.designs(), (0.0, math.copysign(even.twists[k] / span, even.change)), strict=True):
+        powers.append(solve(with_mass(replace(design, twist=LinearTwist(even.rates[k] + part)), mass)).power.total)
+    return float(np.mean(powers))
+
+
+@pytest.mark.parametrize("rotor", ["uh60a", "s61"])
+@pytest.mark.parametrize("k", [2, 5, 8])
+def test_on_the_line_nothing_is_saved_and_nothing_lost(rotor: str, k: int):
+    """Trimmed anew, without the search that found the line."""
+    even = line(rotor)
+    assert_allclose(flown(even, k, 0.0), even.fixed_power - even.gross[k], atol=0.1)
+    assert_allclose(flown(even, k, float(even.masses[k])), even.fixed_power, atol=0.1)
+    assert even.net(float(even.twists[k]), float(even.masses[k])) == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("rotor", ["uh60a", "s61"])
+def test_more_twist_allows_more_mass_and_drive_takes_from_it(rotor: str):
+    even = line(rotor)
+    assert even.twists[0] == even.gross[0] == even.masses[0] == 0.0
+    for values in (even.twists, even.gross, even.masses):
+        assert np.all(np.diff(values) > 0.0)
+    assert np.all(np.diff(even.gross, 2) < 1.0)  # The last degree saves least.
+    x = float(even.twists[5])
+    assert even.mass_allowed(x) > even.mass_allowed(x, 0.5 * even.saving(x)) > 0.0
+    assert even.mass_allowed(x, 2.0 * even.ideal_saving) == 0.0
+    assert even.net(x, even.mass_allowed(x, 100.0), 100.0) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_mass_costs_what_momentum_theory_says():
+    """ΔP/P_i ≈ 1.5 Δm/m, and a little for profile and tail."""
+    even = line()
+    solutions = [solve(replace(design, twist=LinearTwist(even.rates[8]))) for design in even.pair.designs()]
+    induced = float(np.mean([solution.power.induced for solution in solutions]))
+    mass = float(even.masses[-1])
+    expected = 1.5 * induced * mass / even.pair.design.condition.mass
+    assert 1.0 < even.cost(mass) / expected < 1.6
+    assert even.cost(2.0 * mass) == pytest.approx(2.0 * even.cost(mass), rel=0.1)
+
+
+def test_a_requirement_just_pays():
+    even = line()
+    needed = even.requirement
+    assert even.saving(needed.twist) == pytest.approx(ENOUGH * even.ideal_saving)
+    assert even.net(needed.twist, needed.mass, needed.drive) == pytest.approx(0.0, abs=1e-6)
+    said = pay_sentence(even)
+    assert f"≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W" in said
+    assert said.startswith("Pays if")
+
+
+def test_a_stand_carries_mass_as_thrust():
+    """On the HART II rotor, which has no weight, by the thrust of the same newtons."""
+    design = make_design(rotor="hart2", mu=0.2, inflow="drees")
+    before, after = (solve(one).require() for one in (design, with_mass(design, 10.0)))
+    newtons = [design.thrust_unit * one.ct for one in (before, after)]
+    assert newtons[1] - newtons[0] == pytest.approx(98.07, rel=1e-3)
+    given = replace(design.condition.stand, ct_over_sigma=None, collective=0.1) if design.condition.stand else None
+    with pytest.raises(ValueError, match="give the stand a thrust"):
+        with_mass(replace(design, condition=replace(design.condition, stand=given)), 10.0)
+
+
+def test_where_twist_saves_nothing_no_actuator_pays():
+    even = line()
+    flat = replace(even, gross=1e-3 * even.gross)
+    assert not flat.worthwhile
+    assert pay_sentence(flat).startswith("No actuator pays: unlimited twist saves")
+    table = pay_table([even, flat])
+    assert table.rows[1][-1] == "–"
+    assert float(table.rows[0][-1]) == pytest.approx(even.mass_allowed(even.requirement.twist), abs=0.06)
+
+
+def test_charts_end_on_the_axes():
+    even = line()
+    mass, watts = break_even_charts(even, ("ply", math.radians(2.0), 50.0))
+    assert mass.series[0].y[-1] == pytest.approx(float(even.masses[-1]))
+    assert mass.series[1].y[0] == 0.0
+    assert mass.series[-1].x == (pytest.approx(2.0),)
+    assert watts.series[0].y[0] == pytest.approx(even.ideal_saving)
+    assert watts.series[0].y[-1] == pytest.approx(0.0, abs=1e-6)
+
+
+@cache
+def search() -> PaySearch:
+    return what_would_pay(pair(), judged=1)
+
+
+@pytest.mark.slow
+def test_the_search_agrees_with_the_verdict():
+    """The line knows linear twist and no stiffness of plies; trims of the build come within a fifth of its costs."""
+    found = search()
+    assert found.candidates[0].earned == max(one.earned for one in found.candidates)
+    (judged,) = found.verdicts
+    one = found.candidates[0]
+    assert judged.installed.actuator == one.installed.actuator
+    assert judged.installed.masses == one.installed.masses
+    assert_allclose(judged.mass_cost, one.mass_cost, rtol=0.2)
+    assert_allclose(judged.net_saving, one.estimate, atol=0.2 * one.mass_cost + 100.0)
+    said = search_sentence(found)
+    assert f"of {len(found.candidates)} builds pays" in said
+
+
+@pytest.mark.slow
+def test_command(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    drawn = tmp_path / "line.svg"
+    arguments = ["actuator", "--rotor", "s61", "--inflow", "drees", "--what-would-pay", "--plot", str(drawn), "--json"]
+    assert main(arguments) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["rotor"].startswith("Sikorsky S-61")
+    assert answer["builds"] == []  # The structure of its blade is not known.
+    assert answer["pays_from"]["twist_deg"] < answer["optima_apart_deg"]
+    assert len(answer["line"]["mass_kg"]) == len(answer["line"]["twist_deg"])
+    assert drawn.read_text(encoding="utf-8").startswith("<svg")
+    assert main(["actuator", "--plot", str(drawn)]) == 2
+    assert "add --what-would-pay" in capsys.readouterr().err
