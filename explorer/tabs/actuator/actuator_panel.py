@@ -11,6 +11,7 @@ from explorer.tabs.actuator.actuator_inputs import MOST_SEGMENTS, ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers, VerdictTask, sweep_task, verdict_tasks
 from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
 from explorer.tabs.actuator.cut_picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
+from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor.actuator.harmonic import PowerMap
@@ -46,6 +47,7 @@ class ActuatorPanel:
         self._before: tuple[object, ...] = ()
         self._controls = ActuatorControls(context.gui, self._moved)
         self._controls.fly_buttons.on_click(self._fly_clicked)
+        self._pay = PayPanel(context)
         self.shown = self._controls.shown
         self.inputs = self._controls.inputs
 
@@ -53,6 +55,7 @@ class ActuatorPanel:
         """The browser has left."""
         self._verdicts.stop()
         self._maps.stop()
+        self._pay.stop()
 
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
@@ -82,6 +85,7 @@ class ActuatorPanel:
         self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
         self._show_verdict(inputs, installed, question, design.rotor.blade.root_cutout)
+        self._pay.show(question.pair, installed, question.share)
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
