@@ -14,6 +14,7 @@ from explorer.tabs.actuator.lifted_picture import (
     lifted_picture,
     voltage_shares,
 )
+from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
@@ -54,6 +55,7 @@ class ActuatorPanel:
         self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
         self._flight_bar = FlightBar(context, self._controls)
         context.bridge.on("against", lambda _: self._controls.other_baseline())
+        self._pay = PayPanel(context)
         self.inputs = self._controls.inputs
 
     def stop(self) -> None:
@@ -62,6 +64,7 @@ class ActuatorPanel:
         self._maps.stop()
         self._flights.stop()
         self._blade.stop()
+        self._pay.stop()
 
     @property
     def fits(self) -> bool:
@@ -105,6 +108,7 @@ class ActuatorPanel:
         self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
         self._show_verdict(inputs, installed, question, design)
+        self._pay.show(question.pair, installed, question.share)
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)

@@ -1,0 +1,249 @@
+"""What would pay: the break-even line of this rotor, where the present actuator stands, and the builds nearest to it.
+
+Worked out in the background when asked for, and kept until the design or the flight conditions are others.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from explorer.charts.svg import line, polygon, tick, words
+from explorer.model.units import number
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers
+from explorer.tabs.context import TabContext
+from explorer.text.glossary import hint
+from rotor.actuator.catalogue import PiezoPly
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pay import BreakEven, Candidate, pay_sentence, search_sentence, what_would_pay
+from rotor.line_chart import round_ticks, tick_text
+
+_SHOWN = 5
+"""Builds in the table."""
+
+
+@dataclass(frozen=True)
+class PayAnswer:
+    """What the panel shows; it pickles in some kilobytes."""
+
+    even: BreakEven
+    sentences: tuple[str, ...]
+    builds: tuple[Candidate, ...]
+
+
+@dataclass(frozen=True)
+class PayTask:
+    """A search for what would pay. It pickles."""
+
+    pair: ConditionPair
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PayAnswer | str:
+        """The answer, or the sentence that says why there is none."""
+        del tell, stop
+        try:
+            search = what_would_pay(self.pair, judged=0)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
+        said = tuple(filter(None, (pay_sentence(search.even), search_sentence(search))))
+        return PayAnswer(search.even, said, search.candidates[:_SHOWN])
+
+
+class PayPanel:
+    """One client's, where the context stands."""
+
+    def __init__(self, context: TabContext) -> None:
+        # Behind everything else: it takes tens of seconds on a busy machine.
+        self._answers = PoolAnswers(context.pool, 6, context.wake)
+        self._asked: PayTask | None = None
+        self._now: PayTask | None = None
+        self._context, self._sent = context, ""
+        with context.gui.add_folder("What would pay"):
+            self._button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
+            self._html = context.gui.add_html(start_panel())
+        self._button.on_click(lambda _: self._ask())
+
+    def show(self, pair: ConditionPair, installed: InstalledActuator, share: float) -> None:
+        """Follow the design; `share` of the nominal twist is counted."""
+        self._now = PayTask(pair)
+        task = self._asked
+        if task is None:
+            return
+        answer = self._answers.answer(task)
+        content = wait_panel()
+        if isinstance(answer, str):
+            content = f'<div class="rx rx-small" data-explorer="pay" data-kind="problem">{escape(answer)}</div>'
+        elif isinstance(answer, PayAnswer):
+            content = pay_panel(answer, installed, share, stale=task != self._now)
+        if content != self._sent:
+            self._sent = content
+            self._html.content = content
+
+    def stop(self) -> None:
+        """The browser has left."""
+        self._answers.stop()
+
+    def _ask(self) -> None:
+        if self._now is None:
+            return
+        self._asked = self._now
+        self._answers.ask((self._asked,), 0.0)
+        self._context.wake()
+
+
+def start_panel() -> str:
+    """Before anything is asked."""
+    return (
+        '<div class="rx rx-dim rx-small" data-explorer="pay" data-kind="start">How far an actuator must twist this '
+        "blade, and how light it must be, before it saves more than it costs.</div>"
+    )
+
+
+def wait_panel() -> str:
+    """While it is worked out."""
+    return (
+        '<div class="rx rx-small" data-explorer="pay" data-kind="computing">Trimming the break-even line, then '
+        "material, layers, span and stiffness…</div>"
+    )
+
+
+def pay_panel(answer: PayAnswer, installed: InstalledActuator, share: float, *, stale: bool = False) -> str:
+    """Sentences, both charts and the nearest builds."""
+    lead, *more = answer.sentences
+    old = '<div class="rx-dim">Of an earlier design or pair of conditions: find again.</div>' if stale else ""
+    body = "".join(f"<div>{escape(one)}</div>" for one in more)
+    charts = ""
+    if answer.even.worthwhile:
+        charts = mass_chart(answer.even, installed, share) + drive_chart(answer.even)
+    faded = " rx-faded" if stale else ""
+    return (
+        f'<div class="rx rx-small{faded}" data-explorer="pay" data-kind="ready">{old}<b>{escape(lead)}</b>{body}'
+        f"{charts}{_table(answer.builds)}</div>"
+    )
+
+
+def _table(builds: tuple[Candidate, ...]) -> str:
+    if not builds:
+        return ""
+    rows = ""
+    for one in builds:
+        cells = (math.degrees(one.installed.attainable), 1), (one.mass, 0), (100.0 * one.earned, 0)
+        rows += f"<tr><td>{escape(_name(one))}</td>"
+        rows += "".join(f"<td>{number(value, places)}</td>" for value, places in cells)
+        rows += f'<td class="{"rx-less" if one.estimate > 0.0 else "rxa-bad"}">'
+        rows += f"{number(1e-3 * one.estimate, 1, sign=True)}</td></tr>"
+    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>% of cost<br>saved</th><th>net<br>kW</th></tr>"
+    return f'<table class="rxa-table rxa-pay" data-explorer="pay-builds">{head}{rows}</table>'
+
+
+def _name(one: Candidate) -> str:
+    placement, host = one.installed.placement, one.installed.host
+    low, high = placement.span
+    one_of, many = ("ply", "plies") if isinstance(one.installed.actuator, PiezoPly) else ("tube", "tubes")
+    count = f"{placement.plies} {one_of if placement.plies == 1 else many}"
+    return f"{one.installed.actuator.id.replace('_', ' ')}, {count}, {low:.2f}–{high:.2f} R, GJ × {host.stiffness:g}"
+
+
+_WIDE, _HIGH = 300.0, 190.0
+_LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 10.0, 8.0, 36.0
+_LINE = "#1c7ed6"
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """Axes of a small drawing."""
+
+    x_most: float
+    y_low: float
+    y_most: float
+    log: bool
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        wide, high = _WIDE - _LEFT - _RIGHT, _HIGH - _TOP - _BOTTOM
+        if self.log:
+            share = math.log(max(y, self.y_low) / self.y_low) / math.log(self.y_most / self.y_low)
+        else:
+            share = (y - self.y_low) / (self.y_most - self.y_low)
+        return _LEFT + wide * x / self.x_most, _TOP + high * (1.0 - share)
+
+    def draw(self, x_label: str, y_label: str, drawn: str, name: str, said: str) -> str:
+        """Grid, numbers and labels below what is drawn."""
+        marks = ""
+        for value in round_ticks(0.0, self.x_most, 5):
+            x, y = self.at(value, self.y_low)
+            marks += line((x, _TOP), (x, y), "currentColor", 1.0, 'opacity=".14"') + tick(
+                (x, y + 14), tick_text(value), "middle"
+            )
+        decades = [10.0**k for k in range(-2, 4) if self.y_low <= 10.0**k <= self.y_most]
+        for value in decades if self.log else round_ticks(self.y_low, self.y_most, 4):
+            x, y = self.at(0.0, value)
+            marks += line((x, y), (_WIDE - _RIGHT, y), "currentColor", 1.0, 'opacity=".14"') + tick(
+                (x - 5, y + 4), tick_text(value), "end"
+            )
+        middle = 0.5 * (_TOP + _HIGH - _BOTTOM)
+        labels = words((0.5 * (_LEFT + _WIDE), _HIGH - 4.0), x_label)
+        labels += f'<g transform="translate(11 {middle:.0f}) rotate(-90)">{words((0.0, 0.0), y_label)}</g>'
+        return (
+            f'<svg viewBox="0 0 {_WIDE:g} {_HIGH:g}" width="100%" role="img" aria-label="{escape(said)}" '
+            f'data-explorer="{name}">{marks}{drawn}{labels}</svg>'
+        )
+
+
+def mass_chart(even: BreakEven, installed: InstalledActuator, share: float) -> str:
+    """Break-even mass over twist, with the present actuator as a point; mass on a logarithmic scale."""
+    twist, mass = math.degrees(share * installed.attainable), installed.masses.aircraft
+    largest = float(even.masses[-1])
+    most = max(mass, largest)
+    frame = _Frame(
+        1.08 * max(math.degrees(float(even.twists[-1])), twist),
+        10.0 ** math.floor(math.log10(0.05 * largest)),
+        2.0 * most,
+        True,
+    )
+    fine = np.linspace(0.0, float(even.twists[-1]), 60)[1:]
+    edge = [frame.at(math.degrees(x), even.mass_allowed(x)) for x in fine.tolist()]
+    right = frame.at(frame.x_most, largest)
+    half = [frame.at(math.degrees(x), even.mass_allowed(x, 0.5 * even.ideal_saving)) for x in fine.tolist()]
+    floor = frame.at(frame.x_most, frame.y_low), frame.at(math.degrees(float(fine[0])), frame.y_low)
+    drawn = polygon([*edge, right, *floor], 'fill="#0ca678" fill-opacity=".13"')
+    drawn += _path([*edge, right], "") + _path(half, 'stroke-dasharray="4 3"')
+    drawn += words(frame.at(0.72 * frame.x_most, 0.28 * largest), "pays")
+    place = frame.at(twist, mass) if mass else frame.at(twist, frame.y_low)
+    paid = mass <= even.mass_allowed(math.radians(twist))
+    name = installed.actuator.id.replace("_", " ")
+    right_half = place[0] > 0.6 * _WIDE
+    colour = "#0ca678" if paid else "var(--rx-bad)"
+    drawn += f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="4.5" fill="{colour}"/>'
+    drawn += words(
+        (place[0] + (-9.0 if right_half else 9.0), place[1] + 4.0),
+        f"{name}: {twist:.1f}°, {mass:.0f} kg",
+        "end" if right_half else "start",
+    )
+    said = f"Mass that pays over twist; {name} {'pays' if paid else 'does not pay'}"
+    key = (
+        '<div class="rx-dim">Line: no drive power. Dashed: half of what unlimited twist saves goes to the drive.</div>'
+    )
+    return frame.draw("tip twist [°]", "mass, all blades [kg]", drawn, "pay-mass", said) + key
+
+
+def drive_chart(even: BreakEven) -> str:
+    """Drive power that pays over mass, with all and with half of the twist."""
+    largest, all_twist = float(even.masses[-1]), float(even.twists[-1])
+    frame = _Frame(1.05 * largest, 0.0, 1.1e-3 * even.ideal_saving, False)
+    drawn = ""
+    for twist, look, dx in ((all_twist, "", 0.35), (0.5 * all_twist, 'stroke-dasharray="4 3"', 0.12)):
+        end = even.mass_allowed(twist)
+        points = [(mass, 1e-3 * even.net(twist, mass)) for mass in np.linspace(0.0, end, 12).tolist()]
+        drawn += _path([frame.at(*point) for point in points], look)
+        at = frame.at(dx * largest, 1e-3 * even.net(twist, dx * largest))
+        drawn += words((at[0] + 4.0, at[1] - 5.0), f"{math.degrees(twist):.1f}°", "start")
+    said = "Drive power that pays over mass"
+    return frame.draw("mass, all blades [kg]", "drive [kW]", drawn, "pay-drive", said)
+
+
+def _path(points: list[tuple[float, float]], look: str) -> str:
+    places = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    return f'<polyline points="{places}" fill="none" stroke="{_LINE}" stroke-width="2" {look}/>'
