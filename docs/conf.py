@@ -29,6 +29,7 @@ sys.path[:0] = [str(ROOT), str(HERE)]
 os.environ["COLUMNS"] = "100"  # Width of the help of the commands.
 
 import pictures  # noqa: E402
+import theory_figures  # noqa: E402
 
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
@@ -40,7 +41,7 @@ from rotor.command.parser import build_parser  # noqa: E402
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
 release = version = rotor.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_gallery.gen_gallery"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
 exclude_patterns = ["notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
 nitpicky = False
@@ -109,14 +110,15 @@ class Run(SphinxDirective):
 
 
 class Picture(SphinxDirective):
-    """`picture`: what a function of `pictures.py` draws, as HTML, with the body as its caption."""
+    """`picture`: what a function of `pictures.py` or `theory_figures.py` draws, as HTML; the body is its caption."""
 
     required_arguments = 1
     has_content = True
 
     def run(self) -> list[nodes.Node]:
-        self.env.note_dependency(pictures.__file__)
-        drawn = nodes.raw("", f'<div class="drawn">{getattr(pictures, self.arguments[0])()}</div>', format="html")
+        module = pictures if hasattr(pictures, self.arguments[0]) else theory_figures
+        self.env.note_dependency(module.__file__)
+        drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
         return [drawn, *self.parse_content_to_nodes()]
 
 

@@ -104,9 +104,7 @@ class SweepTable:
         try:
             pandas: Any = importlib.import_module("pandas")
         except ModuleNotFoundError:
-            raise ImportError(
-                "pandas is not installed: pip install pandas (or the extra rotor-explorer[pandas]), or use .columns and .rows"
-            ) from None
+            raise ImportError("pandas is not installed: pip install pandas, or use .columns and .rows") from None
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
