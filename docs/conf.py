@@ -55,7 +55,7 @@ html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 templates_path = []
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
@@ -120,6 +120,16 @@ class Picture(SphinxDirective):
         self.env.note_dependency(module.__file__)
         drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
         return [drawn, *self.parse_content_to_nodes()]
+
+
+class Division(SphinxDirective):
+    """`div`: what is in it, in a division of the page of the class named."""
+
+    optional_arguments = 1
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        return [nodes.container("", *self.parse_content_to_nodes(), classes=self.arguments, is_div=True)]
 
 
 class Commands(SphinxDirective):
@@ -216,6 +226,7 @@ def check_hosts(app: Sphinx, error: Exception | None):
 def setup(app: Sphinx):
     app.add_directive("run", Run)
     app.add_directive("picture", Picture)
+    app.add_directive("div", Division)
     app.add_directive("commands", Commands)
     app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))
