@@ -26,7 +26,7 @@ from sphinx.writers.html5 import HTML5Translator
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path[:0] = [str(ROOT), str(HERE)]
-os.environ["COLUMNS"] = "100"  # Width of the help of the commands.
+os.environ["COLUMNS"] = "96"  # Width of the help of the commands.
 
 import pictures  # noqa: E402
 import theory_figures  # noqa: E402

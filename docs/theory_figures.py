@@ -29,16 +29,19 @@ RADIUS = "r/R"
 def conventions() -> str:
     """The disk from above: where ψ is counted from, and which side advances."""
     words = (
-        (0, 132, "ψ = 0: tail"), (168, 4, "ψ = 90°: advancing"), (0, -124, "ψ = 180°: nose"), (-168, 4, "ψ = 270°: retreating"),
-        (0, -152, "flight"),
-    )  # fmt: skip
-    text = "".join(f'<text x="{x}" y="{y}" text-anchor="middle">{escape(word)}</text>' for x, y, word in words)
+        (0, 132, "middle", "ψ = 0: tail"),
+        (116, 5, "start", "ψ = 90°: advancing"),
+        (0, -116, "middle", "ψ = 180°: nose"),
+        (-116, 5, "end", "ψ = 270°: retreating"),
+        (0, -144, "middle", "flight"),
+    )
+    text = "".join(f'<text x="{x}" y="{y}" text-anchor="{end}">{escape(word)}</text>' for x, y, end, word in words)
     return (
-        '<figure><figcaption><b>Azimuth, from above</b></figcaption><svg viewBox="-250 -190 500 335" role="img" '
+        '<figure><figcaption><b>Azimuth, from above</b></figcaption><svg viewBox="-260 -185 520 325" role="img" '
         'aria-label="Azimuth, from above"><g fill="currentColor" font-size="14">'
-        f'{text}<path d="M-6-176L0-190L6-176Z"/><path d="M101-28L110-44L117-27Z"/></g>'
+        f'{text}<path d="M-6-168L0-182L6-168ZM73-30L78-46L88-32Z"/></g>'
         '<g fill="none" stroke="currentColor"><circle r="105"/><path d="M0-105V105M-105 0H105" stroke-opacity=".3"/>'
-        '<path d="M0-164V-178M108 20A110 110 0 0 0 109-28" stroke-width="2"/>'
+        '<path d="M0-158V-170M83 20A85 85 0 0 0 80-32" stroke-width="2"/>'
         '<path d="M0 0L74 74" stroke-width="5"/></g></svg></figure>'
     )
 
@@ -105,7 +108,8 @@ def hover() -> str:
     series = []
     for k, twist in enumerate(("linear:0", "linear:-8", "linear:-16")):
         disk = rotor.solve(rotor.make_design(hover=True, twist=twist)).disk
-        series.append(line(twist.replace("linear:", "twist ") + "°", disk.r, disk.induced[:, 0], COLOURS[1 + k]))
+        title = twist.replace("linear:", "twist ").replace("-", "−") + "°"
+        series.append(line(title, disk.r, disk.induced[:, 0], COLOURS[1 + k]))
     return _chart("Twist evens the inflow of hover", RADIUS, "λ_i", *series)
 
 
@@ -142,8 +146,11 @@ def trim() -> str:
     """Controls over speed."""
     table = _level(SPEEDS)
     named = {
-        "collective": "collective", "lateral θ1c": "cyclic_1c", "longitudinal θ1s": "cyclic_1s", "shaft tilt": "shaft_tilt",
-    }  # fmt: skip
+        "collective": "collective",
+        "lateral θ1c": "cyclic_1c",
+        "longitudinal θ1s": "cyclic_1s",
+        "shaft tilt": "shaft_tilt",
+    }
     series = [
         line(label, SPEEDS, np.degrees([getattr(one.controls, name) for one in table]), COLOURS[1 + k % 4])
         for k, (label, name) in enumerate(named.items())
@@ -173,9 +180,8 @@ def gradient() -> str:
 def ideal() -> str:
     """The bound at the reference mass, as `assets/ideal_bound.csv` holds it."""
     text = asset_path("ideal_bound.csv").read_text(encoding="utf-8")
-    rows = [
-        row for row in csv.DictReader(one for one in text.splitlines() if not one.startswith("#")) if row["mass_kg"] == "8322.4"
-    ]  # fmt: skip
+    lines = [one for one in text.splitlines() if not one.startswith("#")]
+    rows = [row for row in csv.DictReader(lines) if row["mass_kg"] == "8322.4"]
     mu = np.array([float(row["mu"]) for row in rows])
     named = {
         "best linear twist": "linear_twist",

@@ -6,10 +6,10 @@ contents of chapter 5 is known, so its numbers are not compared.
 """
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
-from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
+from rotor.actuator.harmonic import DynamicTwist, PowerMap, phase_sweep, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.section import Host, Placement
+from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_sentence
 
 __all__ = (
@@ -25,9 +25,11 @@ __all__ = (
     "TorqueTube",
     "Verdict",
     "actuators",
+    "default_placement",
     "find_actuator",
     "install",
     "judge",
+    "phase_sweep",
     "power_map",
     "try_actuator",
     "verdict_sentence",

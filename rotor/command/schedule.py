@@ -179,7 +179,7 @@ def report(schedule: Schedule) -> str:
         if cell.condition != before:
             before = cell.condition
             lines.append(f"{_where(schedule, cell.condition)}: {_kilowatts(cell.optimum.baseline_power)} as it is")
-        lines.append(_line(cell))
+        lines.append(_line(cell, max(len(concept.name) for concept in schedule.plan.concepts)))
     if any(cell.optimum.best is not None and cell.optimum.best.active for cell in schedule.cells):
         lines.append("*: at a bound or limit that holds it, so the least power lies beyond")
     lines.append("")
@@ -210,17 +210,16 @@ def _kilowatts(power: float | None) -> str:
     return "no trim" if power is None else f"{power / 1e3:.1f} kW"
 
 
-def _line(cell: Cell) -> str:
-    """An optimum of the table; what could not be found says why."""
+def _line(cell: Cell, width: int) -> str:
+    """An optimum of the table, and below it what holds it; what could not be found says why."""
     one = cell.optimum
     if one.best is None:
-        return wrapped(f"  {cell.concept:<27}{one.status.value}: {one.message}", "    ")
+        return wrapped(f"  {cell.concept:<{width}}  {one.status.value}: {one.message}", "    ")
     saving = "" if one.saving is None else f"saves {100 * one.saving:.2f} %"
-    met = f"  * {', '.join(one.best.active)}" if one.best.active else ""
+    met = f"\n    * {', '.join(one.best.active)}" if one.best.active else ""
     status = "" if one.status is SearchStatus.CONVERGED else f"  ({one.status.value})"
-    return (
-        f"  {cell.concept:<27}{_kilowatts(one.best.power):>10}   {saving:<14}{short_spec(one.best.twist)}{met}{status}"
-    )
+    power, twist = _kilowatts(one.best.power), short_spec(one.best.twist)
+    return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 
 def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
