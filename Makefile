@@ -66,7 +66,7 @@ bench: setup-dev      ## time the solver beside its baselines
 
 docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk
 	@rm -rf dist/docs dist/.doctrees docs/_made
-	$(BIN)/python -m sphinx -W --keep-going -q -b html -d dist/.doctrees docs dist/docs
+	$(BIN)/python -m sphinx -W --keep-going -b html -d dist/.doctrees docs dist/docs
 	@echo "dist/docs/index.html"
 
 trust: setup-dev      ## make the trust page, docs/validation, anew: four minutes

@@ -26,9 +26,10 @@ from sphinx.writers.html5 import HTML5Translator
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path[:0] = [str(ROOT), str(HERE)]
-os.environ["COLUMNS"] = "100"  # Width of the help of the commands.
+os.environ["COLUMNS"] = "96"  # Width of the help of the commands.
 
 import pictures  # noqa: E402
+import theory_figures  # noqa: E402
 
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
@@ -40,7 +41,7 @@ from rotor.command.parser import build_parser  # noqa: E402
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
 release = version = rotor.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_gallery.gen_gallery"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
 exclude_patterns = ["notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
 nitpicky = False
@@ -54,7 +55,7 @@ html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 templates_path = []
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
@@ -109,15 +110,26 @@ class Run(SphinxDirective):
 
 
 class Picture(SphinxDirective):
-    """`picture`: what a function of `pictures.py` draws, as HTML, with the body as its caption."""
+    """`picture`: what a function of `pictures.py` or `theory_figures.py` draws, as HTML; the body is its caption."""
 
     required_arguments = 1
     has_content = True
 
     def run(self) -> list[nodes.Node]:
-        self.env.note_dependency(pictures.__file__)
-        drawn = nodes.raw("", f'<div class="drawn">{getattr(pictures, self.arguments[0])()}</div>', format="html")
+        module = pictures if hasattr(pictures, self.arguments[0]) else theory_figures
+        self.env.note_dependency(module.__file__)
+        drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
         return [drawn, *self.parse_content_to_nodes()]
+
+
+class Division(SphinxDirective):
+    """`div`: what is in it, in a division of the page of the class named."""
+
+    optional_arguments = 1
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        return [nodes.container("", *self.parse_content_to_nodes(), classes=self.arguments, is_div=True)]
 
 
 class Commands(SphinxDirective):
@@ -214,6 +226,7 @@ def check_hosts(app: Sphinx, error: Exception | None):
 def setup(app: Sphinx):
     app.add_directive("run", Run)
     app.add_directive("picture", Picture)
+    app.add_directive("div", Division)
     app.add_directive("commands", Commands)
     app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))

@@ -22,11 +22,11 @@ def power_of_twist() -> str:
         design = rotor.make_design(mu=speed)
         powers = [rotor.solve(design.with_twist(f"linear:{rate:g}")).power for rate in rates]
         total = np.array([power.total for power in powers])
-        series = [_series("total", rates, 100.0 * (total / total.min() - 1.0), "currentColor")]
+        series = [line("total", rates, 100.0 * (total / total.min() - 1.0), "currentColor")]
         for part in ("induced", "profile"):
             values = np.array([getattr(power, part) for power in powers])
             change = 100.0 * (values - values[-1]) / total.min()
-            series.append(_series(part, rates, change, PARTS[part], "dashed"))
+            series.append(line(part, rates, change, PARTS[part], "dashed"))
         labels = "linear twist [°]", "change [% of the least power]"
         charts.append(figure(LineChart(title, *labels, tuple(series), x_range=(-20.0, 0.0))))
     return "".join(charts)
@@ -35,14 +35,16 @@ def power_of_twist() -> str:
 def disk_in_fast_flight() -> str:
     """Angle of attack and induced inflow at µ = 0.35, with reverse flow and stall marked."""
     solution = rotor.solve(rotor.make_design(mu=0.35))
-    return _disk(solution, "Angle of attack") + _disk(solution, "Induced inflow λi")
+    return disk_figure(solution, "Angle of attack") + disk_figure(solution, "Induced inflow λi")
 
 
 def twist_and_stall() -> str:
     """Angle of attack at µ = 0.35 with little and with much twist."""
     design = rotor.make_design(mu=0.35)
     return "".join(
-        _disk(rotor.solve(design.with_twist(f"linear:{rate}")), "Angle of attack", f"Twist {rate}°".replace("-", "−"))
+        disk_figure(
+            rotor.solve(design.with_twist(f"linear:{rate}")), "Angle of attack", f"Twist {rate}°".replace("-", "−")
+        )
         for rate in (-4, -18)
     )
 
@@ -56,16 +58,18 @@ def shipped_rotors() -> str:
         ]
         speeds = np.array([one.design.condition.advance_ratio for one in table])
         loading = np.array([one.power.total / one.design.condition.weight for one in table])
-        series.append(_series(table[0].design.rotor.name, speeds, loading, colour))
+        series.append(line(table[0].design.rotor.name, speeds, loading, colour))
     labels = "advance ratio µ", "power over weight [W/N]"
     return figure(LineChart("Power over weight", *labels, tuple(series), x_range=(0.05, 0.35)))
 
 
-def _series(label: str, x: np.ndarray, y: np.ndarray, colour: str, mark: Mark = "line") -> Series:
+def line(label: str, x: np.ndarray, y: np.ndarray, colour: str, mark: Mark = "line") -> Series:
+    """A line of a chart."""
     return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
 
 
-def _disk(solution: rotor.Solution, field: str, title: str = "") -> str:
+def disk_figure(solution: rotor.Solution, field: str, title: str = "") -> str:
+    """A field over the disk with its key."""
     shown = FIELDS[field]
     colour_range = shown.low, shown.high
     name = f"bar-{abs(hash((solution.design, field))):x}"

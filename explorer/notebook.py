@@ -1,6 +1,7 @@
 """The page started from Python: in the background of a notebook or a script."""
 
 import atexit
+import os
 import sys
 import webbrowser
 
@@ -36,7 +37,21 @@ class RunningPage:
     def _repr_html_(self) -> str:
         if self._app is None:
             return f"<p>The page at {self.address} is stopped.</p>"
+        if sentence := why_out_of_reach(self.address):
+            return f"<p>{sentence}</p>"
         return f'<iframe src="{self.address}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+
+
+def why_out_of_reach(address: str) -> str:
+    """On JupyterHub, one sentence on how to reach a page that listens on the notebook's machine; else empty."""
+    if "JUPYTERHUB_SERVICE_PREFIX" not in os.environ:
+        return ""
+    port = address.rstrip("/").rpartition(":")[2]
+    return (
+        f"This notebook runs on JupyterHub, and {address} is an address of that machine: forward the port with "
+        f"ssh -L {port}:127.0.0.1:{port} USER@HUB and open {address} here, or save the design and run "
+        "rotor-explorer --design FILE on your own machine."
+    )
 
 
 def start_page(design: Design, port: int, browser: bool | None) -> RunningPage:
@@ -45,4 +60,6 @@ def start_page(design: Design, port: int, browser: bool | None) -> RunningPage:
     page = RunningPage(App("127.0.0.1", port, start, ServerLimits(frame_ancestors=_LOCAL)))
     if browser or (browser is None and "ipykernel" not in sys.modules):
         webbrowser.open(page.address)
+    if sentence := why_out_of_reach(page.address):
+        print(sentence)
     return page

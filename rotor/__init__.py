@@ -35,6 +35,7 @@ from rotor.design.twist import parse_twist
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import load_rotor
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
 from rotor.trim.distribution import Distribution, distribution
@@ -52,6 +53,7 @@ __all__ = (
     "Design",
     "Distribution",
     "FlightCondition",
+    "Limits",
     "Models",
     "Optimum",
     "PowerBudget",

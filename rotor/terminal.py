@@ -5,8 +5,10 @@ import codecs
 import contextlib
 import io
 import os
+import shutil
 import signal
 import sys
+import textwrap
 import time
 import warnings
 from collections.abc import Callable, Generator
@@ -74,6 +76,12 @@ class StopSignal:
         while not self._came:
             time.sleep(0.2)
         raise KeyboardInterrupt
+
+
+def wrapped(text: str, indent: str = "") -> str:
+    """A sentence in lines that fit the terminal, or 120 letters; all but the first begin with `indent`."""
+    width = max(shutil.get_terminal_size((120, 24)).columns, 60)
+    return textwrap.fill(text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def run_command(program: str, run: Callable[[], int]) -> int:

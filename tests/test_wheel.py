@@ -58,6 +58,12 @@ def test_its_page_starts_answers_and_stops(installed: Path, tmp_path: Path):
     assert "<title>" in release.fetch_page(installed, tmp_path)
 
 
+def test_its_two_commands_are_installed(installed: Path, tmp_path: Path):
+    commands = {name: installed.parent / name for name in ("rotor", "rotor-explorer")}
+    assert "UH-60A" in release.run(commands["rotor"], "solve", "--hover", cwd=tmp_path)
+    assert release.run(commands["rotor-explorer"], "--version", cwd=tmp_path).startswith("rotor-explorer ")
+
+
 def test_it_runs_a_study(installed: Path, tmp_path: Path):
     assert "3 points" in release.study(installed, tmp_path)
 

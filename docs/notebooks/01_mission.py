@@ -6,16 +6,11 @@ A mission is a list of flight conditions with hours. The twist that costs the le
 mean power over these hours, not the one that is best in any of them.
 """
 
-from dataclasses import replace
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 import explorer
 import rotor
-from rotor.optimisation.concepts import find_concept
-from rotor.optimisation.objective import Objective, WeightedCondition
-from rotor.optimisation.search import Search, run_search
 
 design = rotor.make_design(mu=0.2)
 
@@ -23,8 +18,7 @@ design = rotor.make_design(mu=0.2)
 # The mission: advance ratio and hours.
 
 hours = {0.0: 0.5, 0.2: 1.5, 0.3: 1.0}
-flights = [WeightedCondition(replace(design.condition, advance_ratio=mu), time) for mu, time in hours.items()]
-mission = run_search(Search(design, find_concept("linear"), Objective("total", tuple(flights)), starts=2, band=True))
+mission = rotor.optimise(design, "linear", conditions=list(hours.items()), starts=2)
 print(mission)
 
 # %%

@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 
 import explorer
 import rotor
-from rotor.validation.uh60a import public_data
+from rotor.validation import public_data
 
 measured = public_data()["hover"]
 print(measured["kind"])

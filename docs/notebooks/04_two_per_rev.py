@@ -13,10 +13,7 @@ import numpy as np
 
 import explorer
 import rotor
-from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import phase_sweep
-from rotor.actuator.installation import install
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator import Host, default_placement, find_actuator, install, phase_sweep
 
 design = rotor.make_design(mu=0.35)
 

@@ -11,12 +11,19 @@ import numpy as np
 
 import explorer
 import rotor
-from rotor.aero.inflow import INFLOW_MODELS
 
 design = rotor.make_design(twist="linear:-10", mu=0.2)
 reference = "lifting-line"
-names = list(INFLOW_MODELS)
-print(names)
+names = [
+    "uniform",
+    "coleman",
+    "drees",
+    "white-blake",
+    "pitt-peters",
+    "pitt-peters-15pi/23",
+    "local-momentum",
+    "lifting-line",
+]
 
 # %%
 # First the induced power of one blade.

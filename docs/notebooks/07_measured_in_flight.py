@@ -11,7 +11,7 @@ import numpy as np
 
 import explorer
 import rotor
-from rotor.validation.airloads import CASES, agreement, measured_curves, our_curve
+from rotor.validation import CASES, agreement, measured_curves, our_curve
 
 curves = {(one.case.name, one.quantity, one.r): one for one in measured_curves()}
 solutions = {case.name: rotor.solve(case.design()) for case in CASES}

@@ -47,6 +47,8 @@
 
   function lift() {
     page.classList.remove('rx-veiled');
+    if (!document.querySelector(sign)) for (const one of document.querySelectorAll('.rxf-opening')) one.textContent =
+      'The server does not answer: it is busy, or this address does not lead to it. The page goes on trying.';
     hold(false);
     tellLost();
     veil.classList.add('rx-lifting');

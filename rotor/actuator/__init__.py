@@ -8,12 +8,12 @@ contents of chapter 5 is known, so its numbers are not compared.
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
 from rotor.actuator.fuel import Engines, engines_of
-from rotor.actuator.harmonic import DynamicTwist, PowerMap, power_map
+from rotor.actuator.harmonic import DynamicTwist, PowerMap, phase_sweep, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
 from rotor.actuator.programmes import Programme, programmes
-from rotor.actuator.section import Host, Placement
+from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
@@ -37,12 +37,14 @@ __all__ = (
     "Verdict",
     "actuators",
     "break_even",
+    "default_placement",
     "engines_of",
     "find_actuator",
     "fly",
     "install",
     "judge",
     "pay_sentence",
+    "phase_sweep",
     "power_map",
     "programmes",
     "standard_flight",

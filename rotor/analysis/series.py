@@ -38,7 +38,9 @@ VIBRATION = (
 )  # fmt: skip
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
 amplitudes, and frequencies of the blade."""
-_COLUMNS = ("rotor", "twist", "pitch_per_rev", "twist_per_rev", *COLUMNS[1:])
+_COLUMNS = (
+    "rotor", "twist", "pitch_per_rev", "twist_per_rev", *COLUMNS[1:3], "mass_kg", "altitude_m", *COLUMNS[3:],
+)  # fmt: skip
 POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
 
 
@@ -106,18 +108,45 @@ class SweepTable:
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
-def sweep(design: Design | Iterable[Design], mu: Iterable[float], start: Solution | None = None) -> SweepTable:
-    """Solve the design, or each of several, at each advance ratio in order, each started from the last that converged.
+_EXAMPLES = {
+    "mu": "[0.1, 0.2, 0.3]",
+    "speed_kt": "[60, 90, 120]",
+    "mass_kg": "[7000, 8000, 9000]",
+    "altitude_m": "[0, 1000, 2000]",
+    "climb_m_s": "[-5, 0, 5]",
+}
+"""What a sweep may go over, as in `Design.at`."""
 
-    `start`: an earlier solution to begin from, for designs of the same rotor. Raises TypeError or ValueError with one
-    sentence before anything is solved when a design or an advance ratio cannot be used.
+
+def sweep(
+    design: Design | Iterable[Design],
+    mu: Iterable[float] | None = None,
+    start: Solution | None = None,
+    *,
+    speed_kt: Iterable[float] | None = None,
+    mass_kg: Iterable[float] | None = None,
+    altitude_m: Iterable[float] | None = None,
+    climb_m_s: Iterable[float] | None = None,
+) -> SweepTable:
+    """Solve the design, or each of several, over advance ratio, speed, mass, altitude or rate of climb, in order.
+
+    mu, speed_kt, mass_kg, altitude_m, climb_m_s: the values of one of them; all else stays as in the design.
+    start: an earlier solution to begin from, for designs of the same rotor.
+
+    Each trim starts from the last that converged. Raises TypeError or ValueError with one sentence, before anything is
+    solved, where a design or a value cannot be used.
     """
-    if isinstance(mu, int | float | str):
-        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu=[0.1, 0.2, 0.3]")
-    several, speeds = hasattr(design, "__iter__") and not isinstance(design, str), list(mu)
+    given = {"mu": mu, "speed_kt": speed_kt, "mass_kg": mass_kg, "altitude_m": altitude_m, "climb_m_s": climb_m_s}
+    axes = {name: values for name, values in given.items() if values is not None}
+    if len(axes) != 1:
+        raise TypeError(f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(_EXAMPLES)}")
+    ((name, values),) = axes.items()
+    if isinstance(values, str) or not hasattr(values, "__iter__"):
+        raise TypeError(f"{name} is {values!r}: give a list, for example {name}={_EXAMPLES[name]}")
+    several, steps = hasattr(design, "__iter__") and not isinstance(design, str), list(values)
     designs = [require_design(one) for one in cast(Iterable[Design], design if several else (design,))]
     solutions: list[Solution] = []
-    for points in [[one.at(mu=speed) for speed in speeds] for one in designs]:
+    for points in [[one.at(**cast(Any, {name: step})) for step in steps] for one in designs]:
         last = start if start and points and start.design.rotor == points[0].rotor else None
         for point in points:
             solution = solve(point, last)
@@ -148,7 +177,9 @@ def schedule(
     `Schedule.at(k, concept)` is the optimum at the k-th advance ratio in ascending order, `at(None, concept)` the fixed
     blade, `in_flight_gain(concept)` the gain of moving. Raises ValueError with one sentence for what cannot be used.
     """
-    speeds = list(mu)
+    if isinstance(mu, str) or not hasattr(mu, "__iter__"):
+        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={_EXAMPLES['mu']}")
+    design, speeds = require_design(design), list(mu)
     times = [1.0] * len(speeds) if hours is None else list(hours)
     if len(times) != len(speeds):
         raise ValueError(f"{len(times)} hours for {len(speeds)} advance ratios: give one for each")
@@ -156,14 +187,14 @@ def schedule(
         WeightedCondition(design.at(mu=one).condition, time) for one, time in sorted(zip(speeds, times, strict=True))
     ]
     plan = Plan(
-        require_design(design), tuple(find_concept(name) for name in concepts), tuple(flights), quantity,
+        design, tuple(find_concept(name) for name in concepts), tuple(flights), quantity,
         limits or Limits(), starts, seed,
     )  # fmt: skip
     return run_plan(plan, processes=processes)
 
 
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
-    """Draw power over advance ratio: the parts for one design, or the totals of several. Returns the matplotlib axes.
+    """Draw power over what was swept: the parts for one design, or the totals of several. Returns the matplotlib axes.
 
     Raises TypeError for anything but sweeps.
     """
@@ -175,16 +206,17 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
             f"plot_power got {', '.join(type(table).__name__ for table in tables) or 'nothing'}: "
             "give what rotor.sweep returns, one table or several"
         )
-    labels = "Advance ratio µ", "Power [kW]"
+    over = _swept(tables)
+    labels = over.label, "Power [kW]"
     labelled = [pair for table in tables for pair in zip(table.labels, table, strict=True)]
     curves = {name: [one for other, one in labelled if other == name] for name, _ in labelled}
     if len(tables) == 1 and len(curves) == 1:
         return plot_lines(
-            _speeds(tables[0]), {part: _kilowatts(tables[0], part) for part in _drawn(tables[0])}, labels, ax
+            over.values(tables[0]), {part: _kilowatts(tables[0], part) for part in _drawn(tables[0])}, labels, ax
         )
     for name, solutions in curves.items():
         table = SweepTable(tuple(solutions))
-        ax = plot_lines(_speeds(table), {name: _kilowatts(table, "total")}, labels, ax)
+        ax = plot_lines(over.values(table), {name: _kilowatts(table, "total")}, labels, ax)
     return ax
 
 
@@ -201,8 +233,32 @@ def _drawn(table: SweepTable) -> list[str]:
     return [part for part in POWERS if climbs or part != "climb"]
 
 
-def _speeds(table: SweepTable) -> list[float]:
-    return [solution.design.condition.advance_ratio for solution in table]
+@dataclass(frozen=True)
+class _Axis:
+    """What a sweep went over: its name in `FlightCondition`, and on a chart."""
+
+    name: str
+    label: str
+
+    def values(self, table: SweepTable) -> list[float]:
+        return [getattr(solution.design.condition, self.name) for solution in table]
+
+
+def _swept(tables: Sequence[SweepTable]) -> _Axis:
+    """What varies; the advance ratio where nothing does."""
+    axes = (
+        _Axis("advance_ratio", "Advance ratio µ"),
+        _Axis("mass", "Mass [kg]"),
+        _Axis("altitude", "Altitude [m]"),
+        _Axis("climb_speed", "Rate of climb [m/s]"),
+    )
+    designs = {solution.design.rotor.name for table in tables for solution in table}
+    rotors = [
+        [one for table in tables for one in table if one.design.rotor.name == name] for name in designs
+    ]  # The mass of another rotor is another by itself.
+    return next(
+        (axis for axis in axes if any(len(set(axis.values(SweepTable(tuple(one))))) > 1 for one in rotors)), axes[0]
+    )
 
 
 def _kilowatts(table: SweepTable, part: str) -> list[float]:
@@ -220,6 +276,8 @@ def _row(solution: Solution) -> tuple[float | str | None, ...]:
         harmonics_text(design.linear_active_twist),
         design.condition.advance_ratio,
         design.airspeed / KNOT,
+        design.condition.mass,
+        design.condition.altitude,
         design.condition.climb_speed,
         solution.status.value,
         *powers,

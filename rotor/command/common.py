@@ -28,7 +28,7 @@ from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
-from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
+from rotor.optimisation.search import ChangeLimit, Limits
 from rotor.user_input import write_whole
 
 
@@ -203,24 +203,22 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
     if args.rate_deg is not None:
         low, high = _pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
         rate = math.radians(low), math.radians(high)
-    if args.change_deg is not None and args.change_deg < 0.0:
-        raise ValueError(f"change limit {args.change_deg:g}° is negative: give 0 or more")
     return Limits(
         bounds=tuple(bounds),
         rate=rate,
-        stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
+        stalled_percent=args.stalled_percent,
         change=_change(args, design),
-        index=args.index_percent,
+        change_deg=args.change_deg,
+        index_percent=args.index_percent,
     )
 
 
 def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
-    """Limit on the change from the design's own twist: an angle, or the range of an actuator."""
+    """Limit on the change from the design's own twist to the range of an actuator."""
     if args.actuator is None:
         if args.plies is not None or args.derated:
             raise ValueError("--plies and --derated need an actuator: add --actuator, for example MFC_P1")
-        root = design.rotor.blade.root_cutout
-        return None if args.change_deg is None else even_change_limit(design.twist, math.radians(args.change_deg), root)
+        return None
     if args.change_deg is not None:
         raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
     placement = default_placement(2 if args.plies is None else args.plies)
@@ -234,6 +232,12 @@ def waves_text(harmonics: tuple[Harmonic, ...]) -> str:
         f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
         for wave in harmonics
     )
+
+
+def short_spec(spec: str) -> str:
+    """A twist SPEC with angles to a hundredth of a degree, which is finer than any optimum is known."""
+    angles, at, stations = spec.partition("@")
+    return re.sub(r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}", angles) + at + stations
 
 
 def concept_help() -> str:

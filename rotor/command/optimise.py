@@ -19,6 +19,7 @@ from rotor.command.common import (
     interruptible,
     limits_from,
     parse_division,
+    short_spec,
 )
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
@@ -33,6 +34,7 @@ from rotor.optimisation.objective import (
     read_mission,
 )
 from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
+from rotor.terminal import wrapped
 from rotor.trim.solution import Solution
 
 
@@ -208,7 +210,7 @@ def digits_of_band(width: float) -> int:
 def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bool) -> str:
     """The same as text."""
     best = optimum.best
-    lines = [f"{concept.title}: {optimum.status.value}. {optimum.message}"]
+    lines = [wrapped(f"{concept.title}: {optimum.status.value}. {optimum.message}")]
     if best is None:
         return "\n".join(lines)
     least = "index" if vibration else "power"
@@ -221,15 +223,15 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bo
         if band:
             line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the {least}"
         lines.append(line)
-    lines.append(f"twist {best.twist}")
+    lines.append(f"twist {short_spec(best.twist)}")
     airfoils = airfoils_spec(optimum.design.rotor)
     if airfoils:
         lines.append(f"airfoils {airfoils}")
     lines.append(
-        f"power {best.power / 1e3:.2f} kW" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
+        f"power {best.power / 1e3:.1f} kW" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
-        lines.append(f"starting design {optimum.baseline_power / 1e3:.2f} kW, saving {100 * optimum.saving:.2f} %")
+        lines.append(f"starting design {optimum.baseline_power / 1e3:.1f} kW, saving {100 * optimum.saving:.2f} %")
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
@@ -239,9 +241,9 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bo
         )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
-        lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.2f} kW, saving {saving:.2f} %")
+        lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.1f} kW, saving {saving:.2f} %")
     for other in optimum.minima[1:]:
-        lines.append(f"local minimum: {other.power / 1e3:.2f} kW with {other.twist}")
+        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
-    lines += [f"caveat: {caveat}" for caveat in beside.caveats]
+    lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

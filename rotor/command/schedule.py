@@ -18,18 +18,20 @@ from rotor.command.common import (
     interruptible,
     limits_from,
     parse_division,
+    short_spec,
     write_table,
 )
 from rotor.command.optimise import named
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
-from rotor.optimisation.search import Optimum
+from rotor.optimisation.search import Optimum, SearchStatus
+from rotor.terminal import wrapped
 from rotor.user_input import check_writable, parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
-COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist")
+COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist", "met")
 
 
 def add_parser(commands: Any) -> None:
@@ -163,6 +165,7 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
         "status": optimum.status.value,
         "parameters": {} if best is None else named(concept, best.parameters),
         "twist": None if best is None else best.twist,
+        "met": [] if best is None else list(best.active),
         "power_w": None if best is None else best.power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
     }
@@ -170,22 +173,53 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
 
 def report(schedule: Schedule) -> str:
     """The same as tables."""
-    rows = _rows(schedule)
-    widths = (7, 9, 11, 10, 7, 26, 14, 12, 10, 15, 0)
-    lines = ["".join(f"{cell:<{width}}" for cell, width in zip(COLUMNS, widths, strict=True))]
-    lines += ["".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines: list[str] = []
+    before: object = ...
+    for cell in schedule.cells:
+        if cell.condition != before:
+            before = cell.condition
+            lines.append(f"{_where(schedule, cell.condition)}: {_kilowatts(cell.optimum.baseline_power)} as it is")
+        lines.append(_line(cell, max(len(concept.name) for concept in schedule.plan.concepts)))
+    if any(cell.optimum.best is not None and cell.optimum.best.active for cell in schedule.cells):
+        lines.append("*: at a bound or limit that holds it, so the least power lies beyond")
     lines.append("")
     for concept in schedule.plan.concepts:
         one = schedule.in_flight_gain(concept.name)
         if one is not None:
-            lines.append(
-                f"{concept.title}: current design {one.baseline / 1e3:.2f} kW, best fixed {one.fixed / 1e3:.2f} kW, "
-                f"variable {one.moving / 1e3:.2f} kW. Additional saving from variable twist {one.gain / 1e3:.2f} kW "
+            sentence = (
+                f"{concept.title}: current design {one.baseline / 1e3:.1f} kW, best fixed {one.fixed / 1e3:.1f} kW, "
+                f"variable {one.moving / 1e3:.1f} kW. Additional saving from variable twist {one.gain / 1e3:.1f} kW "
                 f"({100 * one.share:.2f} %)."
             )
+            lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end: use --resume FILE to store results and continue.")
     return "\n".join(lines)
+
+
+def _where(schedule: Schedule, condition: int | None) -> str:
+    """The flight condition in words."""
+    if condition is None:
+        return "One fixed blade for all"
+    flight = schedule.plan.conditions[condition].flight
+    climb = f", climb {flight.climb_speed:g} m/s" if flight.climb_speed else ""
+    return f"µ {flight.advance_ratio:.4g}, {flight.mass:.6g} kg, {flight.altitude:.4g} m{climb}"
+
+
+def _kilowatts(power: float | None) -> str:
+    return "no trim" if power is None else f"{power / 1e3:.1f} kW"
+
+
+def _line(cell: Cell, width: int) -> str:
+    """An optimum of the table, and below it what holds it; what could not be found says why."""
+    one = cell.optimum
+    if one.best is None:
+        return wrapped(f"  {cell.concept:<{width}}  {one.status.value}: {one.message}", "    ")
+    saving = "" if one.saving is None else f"saves {100 * one.saving:.2f} %"
+    met = f"\n    * {', '.join(one.best.active)}" if one.best.active else ""
+    status = "" if one.status is SearchStatus.CONVERGED else f"  ({one.status.value})"
+    power, twist = _kilowatts(one.best.power), short_spec(one.best.twist)
+    return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 
 def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
@@ -202,5 +236,6 @@ def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
             "" if one.best is None else f"{one.best.power / 1e3:.2f}",
             "" if one.saving is None else f"{100 * one.saving:.2f}",
             "" if one.best is None else one.best.twist,
+            "" if one.best is None else ", ".join(one.best.active),
         ))  # fmt: skip
     return rows

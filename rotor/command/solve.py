@@ -8,6 +8,7 @@ from typing import Any
 from rotor.analysis.series import between_drag_areas
 from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
 from rotor.design.design import Design
+from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
@@ -77,7 +78,7 @@ def report(solution: Solution) -> str:
     lines = [
         f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, inflow {inflow}",
         f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {_load(design)}",
-        f"{solution.status.value}: {solution.message}",
+        wrapped(f"{solution.status.value}: {solution.message}"),
     ]
     if design.pitch_per_rev:
         lines.insert(1, f"root pitch {waves_text(design.pitch_per_rev)}")
@@ -122,7 +123,7 @@ def report(solution: Solution) -> str:
             f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:.1f} % of the thrust"
         ]
     if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
-        lines.append(f"caveat: {reason.sentence}")
+        lines.append(wrapped(f"caveat: {reason.sentence}", "  "))
     elif design.models.bending and solution.converged and (loads := solution.hub_loads) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [
@@ -132,5 +133,5 @@ def report(solution: Solution) -> str:
             ),
             f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over wakes: trade-offs, not a level",
         ]
-    lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
+    lines += [wrapped(f"caveat: {caveat.sentence}", "  ") for caveat in solution.caveats]
     return "\n".join(lines)

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible
 from rotor.study.chunks import ClusterLost, FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
@@ -158,7 +160,9 @@ _PLAIN = (
 _SAY_EVERY = 60.0
 """[s] between lines of progress without a terminal."""
 _PLACES = 8
-"""All over a study at which a dry run takes the time of some points."""
+"""All over a study at which a dry run takes the time of some points,"""
+_RUN = 8
+"""this many searches at each, three times as many trims."""
 
 
 def add_parser(commands: Any) -> None:
@@ -301,24 +305,39 @@ def _show(args: argparse.Namespace) -> int:
 
 
 def _dry_run(file: StudyFile) -> int:
-    """Estimates the time of a study from a few of its points."""
+    """Estimates the time of a study from some of its points."""
     study = file.study
-    few = 1 if study.optimum is not None else 10
-    first = sorted({min(study.count * k // _PLACES, max(study.count - 1 - few, 0)) for k in range(_PLACES)})
-    runs = [(one, min(one + 1 + few, study.count)) for one in first]
-    for one, _ in runs:
-        evaluate_points(study, one, one + 1)  # Compiles kernels and builds grids.
-    # The first point of a chunk starts cold, the others at their neighbours.
-    start = sum(_seconds(study, one, one + 1) for one, _ in runs) / len(runs)
-    count = sum(end - one for one, end in runs)
-    follow = (sum(_seconds(study, one, end) for one, end in runs) - start * len(runs)) / max(count - len(runs), 1)
-    each = (start + follow * (study.chunk - 1)) / study.chunk
+    each, count = estimate(study)
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
     print(
-        f"{1e3 * each:.1f} ms a point on this core (mean of {count} from all over the study), "
+        f"about {1e3 * each:.{0 if each > 0.01 else 1}f} ms a point on this core (from {count} all over the study), "
         f"{_span(each * study.count)} on one core"
     )
     return 0
+
+
+def estimate(study: Study) -> tuple[float, int]:
+    """Processor time of a point [s], and the number of points it was taken from.
+
+    Chunks from the first to the last, for the corners of crossed axes are where trims are hardest: near the limit of
+    thrust a point may cost eight times the usual.
+    """
+    last, run = study.chunks - 1, _RUN if study.optimum is not None else 3 * _RUN
+    places = sorted({round(last * k / (_PLACES - 1)) for k in range(_PLACES)})
+    costs: list[float] = []
+    count = 0
+    for place in places:
+        first, end = study.span(place)
+        points = min(end - first, run)
+        evaluate_points(study, first, first + 1)  # Compiles kernels and builds grids.
+        start = _seconds(study, first, first + 1)
+        whole = _seconds(study, first, first + points) if points > 1 else start
+        # The first point of a chunk starts cold, the others at their neighbours.
+        costs.append(start + (whole - start) / max(points - 1, 1) * (end - first - 1))
+        count += points
+    if len(places) == study.chunks:
+        return sum(costs) / study.count, count
+    return float(np.trapezoid(costs, places)) / last / study.chunk, count
 
 
 def _seconds(study: Study, first: int, last: int) -> float:

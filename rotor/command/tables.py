@@ -24,6 +24,7 @@ from rotor.command.common import (
     concept_help,
     design_from,
     finite,
+    short_spec,
     waves_text,
     write_table,
 )
@@ -31,6 +32,7 @@ from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
+from rotor.terminal import wrapped
 from rotor.user_input import check_writable, parse_range
 
 
@@ -54,14 +56,14 @@ def run_sweep(args: argparse.Namespace) -> int:
         check_writable(args.csv)
     rows: list[tuple[str, ...]] = []
     converged = True
-    longest = max(len(design.twist.spec()) for design in designs)
-    widths = (max(22, longest + 2), 7, 10, 11, 14, 10, 15, 12, 12, 13, 10, 8)
     bends = any(design.models.bending for design in designs)
     columns = (*COLUMNS, *VIBRATION) if bends else COLUMNS
-    shown = [*range(len(widths)), *range(len(COLUMNS), len(columns))]
-    widths += (*(len(columns[k]) + 2 for k in shown[len(widths) :]), 0)
-    print("".join(f"{columns[k]:<{width}}" for k, width in zip(shown, widths, strict=False)).rstrip())
-    shown.append(len(COLUMNS) - 1)  # The message comes last, of any length.
+    level = all(design.condition.climb_speed == 0.0 for design in designs)
+    shown = [name for name in columns if name != "message" and not (level and name.startswith("climb"))]
+    widths = {name: len(name) + 2 for name in shown} | {"mu": 7}
+    widths["twist"] = max(len(design.twist.spec()) for design in designs) + 2
+    widths["status"] = len("not-converged") + 2
+    print("".join(f"{name:<{widths[name]}}" for name in shown).rstrip())
     for design in designs[:: len(advance_ratios)]:
         table = sweep(design, advance_ratios)
         converged = converged and all(solution.converged for solution in table)
@@ -69,17 +71,20 @@ def run_sweep(args: argparse.Namespace) -> int:
             named = dict(zip(table.columns, cells, strict=True))
             row = tuple(_text(name, named[name]) for name in columns)
             rows.append(row)
-            print("".join(f"{row[k]:<{width}}" for k, width in zip(shown, widths, strict=True)).rstrip())
+            line = "".join(f"{_text(name, named[name], 1):<{widths[name]}}" for name in shown).rstrip()
+            print(line if named["status"] == "converged" else wrapped(f"{line}  {named['message']}", "    "))
     if args.csv:
         write_table(args.csv, [columns, *rows])
     return 0 if converged else 1
 
 
-def _text(name: str, cell: float | str | None) -> str:
-    """A cell as printed: powers and speeds with fixed digits, nothing where there is no value."""
+def _text(name: str, cell: float | str | None, digits: int = 2) -> str:
+    """A cell: powers with these decimals, loads and shares with two, nothing where there is no value."""
     if cell is None or isinstance(cell, str):
         return cell or ""
-    return f"{cell:.4g}" if name in ("mu", "climb_m_s") else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"
+    if name in ("mu", "climb_m_s"):
+        return f"{cell:.4g}"
+    return f"{cell:.{1 if name == 'speed_kt' else digits if name.endswith('_kw') else 2}f}"
 
 
 FRONT_COLUMNS = (
@@ -163,15 +168,18 @@ def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> 
         wakes = "" if one.over_wakes is None else "{:+.0f} … {:+.0f} %".format(*one.over_wakes)
         band = "" if one.band is None else "{:.1f} … {:.1f} %".format(*one.band)
         active = () if one.design.active_twist is None else one.design.active_twist.harmonics
+        twist = waves_text(active) or short_spec(one.design.twist.spec())
         lines.append(
             f"{one.power / 1e3:9.1f} kW{row['power_change_percent']:+8.2f} %{one.index:8.2f} %{band:>14}"
-            f"{row['index_change_percent']:+7.0f} %{wakes:>16}   {waves_text(active) or one.design.twist.spec()}"
+            f"{row['index_change_percent']:+7.0f} %{wakes:>16}   {twist}"
         )
     if found.preview_error is not None:
         lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*found.preview_error))
     lines.append(
-        "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
-        "trade-offs, not a level"
+        wrapped(
+            "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
+            "trade-offs, not a level"
+        )
     )
     return "\n".join(lines)
 
@@ -317,7 +325,7 @@ def _ideal_row(mass: float, bound: Bound, glauert: float) -> tuple[str, ...]:
         f"{mass:.6g}",
         f"{bound.ct:.6f}",
         f"{bound.lambda0:.6f}",
-        f"{glauert / 1e3:.2f}",
-        *(f"{factor:.4f}" for factor in factors),
-        f"{math.degrees(bound.linear_rate):.2f}",
+        f"{glauert / 1e3:.1f}",
+        *(f"{factor:.3f}" for factor in factors),
+        f"{math.degrees(bound.linear_rate):.1f}",
     )

@@ -6,7 +6,8 @@ measure becomes that count.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.airfoil.bicubic import MACH_STEP
 from rotor.arrays import Array
+from rotor.design.aircraft import number
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values
 from rotor.trim.adjoint import Adjoint, Weights
@@ -49,7 +51,11 @@ def even_change_limit(reference: TwistLaw, tip: float, root: float = 0.0) -> Cha
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a search; by default only the bounds of the concept."""
+    """Limits of a search; by default only the bounds of the concept.
+
+    In degrees and per cent: `Limits(rate_deg=(-20, 0), stalled_percent=2, change_deg=4, index_percent=3)`.
+    Raises TypeError or ValueError with one sentence for what cannot be used.
+    """
 
     bounds: tuple[tuple[str, float, float], ...] = ()
     """Parameter, low, high (SI): the rate of one segment, for example."""
@@ -60,8 +66,31 @@ class Limits:
     change: ChangeLimit | None = None
     index: float | None = None
     """Largest vibration index on every condition [%], see `rotor.trim.hub_loads`; of blades that bend."""
+    change_deg: float | None = None
+    """Largest change of the tip from the design's own twist [°], relative to the root and linear along the blade."""
+    rate_deg: InitVar[tuple[float, float] | None] = None
+    """`rate` in degrees per radius."""
+    stalled_percent: InitVar[float | None] = None
+    """`stalled` in per cent."""
+    index_percent: InitVar[float | None] = None
+    """`index`."""
 
-    def __post_init__(self) -> None:
+    def __post_init__(
+        self, rate_deg: tuple[float, float] | None, stalled_percent: float | None, index_percent: float | None
+    ) -> None:
+        given: dict[str, Any] = {}
+        if rate_deg is not None:
+            if isinstance(rate_deg, int | float | str) or len(rate_deg) != 2:
+                raise TypeError(f"rate_deg is {rate_deg!r}: give the steepest and the flattest, for example (-20, 0)")
+            given["rate"] = tuple(math.radians(number("rate_deg", one, "(-20, 0)")) for one in rate_deg)
+        if stalled_percent is not None:
+            given["stalled"] = PERCENT * number("stalled_percent", stalled_percent, "2")
+        if index_percent is not None:
+            given["index"] = number("index_percent", index_percent, "3")
+        for name, value in given.items():
+            object.__setattr__(self, name, value)
+        if self.change_deg is not None and number("change_deg", self.change_deg, "4") < 0.0:
+            raise ValueError(f"change limit {self.change_deg:g}° is negative: give 0 or more")
         if self.rate is not None and not self.rate[0] < self.rate[1]:
             low, high = (math.degrees(value) for value in self.rate)
             raise ValueError(f"rate limits {low:g}…{high:g}°/R are empty: give the steepest first, e.g. -20,0")
@@ -69,6 +98,14 @@ class Limits:
             raise ValueError(f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside")
         if self.index is not None and not 0.0 < self.index < math.inf:
             raise ValueError(f"limit {self.index:g} % of the vibration index: give more than 0")
+
+    def about(self, twist: TwistLaw, root: float) -> "Limits":
+        """With `change_deg` as a limit on the change from this twist of a blade that begins at `root` (r/R)."""
+        if self.change_deg is None:
+            return self
+        if self.change is not None:
+            raise ValueError("change and change_deg both limit the change of twist: give one of them")
+        return replace(self, change=even_change_limit(twist, math.radians(self.change_deg), root), change_deg=None)
 
     def largest(self, conditions: int) -> Array:
         """Of what `Measured.limited` has [%]."""

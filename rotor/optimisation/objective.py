@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.design.aircraft import FlightCondition
+from rotor.design.aircraft import FlightCondition, number
 from rotor.design.design import Design
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
@@ -68,6 +68,32 @@ def at_condition(design: Design, quantity: Quantity = "total") -> Objective:
     if design.models.trim == "free-rotor" and quantity == "total":
         raise ValueError("a free rotor takes no power from its shaft: use the objective induced, or trim wind-tunnel")
     return Objective(quantity, (WeightedCondition(design.condition),))
+
+
+def over_conditions(
+    design: Design, conditions: Sequence[tuple[float | Design, float]], quantity: Quantity = "total"
+) -> Objective:
+    """The mean over several flight conditions of the design, each an advance ratio, or a design at it, with its weight.
+
+    Raises TypeError or ValueError with one sentence for what cannot be used.
+    """
+    at_condition(design, quantity)
+    example = "conditions=[(0.0, 1), (0.3, 2)]"
+    if isinstance(conditions, str) or not hasattr(conditions, "__iter__"):
+        raise TypeError(f"conditions is {conditions!r}: give pairs of advance ratio and weight, {example}")
+    weighted: list[WeightedCondition] = []
+    for pair in conditions:
+        if not isinstance(pair, tuple | list) or len(pair) != 2:  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise TypeError(f"condition {pair!r} is not a pair: give advance ratio and weight, {example}")
+        where, weight = pair
+        if isinstance(where, Design):
+            if where.rotor.tip_speed != design.rotor.tip_speed:
+                raise ValueError(f"a condition of {where.rotor.name} for {design.rotor.name}: give the same rotor")
+            flight = where.condition
+        else:
+            flight = design.at(mu=where).condition
+        weighted.append(WeightedCondition(flight, number("weight", weight, "1")))
+    return Objective(quantity, tuple(weighted))
 
 
 def hover_and_cruise(

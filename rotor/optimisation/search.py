@@ -29,7 +29,7 @@ from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, Search
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
 from rotor.optimisation.limits import even_change_limit as even_change_limit
-from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index
+from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index, over_conditions
 from rotor.optimisation.results import Band as Band
 from rotor.optimisation.results import Minimum as Minimum
 from rotor.optimisation.results import Optimum as Optimum
@@ -70,6 +70,8 @@ class Search:
             raise ValueError(f"{self.starts} starts are outside 1…1000: 6 suffice for most concepts")
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
+        limits = self.limits.about(self.design.twist, self.design.rotor.blade.root_cutout)
+        object.__setattr__(self, "limits", limits)
         self.limits.bounds_of(self.concept)
         check_index(self.design, self.objective or at_condition(self.design), self.limits)
 
@@ -301,20 +303,23 @@ def optimise(
     design: Design,
     concept: str = "two-segment",
     *,
+    conditions: Sequence[tuple[float | Design, float]] | None = None,
     division: float | Sequence[float] | None = None,
     quantity: Quantity = "total",
     limits: Limits | None = None,
     starts: int = STARTS,
     seed: int = 0,
 ) -> Optimum:
-    """The twist of a concept with the least power, or vibration, at the design's own flight condition.
+    """The twist of a concept with the least power, or vibration, at the design's own flight condition or over several.
 
     concept: `linear`, `quadratic`, `two-segment`, `three-segment`, `free-form` or another name in `CONCEPTS`.
+    conditions: pairs of advance ratio and weight, `[(0.0, 1), (0.3, 2)]`, whose weighted mean is made small; in place
+    of an advance ratio a design, as in `(design.at(speed_kt=140, mass_kg=9000), 2)`, whose flight condition counts.
     division: r/R where the segments meet, for the concepts that hold it fixed.
     quantity: what to make small: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
     N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
-    limits: bounds on twist rates, on the change of twist, on the stalled area and on the vibration index; by default
-    the concept's own bounds.
+    limits: `rotor.Limits` on twist rates, on the change of twist, on the stalled area and on the vibration index; by
+    default the concept's own bounds.
     starts, seed: number of descents, and the seed of their starting points.
 
     The design's own twist is the baseline of `saving_percent`. A search always returns; its `status` and `message` say
@@ -323,13 +328,18 @@ def optimise(
     for name, value in (("starts", starts), ("seed", seed)):
         if not isinstance(value, int):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
             raise TypeError(f"{name} is {value!r}: give a whole number")
+    design = require_design(design)
+    if limits is not None and not isinstance(limits, Limits):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError(f"limits is {limits!r}: give rotor.Limits(rate_deg=(-20, 0))")
     divisions = (division,) if isinstance(division, int | float) else division
     if divisions is not None:
         divisions = [number("division", item, "0.5") for item in divisions]
     search = Search(
-        design=require_design(design),
+        design=design,
         concept=find_concept(concept, divisions),
-        objective=at_condition(design, quantity),
+        objective=at_condition(design, quantity)
+        if conditions is None
+        else over_conditions(design, conditions, quantity),
         limits=limits or Limits(),
         starts=starts,
         seed=seed,

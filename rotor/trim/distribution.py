@@ -65,8 +65,10 @@ class Distribution:
 def distribution(solution: Solution) -> Distribution:
     """Of one blade, on the elements and azimuths of `solution.disk`; in hover the same at all azimuths.
 
-    Raises RuntimeError when the solution did not converge.
+    Raises RuntimeError when the solution did not converge, TypeError for anything but a solution.
     """
+    if not isinstance(solution, Solution):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+        raise TypeError(f"solution is {solution!r:.80}: give what rotor.solve returns")
     design, disk = solution.design, solution.require().disk
     rotor = design.rotor
     return Distribution(

@@ -1,22 +1,36 @@
 """Our number beside every measured point of rotors that were tested. Nothing is fitted to these points."""
 
-from rotor.validation.airloads import FlownCase, MeasuredCurve, measured_curves
+from rotor.validation.airloads import (
+    CASES,
+    CurveAgreement,
+    FlownCase,
+    MeasuredCurve,
+    agreement,
+    measured_curves,
+    our_curve,
+)
 from rotor.validation.compare import Comparison, compare, compare_point, design_at
 from rotor.validation.measured import MeasuredSet, load_set, sets_of
 from rotor.validation.trust import SensitivityRow, TrustRow, sensitivity_rows, trust_rows
+from rotor.validation.uh60a import public_data
 
 __all__ = (
+    "CASES",
     "Comparison",
+    "CurveAgreement",
     "FlownCase",
     "MeasuredCurve",
     "MeasuredSet",
     "SensitivityRow",
     "TrustRow",
+    "agreement",
     "compare",
     "compare_point",
     "design_at",
     "load_set",
     "measured_curves",
+    "our_curve",
+    "public_data",
     "sensitivity_rows",
     "sets_of",
     "trust_rows",

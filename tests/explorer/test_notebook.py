@@ -57,6 +57,19 @@ def test_in_jupyter_the_page_is_inline(opened: list[str], monkeypatch: pytest.Mo
     assert "<iframe" not in page._repr_html_()
 
 
+def test_on_jupyterhub_a_sentence_says_how_the_page_is_reached(
+    opened: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    """The browser is on another machine, where a frame would stay empty."""
+    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ann/")
+    page = explorer.show(rotor.make_design())
+    for said in (capsys.readouterr().out, page._repr_html_()):
+        assert "ssh -L 8765:127.0.0.1:8765" in said
+        assert "iframe" not in said
+    page.stop()
+
+
 def test_a_second_stop_does_nothing(opened: list[str]):
     page = explorer.show(rotor.make_design(), browser=False)
     page.stop()

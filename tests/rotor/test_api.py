@@ -85,7 +85,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_the_api_is_small_and_no_module_shadows_a_function():
     assert dir(rotor) == sorted(rotor.__all__)
-    assert len(dir(rotor)) <= 27
+    assert len(dir(rotor)) <= 28
     for name in (
         "solve",
         "sweep",
@@ -117,6 +117,27 @@ def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(d
     assert_allclose(at_three.best.power, alone.power, rtol=1e-6)
     with pytest.raises(ValueError, match="1 hours for 2 advance ratios: give one for each"):
         rotor.schedule(made, mu=[0.1, 0.2], hours=[1.0])
+
+
+def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
+    """Its power is the weighted mean of the trims, and no other twist inside the limits takes less."""
+    made = replace(design, models=replace(design.models, inflow="pitt-peters"))
+    weights = {0.1: 1.0, 0.3: 3.0}
+    limits = rotor.Limits(rate_deg=(-9, 0), stalled_percent=50)
+    found = rotor.optimise(made, "linear", conditions=list(weights.items()), limits=limits, starts=2)
+
+    def mean(twist: str) -> float:
+        return sum(w * rotor.solve(made.at(mu=mu).with_twist(twist)).power.total for mu, w in weights.items()) / 4.0
+
+    assert found.best is not None
+    assert_allclose(found.best.power, mean(found.best.twist), rtol=1e-7)
+    assert found.best.power <= min(mean(f"linear:{rate}") for rate in (-9, -6, -3)) * (1 + 1e-9)
+    at_design = [(made.at(mu=0.1), 1.0), (0.3, 3.0)]
+    again = rotor.optimise(made, "linear", conditions=at_design, limits=limits, starts=2)
+    assert again.best == found.best
+    small = rotor.optimise(made, "linear", limits=rotor.Limits(change_deg=1.0), starts=2)
+    change = small.twist(1.0) - small.twist(0.13) - made.twist(1.0) + made.twist(0.13)
+    assert abs(math.degrees(change)) < 1.02
 
 
 @pytest.mark.slow
@@ -262,6 +283,18 @@ class TestSweep:
         assert [row[table.columns.index("pitch_per_rev")] for row in table.rows] == ["3:1:0", "3:1:120", "3:1:240"]
         assert len({one.power.total for one in table}) == len(set(table.labels)) == 3
 
+    def test_over_speed_mass_and_altitude(self, design: rotor.Design):
+        """Each is the same trim as that of `Design.at`, and the chart is drawn over what varies."""
+        for name, values in {"speed_kt": [60, 90], "mass_kg": [7000, 9000], "altitude_m": [0, 2000]}.items():
+            table = rotor.sweep(design, **{name: values})
+            assert [row[table.columns.index(name)] for row in table.rows] == pytest.approx(values)
+            for one, value in zip(table, values, strict=True):
+                assert one.design == design.at(**{name: value})
+        axes = rotor.plot_power(rotor.sweep(design, mass_kg=[7000, 9000]))
+        assert axes.get_xlabel() == "Mass [kg]"
+        assert_allclose(axes.lines[0].get_xdata(), [7000, 9000])
+        pyplot.close("all")
+
     def test_a_csv_file_holds_the_table(self, design: rotor.Design, tmp_path: Path):
         table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
         table.to_csv(tmp_path / "p.csv")
@@ -317,8 +350,26 @@ WRONG = {
     "rotor.parse_twist('ideal')": (ValueError, "write ideal:6.4"),
     "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "rotor.solve(design, start=design)": (TypeError, "give an earlier solution or leave it out"),
-    "rotor.sweep(design, mu=0.2)": (TypeError, "give a list of advance ratios, for example mu=[0.1, 0.2, 0.3]"),
+    "rotor.sweep(design, mu=0.2)": (TypeError, "give a list, for example mu=[0.1, 0.2, 0.3]"),
     "rotor.sweep(design, mu=['fast'])": (TypeError, "mu is 'fast'"),
+    "rotor.sweep(design)": (TypeError, "a sweep over nothing: give one of mu, speed_kt, mass_kg"),
+    "rotor.sweep(design, mu=[0.1], mass_kg=[8000])": (TypeError, "a sweep over mu and mass_kg: give one of"),
+    "rotor.sweep(design, speed_kt=90)": (TypeError, "speed_kt is 90: give a list, for example speed_kt=[60, 90, 120]"),
+    "rotor.Limits(rate_deg=-20)": (TypeError, "give the steepest and the flattest, for example (-20, 0)"),
+    "rotor.Limits(rate_deg=(0, -20))": (ValueError, "give the steepest first"),
+    "rotor.Limits(stalled_percent='few')": (TypeError, "stalled_percent is 'few', not a number"),
+    "rotor.Limits(stalled_percent=200)": (ValueError, "200 % is outside 0…100 %"),
+    "rotor.Limits(change_deg=-1)": (ValueError, "change limit -1° is negative: give 0 or more"),
+    "rotor.optimise(design, limits=2.0)": (TypeError, "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))"),
+    "rotor.optimise(design, conditions=0.3)": (TypeError, "give pairs of advance ratio and weight"),
+    "rotor.optimise(design, conditions=[0.1, 0.3])": (TypeError, "condition 0.1 is not a pair"),
+    "rotor.optimise(design, conditions=[])": (ValueError, "an objective needs a flight condition"),
+    "rotor.optimise(design, conditions=[(0.2, 0)])": (ValueError, "0 hours at advance ratio 0.2: give more than 0"),
+    "rotor.optimise(design, conditions=[('fast', 1)])": (TypeError, "mu is 'fast'"),
+    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "give the same rotor"),
+    "rotor.schedule('uh60a', mu=[0.1])": (TypeError, "design is 'uh60a': give what rotor.make_design"),
+    "rotor.schedule(design, mu=0.1)": (TypeError, "mu is 0.1: give a list of advance ratios"),
+    "rotor.distribution(design)": (TypeError, "give what rotor.solve returns"),
     "rotor.optimise(design, concept='cubic')": (ValueError, "concept 'cubic' is not known: use one of linear"),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
     "rotor.optimise(design, quantity='noise')": (

@@ -5,6 +5,7 @@ import importlib
 import json
 import math
 import signal
+import time
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,6 +20,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from rotor.__main__ import main
 from rotor.assets import asset_path
 from rotor.command.common import interruptible
+from rotor.command.study import estimate
 from rotor.files.make_design import make_design
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.findings import best_row, effects, robust_best
@@ -508,6 +510,20 @@ def test_a_billion_points_are_counted_not_made(tmp_path: Path, capsys: pytest.Ca
     finally:
         tracemalloc.stop()
     assert "1,208,604,000 points in 20,000 chunks" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["two_segment.toml", "hover_cruise.toml"])
+def test_a_dry_run_tells_the_time_within_a_factor_of_one_and_a_half(name: str):
+    """Searches too, of which the last thirtieth takes a third of the time; chunks evenly spread stand for the whole."""
+    study = read_study(asset_path(f"studies/{name}")).study
+    each, _ = estimate(study)
+    spans = [study.span(chunk) for chunk in range(0, study.chunks, 1 if study.optimum else 4)]
+    begin = time.process_time()
+    for span in spans:
+        evaluate_points(study, *span)
+    spent = (time.process_time() - begin) / sum(end - first for first, end in spans)
+    assert spent / 1.5 < each < 1.5 * spent
 
 
 SMALLER = {

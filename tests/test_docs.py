@@ -1,0 +1,218 @@
+"""The documentation: what it names exists, what it shows runs, and it is short enough to read.
+
+The site itself is built by `make docs`; here a page with a chart is, and its pixels are looked at.
+"""
+
+import ast
+import inspect
+import io
+import re
+import subprocess
+import sys
+import types
+import typing
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from PIL import Image
+
+import explorer
+import rotor
+import rotor.validation
+from rotor.aero.switches import SWITCHES
+
+matplotlib.use("Agg")
+ROOT = Path(__file__).parent.parent
+DOCS = ROOT / "docs"
+API = (DOCS / "reference" / "api.md").read_text(encoding="utf-8")
+GUIDES = sorted((DOCS / "guide").glob("*.md"))
+TUTORIALS = sorted((DOCS / "tutorials").glob("*.md"))
+
+
+def text(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+class TestPublicTypes:
+    def public(self) -> Iterator[object]:
+        for module in (rotor, rotor.actuator, explorer):
+            for name in module.__all__:
+                yield getattr(module, name)
+
+    def named_in(self, annotation: object, where: types.ModuleType) -> set[type]:
+        """Classes of ours in an annotation, which may be a text."""
+        if isinstance(annotation, str):
+            words = re.findall(r"[A-Za-z_]\w*", annotation)
+            return set().union(*(self.named_in(vars(where).get(word), where) for word in words))
+        if inspect.isclass(annotation) and not typing.get_args(annotation):
+            return {annotation} if annotation.__module__.split(".")[0] in ("rotor", "explorer") else set()
+        return set().union(*(self.named_in(one, where) for one in typing.get_args(annotation)))
+
+    def types_of(self, one: object) -> set[type]:
+        """In the signature of a function; in the fields, properties and methods of a class."""
+        if inspect.isclass(one):
+            parts = [one, *(value for name, value in vars(one).items() if not name.startswith("_"))]
+        else:
+            parts = [one]
+        found: set[type] = set()
+        for part in parts:
+            part = part.fget if isinstance(part, property) else getattr(part, "__func__", part)
+            where, given = inspect.getmodule(part), inspect.get_annotations(part) if callable(part) else {}
+            if where is not None:
+                given = {name: value for name, value in given.items() if not name.startswith("_")}
+                found |= set().union(*(self.named_in(value, where) for value in given.values()))
+        return found
+
+    def test_each_has_an_entry(self):
+        entries = {name.rpartition(".")[2] for name in re.findall(r"auto(?:class|function):: ([\w.]+)", API)}
+        missing: set[str] = set()
+        for one in self.public():
+            if inspect.isclass(one) or inspect.isfunction(one):
+                needed = {*self.types_of(one), one}
+                missing |= {f"{each.__module__}.{each.__name__}" for each in needed if each.__name__ not in entries}
+        assert not missing, "add to docs/reference/api.md: " + ", ".join(sorted(missing))
+
+
+PACKAGES = {
+    "rotor": rotor,
+    "rotor.actuator": rotor.actuator,
+    "rotor.validation": rotor.validation,
+    "explorer": explorer,
+}
+
+
+@pytest.mark.parametrize("path", sorted((DOCS / "notebooks").glob("*.py")), ids=lambda path: path.stem)
+def test_notebooks_import_nothing_private(path: Path):
+    """Of ours the four packages, and of them only what they name as public."""
+    for node in ast.walk(ast.parse(text(path))):
+        if isinstance(node, ast.Import):
+            ours = {name.name for name in node.names if name.name.split(".")[0] in ("rotor", "explorer")}
+            assert ours <= PACKAGES.keys()
+        if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] in ("rotor", "explorer"):
+            assert node.module in PACKAGES, f"from {node.module} import …"
+            assert {name.name for name in node.names} <= set(PACKAGES[node.module].__all__)
+        if isinstance(node, ast.Attribute):
+            assert not node.attr.startswith("_"), node.attr
+            if isinstance(node.value, ast.Name) and node.value.id == "rotor":
+                assert node.attr in rotor.__all__, f"rotor.{node.attr}"
+
+
+def names_of_the_page() -> set[str]:
+    """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its HTML."""
+    found = {switch.title for switch in SWITCHES.values()}
+    page = ROOT / "explorer"
+    for path in (*(page / "tabs").rglob("*.py"), *(page / "model").glob("*.py"), page / "page.py"):
+        constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
+        found |= {value for value in constants if isinstance(value, str)}
+    for path in (page / "web").glob("*.html"):
+        found |= set(re.findall(r">([^<>]+)<", text(path)))
+    return found
+
+
+@pytest.mark.parametrize("path", [*TUTORIALS, *GUIDES], ids=lambda path: path.stem)
+def test_tutorials_name_sliders_and_buttons_that_exist(path: Path):
+    """A word in italics that begins with a capital is the name of a control, letter by letter as the page writes it."""
+    plain = re.sub(r"\*\*.*?\*\*|```.*?```", "", text(path), flags=re.DOTALL)
+    named = set(re.findall(r"(?<![*\w])\*([A-ZΔ][^*\n]*)\*(?![*\w])", plain))
+    assert named <= names_of_the_page()
+
+
+def test_the_first_tutorial_names_controls():
+    assert len(re.findall(r"\*[A-ZΔ][^*\n]*\*", text(DOCS / "tutorials" / "drag.md"))) >= 8
+
+
+def paragraphs(page: str) -> Iterator[str]:
+    """Prose, and the items of lists each by itself; no tables, code, formulas or captions."""
+    page = re.sub(r"```.*?```|:::+.*?\n", "\n\n", page, flags=re.DOTALL)
+    for block in re.split(r"\n\s*\n", page):
+        if not block.lstrip().startswith(("|", "$$", "#")):
+            yield from re.split(r"\n(?=\s*(?:[-*]|\d+\.) )", block)
+
+
+@pytest.mark.parametrize("path", [DOCS / "theory.md", *GUIDES, *TUTORIALS], ids=lambda path: path.stem)
+def test_no_paragraph_is_longer_than_100_words(path: Path):
+    longest = max(paragraphs(text(path)), key=lambda one: len(one.split()))
+    assert len(longest.split()) <= 100, longest
+
+
+def test_each_section_of_the_theory_has_a_figure():
+    sections = re.split(r"^## ", text(DOCS / "theory.md"), flags=re.MULTILINE)[1:]
+    drawn = text(DOCS / "theory_figures.py")
+    named = [re.findall(r"^```\{picture\} (\w+)$", section, flags=re.MULTILINE) for section in sections]
+    assert all(named), [section.splitlines()[0] for section, found in zip(sections, named, strict=True) if not found]
+    assert all(f"\ndef {name}()" in drawn for found in named for name in found)
+
+
+def examples(path: Path) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", text(path), flags=re.DOTALL | re.MULTILINE)
+
+
+TASKS = examples(DOCS / "guide" / "tasks.md")
+
+
+@pytest.mark.parametrize("code", TASKS, ids=["two rotors", "three segments", "2/rev"])
+def test_the_three_tasks(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """At most twelve lines each, and they do what their heading says."""
+    assert len([line for line in code.splitlines() if line]) <= 12
+    monkeypatch.chdir(tmp_path)
+    names: dict = {}
+    exec(code, names)
+    if "limits" in names:
+        best = names["best"]
+        rates = [best.best.parameters[k] for k in range(3)]
+        assert np.degrees(min(rates)) >= -20.001
+        assert best.saving_percent > 0.5
+    else:
+        assert all(one.converged for one in names["table"])
+        assert len((tmp_path / names_of_csv(code)).read_text().splitlines()) == len(names["table"]) + 1
+
+
+def names_of_csv(code: str) -> str:
+    (name,) = re.findall(r'to_csv\("(.*?)"\)', code)
+    return name
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", [path for path in GUIDES if path.stem != "tasks"], ids=lambda path: path.stem)
+def test_examples_of_the_guides_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    for code in examples(path):
+        exec(code, {})
+
+
+CHART = "# Chart\n\n```{picture} momentum\nAxial climb.\n```\n"
+
+
+@pytest.fixture(scope="module")
+def page_with_a_chart(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A site of one page by the configuration of the real one, without its notebooks and its API."""
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "in").mkdir()
+    (folder / "in" / "index.md").write_text(CHART, encoding="utf-8")
+    command = (
+        sys.executable, "-m", "sphinx", "-q", "-b", "html", "-c", str(DOCS), "-D", "extensions=myst_parser",
+        str(folder / "in"), str(folder / "out"),
+    )  # fmt: skip
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return folder / "out" / "index.html"
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_chart_of_the_site_is_lines_on_its_page(scheme, page_with_a_chart: Path, browser: typing.Any):
+    """Grid and axes once were filled, which covered half of every chart with a black triangle."""
+    page = browser.new_page(color_scheme=scheme, viewport={"width": 1200, "height": 800})
+    page.goto(page_with_a_chart.as_uri())
+    drawn = Image.open(io.BytesIO(page.locator(".drawn svg").screenshot())).convert("RGB")
+    page.close()
+    pixels = np.asarray(drawn, dtype=float)
+    ground = np.median(pixels.reshape(-1, 3), axis=0)
+    assert (ground.mean() > 200.0) == (scheme == "light")
+    inked = np.abs(pixels - ground).max(axis=2) > 60.0
+    assert 0.003 < inked.mean() < 0.06
+    curve = np.abs(pixels - (0x1C, 0x7E, 0xD6)).max(axis=2) < 40.0
+    assert curve.any(axis=0).mean() > 0.6, "the line of the ideal rotor runs across the chart"
