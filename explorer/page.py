@@ -106,7 +106,7 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context)
             self._actuator_inputs = self.actuator.inputs()
-            self.per_rev = PerRevControls(context)
+            self.per_rev = PerRevControls(context, self._grabbed)
         self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
@@ -164,7 +164,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
+        for part in (self.optimise, self.map, self.schedule, self.actuator, self.per_rev, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -229,7 +229,7 @@ class Page:
         self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
         self.vibration.show(state)
-        self.per_rev.show_vibration(self.vibration.words)
+        self.per_rev.show(state, self.vibration.words, self.vibration.index)
         self._curve.show(state)
         self._show_hand(state)
         self.context.bridge.set(beside_labels=beside_labels(state))

@@ -106,6 +106,12 @@ class VibrationPanel:
             self._fan.content = faded(self._content)
 
     @property
+    def index(self) -> float | None:
+        """Of the state that is shown [%]; None without hub loads."""
+        loads = None if self._state is None else self._loads.get(self._state.solution)
+        return None if loads is None else loads.index
+
+    @property
     def words(self) -> str:
         """The index in a line, for those who move pitch or twist at n/rev; empty without bending."""
         card = None if self._state is None else self._card(self._state)

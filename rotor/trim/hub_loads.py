@@ -119,11 +119,17 @@ def scaled_loads(problem: Problem, values: Array) -> Array:
     return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
 
 
-def index_of(design: Design, values: Array) -> tuple[float, Array]:
-    """The index, a fraction, and its slopes by the loads, (loads, 2)."""
+def index_gains(design: Design) -> Array:
+    """What each load counts in the index [1/N, 1/(N m)], (5,): the index is √Σ of the three forces' squares times their
+    gains, and the same of the two moments."""
     condition, radius = design.condition, design.rotor.radius
     weight = condition.weight if condition.stand is None else design.weight_coefficient * design.thrust_unit
-    gains = np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius])[:, None] / weight
+    return np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius]) / weight
+
+
+def index_of(design: Design, values: Array) -> tuple[float, Array]:
+    """The index, a fraction, and its slopes by the loads, (loads, 2)."""
+    gains = index_gains(design)[:, None]
     weighted = gains * values
     force, moment = math.sqrt(float((weighted[:3] ** 2).sum())), math.sqrt(float((weighted[3:] ** 2).sum()))
     slopes = gains * weighted

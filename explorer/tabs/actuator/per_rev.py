@@ -1,6 +1,7 @@
 """Pitch and twist at n/rev in the Actuate mode: widgets ↔ `Inputs`."""
 
 import math
+from collections.abc import Callable
 from functools import partial
 from html import escape
 from typing import Any
@@ -9,6 +10,8 @@ import viser
 
 from explorer.hosting.viser_compat import quick
 from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.tabs.actuator.dial import TwistDial
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.design_words import harmonic_words
@@ -24,7 +27,8 @@ _WAVE_DEG = round(math.degrees(LARGEST_PITCH), 6)
 class PerRevControls:
     """One client's. The menu says which harmonic the two sliders set; an amplitude of zero takes it away."""
 
-    def __init__(self, context: TabContext) -> None:
+    def __init__(self, context: TabContext, grabbed: Callable[[bool], None]) -> None:
+        """`grabbed`: the dot of the dial was taken (True) or let go."""
         self._controls, gui = context.controls, context.gui
         self._orders: dict[str, Any] = {}
         self._sizes: dict[str, Any] = {}
@@ -34,6 +38,7 @@ class PerRevControls:
         with gui.add_folder("Pitch and twist at n/rev"):
             self._words = gui.add_html("")
             self._vibration = gui.add_html("", visible=False)
+            self._dial = TwistDial(context, grabbed)
             for name, (title, lowest) in _WAVES.items():
                 orders = tuple(f"{n}/rev" for n in range(lowest, HIGHEST + 1))
                 self._orders[name] = gui.add_dropdown(
@@ -65,11 +70,16 @@ class PerRevControls:
             f'<div class="rx rx-dim rx-small" data-explorer="per-rev">{words[:1].upper()}{words[1:]}.{shaped}</div>'
         )
 
-    def show_vibration(self, words: str) -> None:
-        """The vibration index beside the harmonics that move it; empty: blades do not bend."""
+    def show(self, state: SessionState, words: str, index: float | None) -> None:
+        """Dial and vibration of a converged state; `words` of its index [%], empty and None: blades do not bend."""
+        self._dial.show(state, index)
         content = f'<div class="rx rx-small" data-explorer="per-rev-vibration">{escape(words)}</div>' if words else ""
         if self._vibration.content != content:
             self._vibration.visible, self._vibration.content = bool(words), content
+
+    def stop(self) -> None:
+        """The browser has left."""
+        self._dial.stop()
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
