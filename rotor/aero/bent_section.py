@@ -27,6 +27,7 @@ from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.section import FR, FX, FZ, TH, UP, UR, UT, M, of_double_angle
 from rotor.arrays import Array
 from rotor.compiled import compiled
+from rotor.engine.memory import Memory
 
 SLOPES = (SW, SV, KW, KV, B) = tuple(range(-5, 0))
 """Channels w', v', κ_w, κ_v and B: the last five."""
@@ -187,8 +188,30 @@ class _BentSection:
         return out, made, s
 
 
+    def memory(self, c: Array, data: BentData) -> Memory:
+        """That of the section within, its forces turned back and its channels turned."""
+        assert self._inner.memory is not None
+        first = self._first
+        turned = c[:first].copy()
+        _turn(c, first, turned)
+        own = self._inner.memory(turned, data.section)
+        t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
+        left = np.concatenate([own.left, np.zeros((5, *own.left.shape[1:]))])
+        z, x, along = own.left[FZ], own.left[FX], own.left[FR]
+        left[FX], left[FZ], left[FR] = x + w * v * z - v * along, z + w * along, along + v * x - w * z
+        right = np.concatenate([own.right, np.zeros((len(own.right), 5, *t.shape))], axis=1)
+        by_t, by_p, by_r = (own.right[:, channel] for channel in (UT, UP, UR))
+        right[:, UT] = by_t - w * v * by_p - v * by_r
+        right[:, UP] = by_p - w * by_r
+        right[:, UR] = v * by_t + w * by_p + by_r
+        right[:, first] = by_p * (r - v * t) - by_r * p
+        right[:, first + 1] = by_t * r - by_p * w * t - by_r * t
+        return Memory(left, own.kernel, right)
+
+
 @lru_cache(maxsize=8)
 def bent(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
     made = _BentSection(inner)
-    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced)
+    memory = None if inner.memory is None else made.memory
+    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced, memory)

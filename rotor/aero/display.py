@@ -15,7 +15,8 @@ from rotor.aero.disk import Disk
 from rotor.aero.elements import BentState, BladeElements, TwistState, over_azimuths
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
-from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, section, stall_angles
+from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, stall_angles
+from rotor.aero.stalling_section import stalling
 from rotor.arrays import Array
 from rotor.engine.waves import wave_grid
 
@@ -87,11 +88,12 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
 
 def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
     """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
+    own = PLAIN if problem.stall is None else stalling(PLAIN)
     if e.bent is None:
-        f, _, s = section(flow, problem.section_data(), False, True)
+        f, _, s = own.section(flow, problem.grid_data(1), False, True)
         return f, s, None
     bends = BentState(e.bent.channels @ matrix, e.bent.offset @ matrix, e.bent.lift @ matrix)
-    f, _, s = bent(PLAIN).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
+    f, _, s = bent(own).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
     return f, s, bends
 
 

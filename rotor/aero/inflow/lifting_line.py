@@ -21,7 +21,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence
-from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, PAIRS, UP, UT, SectionData, section
+from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.design.design import Models
@@ -56,7 +56,8 @@ _RIGID = dict(zip(SectionData._fields[-len(NO_MOMENT) :], NO_MOMENT, strict=True
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
-    held, by_held, _ = section(c, data._replace(tables=data.held, friction=0.0, **_RIGID), slopes, False)
+    still = data._replace(tables=data.held, friction=0.0, added=NOTHING_ADDED, **_RIGID)
+    held, by_held, _ = section(c, still, slopes, False)
     gain, by_speed = np.empty_like(c[UT]), np.empty_like(c[UT])
     circulation_gain(c[UT], gain, by_speed)
     f = np.concatenate([f, (gain * held[FZ])[None]])
@@ -85,6 +86,7 @@ class LiftingLineInflow:
     )
     load_dependent = True
     fine_tip = True
+    pointwise = True
 
     def without_tip_loss(self) -> "LiftingLineInflow":
         """Itself: the tip loss of a lifting line is that of its finite blades."""
