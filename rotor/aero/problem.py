@@ -88,7 +88,8 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        return self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+        own = self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+        return own if self.stall is None else own.unsteady(self.stall.half_chord)
 
     @cached_property
     def interface(self) -> SectionInterface:

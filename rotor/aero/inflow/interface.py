@@ -9,7 +9,7 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared.
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -79,6 +79,10 @@ class InflowTerms(Protocol):
         """The same for the same structure."""
         ...
 
+    def unsteady(self, half_chord: Array) -> "InflowTerms":
+        """The same under sections that are unsteady; half_chord: over R, (elements,)."""
+        ...
+
     @property
     def names(self) -> Sequence[Shape]:
         """The shapes of λ_i in the channel UP."""
@@ -129,6 +133,11 @@ class InflowTerms(Protocol):
 
 class WithoutNodes:
     """The part of `InflowTerms` that is the same for all models without unknowns of their own."""
+
+    def unsteady(self, half_chord: Array) -> Self:
+        """Itself: nothing is shed, lift follows in the section."""
+        del half_chord
+        return self
 
     def start(self) -> Array:
         """No nodes."""

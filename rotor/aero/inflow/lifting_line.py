@@ -21,6 +21,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence
+from rotor.aero.lifting_line.shed import shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -103,9 +104,17 @@ class LiftingLineInflow:
 
 
 @lru_cache(maxsize=32)
-def _matrix(line: Line, course: WakeCourse) -> NDArray[np.float32]:
-    """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists."""
-    return (influence(line, course) * (math.pi / line.blades)).astype(np.float32)
+def _matrix(line: Line, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
+    """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
+
+    half_chord: of unsteady sections over R, (panels,), or empty.
+    """
+    made = influence(line, course)
+    if half_chord:
+        blocks = made.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
+        panel = np.arange(line.panels)
+        blocks[panel, :, panel] += shed_correction(line, course, np.array(half_chord))
+    return (made * (math.pi / line.blades)).astype(np.float32)
 
 
 class LiftingLineTerms:
@@ -115,10 +124,15 @@ class LiftingLineTerms:
     live: Sequence[tuple[int, Shape]] = ()
     interface = _LINE
 
-    def __init__(self, line: Line, course: WakeCourse) -> None:
-        self.line, self.course = line, course
+    def __init__(self, line: Line, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
+        """half_chord: of unsteady sections over R, (panels,), or empty."""
+        self.line, self.course, self._half_chord = line, course, half_chord
         self.key: Hashable = "lifting line", line.panels, line.azimuths
         self.least_azimuths = line.azimuths
+
+    def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
+        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line.shed`."""
+        return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
 
     def build(self, structure: Structure) -> None:
         """Nothing: what is solved for are nodes."""
@@ -134,7 +148,7 @@ class LiftingLineTerms:
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course), tolerance, 2.4 * thrust)
+        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course, self._half_chord), tolerance, 2.4 * thrust)
 
     def start(self) -> Array:
         """An elliptical circulation that carries the thrust to which the course belongs."""
