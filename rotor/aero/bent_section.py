@@ -62,6 +62,13 @@ def _turn(c: Any, slope: int, out: Any) -> None:
             out[UR, i, j] = r - v * t - w * p
 
 
+def turned(c: Array, first: int) -> Array:
+    """The channels of a section, the first ones of all, in its own axes; those of its slopes begin at `first`."""
+    out = c[:first].copy()
+    _turn(c, first, out)
+    return out
+
+
 @_compile
 def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> None:
     """All forces in axes of the hub, with those of bending."""
@@ -177,9 +184,7 @@ class _BentSection:
     def __call__(self, c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
         """As `section.section`, with the rows of `pairs`."""
         first, forces = self._first, self._forces
-        turned = c[:first].copy()
-        _turn(c, first, turned)
-        f, d, s = self._inner.section(turned, data.section, slopes, flow)
+        f, d, s = self._inner.section(turned(c, first), data.section, slopes, flow)
         out, own = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
         _turn_back(c, first, f, forces, own, out)
         made = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
@@ -187,14 +192,11 @@ class _BentSection:
             _slopes_back(c, first, f, d, self._rows, self._made, own, made)
         return out, made, s
 
-
     def memory(self, c: Array, data: BentData) -> Memory:
         """That of the section within, its forces turned back and its channels turned."""
         assert self._inner.memory is not None
         first = self._first
-        turned = c[:first].copy()
-        _turn(c, first, turned)
-        own = self._inner.memory(turned, data.section)
+        own = self._inner.memory(turned(c, first), data.section)
         t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
         left = np.concatenate([own.left, np.zeros((5, *own.left.shape[1:]))])
         z, x, along = own.left[FZ], own.left[FX], own.left[FR]

@@ -19,9 +19,9 @@ so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`. Every
 coefficients the stages before it give: its periodic solution is exact after one turn, and so are its derivatives. The
 last term leaves out the pitch rate, whose moment `rotor.aero.section` has.
 
-Choices of ours: g rises over ±10 % of x_f, where Leishman and Beddoes switch, and the vortex leaves for as long as its
-window is open; T_f and T_v stay the same in all phases; one vortex in each stall. Beyond 25° x fades out to 50°: what is
-added fades with it, in reverse flow there is nothing.
+Choices of ours: g rises over ±4 % of x_f, where Leishman and Beddoes switch; T_f and T_v stay the same in all phases;
+one vortex leaves in each stall. Beyond 25° x fades out to 50°, and what is added with it: in deep stall and in reverse
+flow sections are static.
 """
 
 import math
@@ -67,7 +67,7 @@ class StallData(NamedTuple):
     """What dynamic stall needs beside x, M and q."""
 
     numbers: Array
-    """`StallOnset.numbers` of every element, (elements, 8, Mach nodes); zero-lift angles about the blade's reference."""
+    """`StallOnset.numbers` of every element, (elements, 8, Mach nodes); zero lift about the blade's reference line."""
     tables: Array
     """f and m, (sections, α cells, Mach cells, 2, 4, 4)."""
     section: Integers
@@ -145,7 +145,7 @@ def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> Non
 def _steps(row: Any, fine: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
     """Steps over a lag time, and their slopes by the sum of the Mach numbers at their ends.
 
-    row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel in a step over the sum.
+    row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel over the sum.
     """
     n = len(mach)
     for k in range(n):
@@ -155,7 +155,7 @@ def _steps(row: Any, fine: Any, mach: Any, unit: float, h: Any, by_mach: Any) ->
 
 @_compile
 def _gate(x: float, onset: float) -> Any:
-    """0 below, 1 above x = onset, smoothly over ±10 %; slopes by x and onset."""
+    """0 below, 1 above x = onset, smoothly over ±4 %; slopes by x and onset."""
     u = (x / onset - 1.0 + _GATE) / (2.0 * _GATE)
     if u <= 0.0 or u >= 1.0:
         return (0.0 if u <= 0.0 else 1.0), 0.0, 0.0
@@ -223,9 +223,9 @@ def _over_mach(numbers: Any, first: int, end: int, cell: Any, places: Any, rows:
 
 @_compile
 def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: Any, by: Any, shown: Any) -> None:
-    """One element: `ADDED` (3, azimuths), their slopes by x, M and q at all azimuths (3, azimuths, 3 azimuths), `STATES`.
+    """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x, M and q, (azimuths,) each.
 
-    x, M, q: (azimuths,); slopes only where asked for.
+    by: slopes by these at all azimuths, (3, azimuths, 3 azimuths), only where asked for, else without the last.
     """
     n = len(x)
     steps = max(1, -(-_LEAST_FINE // n))
@@ -455,6 +455,8 @@ def _vortex(
             rest *= e if turn == 0 else 1.0
             for j in range(seeds):
                 dcv[k, j] = value[j]
-                value[j] = e * value[j] + root * (
-                    0.5 * (dh[k, j] + dh[one, j]) * grown + mean * (dfeed[one, j] - dfeed[k, j])
-                ) + by * (dm[k, j] + dm[one, j])
+                value[j] = (
+                    e * value[j]
+                    + root * (0.5 * (dh[k, j] + dh[one, j]) * grown + mean * (dfeed[one, j] - dfeed[k, j]))
+                    + by * (dm[k, j] + dm[one, j])
+                )

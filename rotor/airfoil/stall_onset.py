@@ -6,8 +6,8 @@ In Kirchhoff's flow past a flat plate, separated behind x = f c (Thwaites, Incom
 
 so the static data give f at every angle, and how far behind the quarter chord the normal force acts gives
 m = (C_m − C_m0)/C_n. Lags are those of Leishman and Beddoes (J. AHS 34(3), 1989) for a NACA 0012, in semi-chords of
-travel, as the program DSmodel (L. Pancini, github.com/luizpancini/DSmodel, commit f1b38dd) lists them; up to Mach 0.3 its
-author has adapted them.
+travel, as the program DSmodel (L. Pancini, github.com/luizpancini/DSmodel, commit f1b38dd) lists them. Its author has
+adapted the travel of the vortex up to Mach 0.3; that of Mach 0.4 stands in for it.
 """
 
 from functools import lru_cache
@@ -25,7 +25,7 @@ LEAST_SEPARATION = 0.02
 WIDEST = np.deg2rad(50.0)
 """Angle from zero lift within which f and m are used; see `rotor.aero.dynamic_stall`."""
 ATTACHED = np.deg2rad(2.0)
-"""Angle from zero lift from which secants of C_n are taken: C_nα is the largest up to stall, so that f = 1 is reached."""
+"""Angle from zero lift from which secants of C_n are taken: C_nα is the largest up to stall, so f = 1 is reached."""
 _CENTRE = 0.1
 """C_n below which the place where it acts passes over to the quarter chord. Our choice."""
 

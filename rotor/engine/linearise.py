@@ -16,6 +16,7 @@ blade for each pair of shapes, one around the azimuth, and two numbers for each 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -539,7 +540,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
 
 def _on_forces(psi: Array, first: Integers, around: Array) -> Array:
     """Weights on the forces of functions of azimuth by weights, (forces, elements, azimuths)."""
-    return np.array([psi[a:b].T @ around[a:b] for a, b in zip(first[:-1], first[1:], strict=True)])
+    return np.array([psi[a:b].T @ around[a:b] for a, b in pairwise(first.tolist())])
 
 
 def _stack(fields: Mapping[int, Array], shape: tuple[int, ...]) -> Array:

@@ -36,11 +36,7 @@ class Memory:
         return np.einsum("okei,kei->oei", self.left, out)
 
     def transposed(self, forces: Array) -> Array:
-        """From weights on the forces, (…, forces, elements, azimuths), to channels, (…, channels, elements, azimuths)."""
-        outputs = np.einsum("...oei,okei->...kei", forces, self.left, optimize=True)
-        k, l, e, n, _ = self.kernel.shape
-        # Element by element one product of matrices: (weights, outputs × azimuths) by (…, inputs × azimuths).
-        flat = np.moveaxis(outputs.reshape(-1, k, e, n), 2, 0).reshape(e, -1, k * n)
-        kernel = self.kernel.transpose(2, 0, 3, 1, 4).reshape(e, k * n, l * n)
-        inputs = np.moveaxis((flat @ kernel).reshape(e, -1, l, n), 0, 2).reshape(*outputs.shape[:-3], l, e, n)
-        return np.einsum("...lei,lcei->...cei", inputs, self.right, optimize=True)
+        """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
+        outputs = np.einsum("oei,okei->kei", forces, self.left)
+        inputs = np.einsum("kei,kleij->lej", outputs, self.kernel, optimize=True)
+        return np.einsum("lej,lcej->cej", inputs, self.right)

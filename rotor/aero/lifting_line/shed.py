@@ -1,8 +1,9 @@
 """What the lattice's shed vorticity lacks of a thin aerofoil's, where lift changes faster than its steps follow.
 
-With lift ρUΓ, Γ ~ exp(inψ), Theodorsen's function C(k) asks for the downwash (1/C − 1) Γ/2πb at the line, k = n b/r (NACA
-Report 496, 1935). Shed lines 15° apart behind a line without chord give 1 to 8 % less lift than C at k 0.05 to 0.2. The
-difference, in two dimensions and at the mean speed r, is the same for all azimuths: it adds to a panel's own block.
+With lift ρUΓ, Γ ~ exp(inψ), Theodorsen's function C(k) asks for the downwash (1/C − 1) Γ/2πb at the line, k = n b/r
+(NACA Report 496, 1935). Shed lines 15° apart behind a line without chord leave 1 to 8 % less lift than C at k 0.05 to
+0.2. The difference, in two dimensions and at the mean speed r, is the same for all azimuths: it adds to a panel's own
+block.
 Inboard, where the wake passes back over the blade, it fades out as the core of the young trailers does.
 """
 
@@ -35,7 +36,9 @@ def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> 
     core = np.where(core < 0.0, own_core(line, course)[panel], core)
     gain = -wake.shares[own] * (x / (2.0 * math.pi * np.sqrt(x**4 + core)))[:, None]
     step = 2.0 * math.pi / line.azimuths
-    return np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[own, 1:])).reshape(len(harmonic), -1) @ gain.ravel()
+    return (
+        np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[own, 1:])).reshape(len(harmonic), -1) @ gain.ravel()
+    )
 
 
 def shed_correction(line: Line, course: WakeCourse, half_chord: Array) -> Array:
