@@ -27,6 +27,7 @@ from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.section import FR, FX, FZ, TH, UP, UR, UT, M, of_double_angle
 from rotor.arrays import Array
 from rotor.compiled import compiled
+from rotor.engine.memory import Memory
 
 SLOPES = (SW, SV, KW, KV, B) = tuple(range(-5, 0))
 """Channels w', v', κ_w, κ_v and B: the last five."""
@@ -59,6 +60,13 @@ def _turn(c: Any, slope: int, out: Any) -> None:
             out[UT, i, j] = t + v * r
             out[UP, i, j] = p + w * r - w * v * t
             out[UR, i, j] = r - v * t - w * p
+
+
+def turned(c: Array, first: int) -> Array:
+    """The channels of a section, the first ones of all, in its own axes; those of its slopes begin at `first`."""
+    out = c[:first].copy()
+    _turn(c, first, out)
+    return out
 
 
 @_compile
@@ -176,9 +184,7 @@ class _BentSection:
     def __call__(self, c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
         """As `section.section`, with the rows of `pairs`."""
         first, forces = self._first, self._forces
-        turned = c[:first].copy()
-        _turn(c, first, turned)
-        f, d, s = self._inner.section(turned, data.section, slopes, flow)
+        f, d, s = self._inner.section(turned(c, first), data.section, slopes, flow)
         out, own = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
         _turn_back(c, first, f, forces, own, out)
         made = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
@@ -186,9 +192,28 @@ class _BentSection:
             _slopes_back(c, first, f, d, self._rows, self._made, own, made)
         return out, made, s
 
+    def memory(self, c: Array, data: BentData) -> Memory:
+        """That of the section within, its forces turned back and its channels turned."""
+        assert self._inner.memory is not None
+        first = self._first
+        own = self._inner.memory(turned(c, first), data.section)
+        t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
+        left = np.concatenate([own.left, np.zeros((5, *own.left.shape[1:]))])
+        z, x, along = own.left[FZ], own.left[FX], own.left[FR]
+        left[FX], left[FZ], left[FR] = x + w * v * z - v * along, z + w * along, along + v * x - w * z
+        right = np.concatenate([own.right, np.zeros((len(own.right), 5, *t.shape))], axis=1)
+        by_t, by_p, by_r = (own.right[:, channel] for channel in (UT, UP, UR))
+        right[:, UT] = by_t - w * v * by_p - v * by_r
+        right[:, UP] = by_p - w * by_r
+        right[:, UR] = v * by_t + w * by_p + by_r
+        right[:, first] = by_p * (r - v * t) - by_r * p
+        right[:, first + 1] = by_t * r - by_p * w * t - by_r * t
+        return Memory(left, own.kernel, right)
+
 
 @lru_cache(maxsize=8)
 def bent(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
     made = _BentSection(inner)
-    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced)
+    memory = None if inner.memory is None else made.memory
+    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced, memory)

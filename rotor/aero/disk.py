@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.bicubic import MACH_STEP, N_MACH, held_beyond_peak
+from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 
@@ -158,3 +159,18 @@ def build_disk(
         mach_limit=min(table.mach_limit for table in tables),
         fit_range=next((table.fit_range for table in tables if table.fit_range is not None), None),
     )
+
+
+@lru_cache(maxsize=16)
+def build_onset(rotor: Rotor, disk: Disk, only_mach: float | None = None) -> tuple[Array, Array]:
+    """`StallOnset.numbers` of every element, about the blade's reference line, and the tables of its sections.
+
+    (elements, 8, Mach nodes) and (sections, α cells, Mach cells, 2, 4, 4); only_mach as for `build_disk`.
+    """
+    names = tuple(dict.fromkeys(span.section for span in rotor.blade.spans))
+    tables = [rotor.blade.installed(name).table for name in names]
+    own = [stall_onset(table if only_mach is None else table.held_at(only_mach)) for table in tables]
+    numbers = np.stack([each.numbers for each in own])[disk.section]  # (elements, 2, 8, nodes)
+    numbers[:, :, ZERO] += disk.offset[:, :, None]
+    share = disk.weight[:, None, None]
+    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], np.stack([each.tables for each in own])

@@ -5,22 +5,26 @@ continued between the azimuths by their Fourier series and the section is evalua
 interpolated, and reverse flow, stall and drag rise begin where they would if the trim were solved there.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
-from rotor.aero.bent_section import bent
+from rotor.aero.bent_section import bent, turned
 from rotor.aero.disk import Disk
+from rotor.aero.dynamic_stall import SEPARATION, VORTEX
 from rotor.aero.elements import BentState, BladeElements, TwistState, over_azimuths
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
-from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, section, stall_angles
+from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, stall_angles
+from rotor.aero.stalling_section import StallingData, added_to, stalling
 from rotor.arrays import Array
 from rotor.engine.waves import wave_grid
 
 ENOUGH_ELEMENTS = 40
 """Elements whose cells are counted as they are: the border of a region cuts few of them."""
+STALLED = 0.7
+"""f″ below which a section is stalled: f of static stall by Leishman and Beddoes (J. AHS 34(3), 1989)."""
 AREA_RADII = 80
 """Even radii at which regions are counted where there are fewer elements."""
 
@@ -87,23 +91,51 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
 
 def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
     """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
+    own = PLAIN if problem.stall is None else stalling(PLAIN)
     if e.bent is None:
-        f, _, s = section(flow, problem.section_data(), False, True)
+        f, _, s = own.section(flow, problem.grid_data(1), False, True)
         return f, s, None
     bends = BentState(e.bent.channels @ matrix, e.bent.offset @ matrix, e.bent.lift @ matrix)
-    f, _, s = bent(PLAIN).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
+    f, _, s = bent(own).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
     return f, s, bends
 
 
-def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
+@dataclass(frozen=True, eq=False)
+class Unsteady:
+    """What dynamic stall does at the blade elements, (elements, azimuths) each."""
+
+    separation: Array
+    """f″: where the flow leaves the upper surface, over the chord; 1 attached, 0 separated from the leading edge."""
+    vortex: Array
+    """C_nᵛ, the normal force of the vortex that leaves a stalled leading edge."""
+    moment: Array
+    """What is added to C_m."""
+
+
+def unsteady_part(problem: Problem, elements: BladeElements) -> Unsteady | None:
+    """Of the elements of a problem; None where sections are steady."""
+    if problem.stall is None:
+        return None
+    e = elements
+    c = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate))
+    c = c if e.bent is None else turned(np.concatenate([c, e.bent.channels]), len(c))
+    added, states = added_to(c, StallingData(problem.section_data(), problem.stall))
+    return Unsteady(states[SEPARATION], states[VORTEX], added[2])
+
+
+def areas(
+    disk: Disk, elements: BladeElements, stall_margin: Array, unsteady: Unsteady | None = None
+) -> tuple[float, float, float]:  # fmt: skip
     """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
+    Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
     angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
     """
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
-        stalled, cells, lift = (stall_margin < 0.0) & ~reverse, disk.cells, disk.dr[:, None] * elements.fz
+        beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
+        stalled, cells, lift = beyond & ~reverse, disk.cells, disk.dr[:, None] * elements.fz
     else:
         limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
@@ -113,7 +145,8 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
         alpha = np.empty_like(theta)
         angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
         reverse, cells = u_t < 0.0, cells / len(disk.psi)
-        stalled = ((alpha > high) | (alpha < low)) & ~reverse
+        beyond = (alpha > high) | (alpha < low) if unsteady is None else matrix @ unsteady.separation < STALLED
+        stalled = beyond & ~reverse
     thrust = float(lift.sum())
     reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
     return reversed_area, area, float(lift[stalled].sum()) / thrust if thrust else 0.0

@@ -10,13 +10,15 @@ import numpy as np
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
 from rotor.aero.bending import MODES, BladeBending, build_bending, can_bend
 from rotor.aero.bent_section import BentData, bent
-from rotor.aero.disk import Disk, azimuths_of, build_disk
+from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
+from rotor.aero.dynamic_stall import StallData
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, SectionInterface
 from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.section import NO_MOMENT, SectionData
+from rotor.aero.section import NO_MOMENT, NOTHING_ADDED, SectionData
+from rotor.aero.stalling_section import StallingData, stalling
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
 from rotor.design.design import Design
@@ -63,6 +65,8 @@ class Problem:
     """The blade in torsion; None for a rigid blade."""
     bending: BladeBending | None
     """The blade in flap and lag; None for one that flaps as a rigid blade."""
+    stall: StallData | None
+    """For dynamic stall; None for steady sections."""
     wave_rates: tuple[Array, Array]
     """First and second derivative of `waves` by ψ, shaped alike."""
     given_torsion: Array
@@ -84,17 +88,19 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        return self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+        own = self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+        return own if self.stall is None else own.unsteady(self.stall.half_chord)
 
     @cached_property
     def interface(self) -> SectionInterface:
-        """The section of the inflow model, on a blade that bends or does not."""
-        own = self.inflow_terms.interface
+        """The section of the inflow model, with dynamic stall or without, on a blade that bends or does not."""
+        own = self.inflow_terms.interface if self.stall is None else stalling(self.inflow_terms.interface)
         return own if self.bending is None else bent(own)
 
-    def grid_data(self, step: int) -> SectionData | BentData:
+    def grid_data(self, step: int) -> SectionData | StallingData | BentData:
         """What `interface` needs beside the channels, on every `step`-th azimuth."""
         own, bending = self.section_data(step), self.bending
+        own = own if self.stall is None else StallingData(own, self.stall)
         return own if bending is None else BentData(own, bending.coupling, bending.reference, bending.share)
 
     def section_data(self, step: int = 1) -> SectionData:
@@ -106,6 +112,7 @@ class Problem:
             self.friction,
             not self.inflow.load_dependent and not self.design.hovering,
             _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
+            NOTHING_ADDED,
             *(NO_MOMENT if torsion is None else torsion.moment_data),
         )
 
@@ -164,9 +171,20 @@ def build_problem(design: Design) -> Problem:
         unloaded=_unloaded(design, disk),
         torsion=torsion,
         bending=bending,
+        stall=_stall_data(design, disk, inflow),
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
+
+
+def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | None:
+    """What dynamic stall needs, where the models have it."""
+    rotor, models = design.rotor, design.models
+    if not models.dynamic_stall or design.hovering or not inflow.pointwise:
+        return None
+    own = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
+    chord = rotor.blade.chord(disk.r) / rotor.radius
+    return StallData(*own, disk.section, disk.weight, 0.5 * chord, design.tip_mach, inflow.fine_tip)
 
 
 def grid_of(design: Design) -> tuple[int, int]:

@@ -66,6 +66,8 @@ class SectionData(NamedTuple):
     """Whether F differs from 1."""
     unloaded: Booleans
     """Elements on which the air exerts no force, (elements, azimuths), or (0, 0)."""
+    added: Array
+    """What unsteady flow adds to C_l, C_d and C_m, (3, elements, azimuths), or without elements."""
     moment_gain: Array
     """½σ c/R; this and the rest are empty for a blade that is rigid in torsion, which has no moment."""
     damping: Array
@@ -78,6 +80,8 @@ class SectionData(NamedTuple):
     """j"""
 
 
+NOTHING_ADDED = np.zeros((3, 0, 0))
+"""`SectionData.added` in steady flow."""
 NO_MOMENT = *(np.zeros(0),) * 3, np.zeros((0,) * 6), np.zeros(0)
 """The last five of `SectionData` for a rigid blade."""
 
@@ -109,6 +113,10 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         angles_of_attack(c[TH, i], t, p, alpha)
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
         _coefficients(data, i, alpha, mach, slopes or flow, cells, places, found)
+        if data.added.shape[1] > 0:
+            for k in range(3):
+                for j in range(m):
+                    found[3 * k, j] += data.added[k, i, j]
         lift = found[0]
         if data.lossy:
             lift = w[_LIFT]

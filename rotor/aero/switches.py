@@ -116,10 +116,14 @@ def with_switches(design: Design, off: Collection[str]) -> Design:
     return replace(design, models=replace(design.models, **{name: name not in off for name in SWITCHES}))
 
 
+OPTIONS = ("bending", "dynamic_stall")
+"""Effects that are off unless they are asked for, by field name: for a design file that has them."""
+
+
 def parse_switches(text: str) -> tuple[str, ...]:
     """Field names from `tip-loss,reverse-flow`; ValueError for a name that is not known."""
     names = tuple(part.strip() for part in text.split(",") if part.strip())
-    flags = {switch.flag: switch.name for switch in _SWITCHES}
+    flags = {switch.flag: switch.name for switch in _SWITCHES} | {name.replace("_", "-"): name for name in OPTIONS}
     for name in names:
         if name.replace("_", "-") not in flags:
             hint = did_you_mean(name, flags) or ":"

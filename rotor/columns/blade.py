@@ -37,6 +37,13 @@ def add_rigid_blade(s: Structure, *, bends: bool = False) -> None:
             s.column(UP, "arm", rate, factor, z[name])
 
 
+def add_pitch_rates(s: Structure) -> None:
+    """θ' of the cyclic."""
+    for name, wave in CYCLIC:
+        if name in s.states:
+            s.column(RATE, "one", *rate_of(wave), s.states[name])
+
+
 class Freedom(Protocol):
     """Degrees of freedom of the blade beside rigid flapping: torsion here, and whatever is added to it."""
 
@@ -95,9 +102,7 @@ class Torsion:
     def build(self, s: Structure) -> list[int]:
         """Columns of the elastic twist and of all rates of pitch, equations of torsion."""
         z, free = s.states, list[int]()
-        for name, wave in CYCLIC:
-            if name in z:
-                s.column(RATE, "one", *rate_of(wave), z[name])
+        add_pitch_rates(s)
         for k in range(self.modes):
             for h in range(self.functions):
                 own = z["twist", k, h]

@@ -39,7 +39,7 @@ from rotor.aero.section import (
 )  # fmt: skip
 from rotor.arrays import Array
 from rotor.columns.bending import bends, coordinates_of, freedoms_of, torque_terms
-from rotor.columns.blade import Freedom, add_rigid_blade
+from rotor.columns.blade import Freedom, Torsion, add_pitch_rates, add_rigid_blade
 from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
@@ -72,6 +72,8 @@ class _StructureKey:
     blade: tuple[Hashable, ...]
     """The keys of `freedoms`."""
     inflow: Hashable
+    follows_rate: bool
+    """Whether forces follow the rate of pitch."""
     numbers: tuple[Hashable, ...] = field(compare=False)
     freedoms: tuple[Freedom, ...] = field(compare=False)
     terms: InflowTerms = field(compare=False)
@@ -82,7 +84,7 @@ class _StructureKey:
 def _structure(key: _StructureKey) -> Structure:
     """Atoms, columns and equations of a flight; see the head of this file."""
     terms = key.terms
-    interface, name = key.interface, (key.trim, key.blade, key.inflow)
+    interface, name = key.interface, (key.trim, key.blade, key.inflow, key.follows_rate)
     s = Structure(interface.pairs, interface.channels, interface.forces, name)
     for number in key.numbers:
         s.number(number)
@@ -93,6 +95,8 @@ def _structure(key: _StructureKey) -> Structure:
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
     made = {name: s.quantity(name) for name in _MADE}
     add_rigid_blade(s, bends=bends(s))
+    if key.follows_rate and not any(isinstance(own, Torsion) for own in key.freedoms):
+        add_pitch_rates(s)
     s.column(UT, "one", SIN, 1.0, made["mu_x"])
     s.column(UR, "one", COS, 1.0, made["mu_x"])
     s.column(UP, "one", STEADY, 1.0, made["mu_z"])
@@ -152,7 +156,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     values: dict[Hashable, float] = {**trim_numbers(problem)}
     for freedom in freedoms:
         values |= freedom.numbers(problem)
-    key = trim_of(problem.design), tuple(freedom.key for freedom in freedoms), terms.key
+    key = trim_of(problem.design), tuple(freedom.key for freedom in freedoms), terms.key, problem.stall is not None
     structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms, problem.interface))
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
@@ -168,6 +172,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
         grid=grid,
         thin=grid if step == 1 else _grid(problem, structure, step),
         section=problem.interface.section,
+        memory=problem.interface.memory,
         make=_Flow(problem, structure, terms),
         numbers=np.array([1.0, *values.values()]),
         tolerance=tolerance,

@@ -113,6 +113,9 @@ class Models:
     """Whether the blade twists under its loads. Off: rigid in torsion."""
     bending: bool = False
     """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
+    dynamic_stall: bool = False
+    """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall.
+    Off: section data of steady flow."""
     low_speed: LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
@@ -270,6 +273,7 @@ class Design:
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
             **{name: getattr(self.models, name) for name in switches},
             **({"bending": True} if self.models.bending else {}),
+            **({"dynamic_stall": True} if self.models.dynamic_stall else {}),
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),

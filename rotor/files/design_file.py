@@ -39,6 +39,7 @@ _KEYS = (
     "low_speed",
     *SWITCHES,
     "bending",
+    "dynamic_stall",
     "elements",
     "azimuths",
     "airfoils",
@@ -116,6 +117,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         inflow=inflow,
         hover_inflow=hover_inflow,
         bending=_flag(record, "bending", design.models.bending),
+        dynamic_stall=_flag(record, "dynamic_stall", design.models.dynamic_stall),
         **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
     )
     if "active_twist" in record:

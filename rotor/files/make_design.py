@@ -69,6 +69,7 @@ def make_design(
     airfoils: str | None = None,
     off: str | None = None,
     bending: bool = False,
+    dynamic_stall: bool = False,
     elements: int | None = None,
     azimuths: int | None = None,
     models: Models | None = None,
@@ -99,6 +100,8 @@ def make_design(
     airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
     off: physical effects switched off, separated by commas.
     bending: blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads.
+    dynamic_stall: sections that stall with the lags and the vortex of Leishman and Beddoes; --off dynamic-stall takes
+        away that of a design file.
     elements: blade elements (default 40, or 24 panels of a lifting line).
     azimuths: stations around the disk (default 120, or 24 of a lifting line).
     models: all model choices at once.
@@ -140,7 +143,18 @@ def make_design(
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
         models=with_grid(
-            _changed(replace(models, bending=models.bending or bending), inflow, low_speed, off), elements, azimuths
+            _changed(
+                replace(
+                    models,
+                    bending=models.bending or bending,
+                    dynamic_stall=models.dynamic_stall or dynamic_stall,
+                ),
+                inflow,
+                low_speed,
+                off,
+            ),
+            elements,
+            azimuths,
         ),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),

@@ -161,7 +161,9 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = war
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = preset_models(preset)
-    changed: dict[str, Any] = {name: values[name] for name in ("inflow", "bending", *SWITCHES) if name in values}
+    changed: dict[str, Any] = {
+        name: values[name] for name in ("inflow", "bending", "dynamic_stall", *SWITCHES) if name in values
+    }
     if "inflow" in changed:
         changed["inflow"] = current_model("inflow", str(changed["inflow"]), tell)
         inflow_model(changed["inflow"])

@@ -59,6 +59,7 @@ def _all() -> dict[str, Quantity]:
         Quantity("inflow", "text", "", "models"),
         *(Quantity(name, "flag", "", "models") for name in SWITCHES),
         Quantity("bending", "flag", "", "models"),
+        Quantity("dynamic_stall", "flag", "", "models"),
         Quantity("elements", "number", "", "models", whole=True),
         Quantity("azimuths", "number", "", "models", whole=True),
     ]

@@ -92,6 +92,8 @@ def _moments(design: Design, flow: DiskFields) -> Array:
         for name, weight in zip(names, (1.0 - share, share), strict=True):
             if weight > 0.0:
                 found[i] += weight * _moment(design, name, flow.alpha[i], flow.mach[i])
+    if flow.unsteady is not None:
+        found += flow.unsteady.moment
     if problem.unloaded is not None:
         found[problem.unloaded & np.isfinite(found)] = 0.0
     return found

@@ -53,8 +53,8 @@ def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> Tr
 
 
 def linear_problem(design: Design) -> Problem:
-    """The design with a linear inflow."""
-    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR)))
+    """The design with a linear inflow and steady sections."""
+    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR, dynamic_stall=False)))
 
 
 def _linear_guess(problem: Problem) -> Guess | None:

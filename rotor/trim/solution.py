@@ -17,6 +17,7 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
+from rotor.aero.display import Unsteady
 from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
@@ -84,6 +85,8 @@ class DiskFields:
     """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
+    unsteady: Unsteady | None = None
+    """What dynamic stall does; None with steady sections."""
 
     @property
     def edges(self) -> Array:
@@ -236,7 +239,8 @@ class Solution:
     reverse_flow_area: float
     """Part of the disk πR² with U_T < 0 on the blade (0…1)."""
     stalled_area: float
-    """Part of the disk πR² beyond the stall angle, reverse flow not counted (0…1)."""
+    """Part of the disk πR² beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the
+    chord; reverse flow not counted (0…1)."""
     stalled_thrust: float
     """Part of the thrust that stalled sections carry; negative where they press down."""
     residual: float

@@ -4,7 +4,7 @@ import math
 import time
 from dataclasses import replace
 
-from rotor.aero.display import areas, as_asked
+from rotor.aero.display import areas, as_asked, unsteady_part
 from rotor.aero.elements import BladeElements, disk_sums
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -91,7 +91,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
+    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin, fields.unsteady)
     converged = result.converged
     message = "Trimmed."
     if not converged:
@@ -177,6 +177,7 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         dct=e.fz,
         dcq=e.fx,
         elastic_twist=e.torsion.twist if e.torsion is not None else None,
+        unsteady=unsteady_part(problem, e),
     )
 
 
@@ -186,4 +187,5 @@ def _stalled(result: HoverResult | TrimResult, last: float) -> float:
     if near is None:
         return last
     problem, elements = as_asked(near.problem, near.linear.elements)
-    return areas(problem.disk, elements, _fields(problem, elements).stall_margin)[1]
+    fields = _fields(problem, elements)
+    return areas(problem.disk, elements, fields.stall_margin, fields.unsteady)[1]

@@ -165,7 +165,12 @@ def caveats(
     if stalled > STALL_SHARE:
         add(
             "stall",
-            f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.",
+            f"{100.0 * stalled:.1f} % of the disk is stalled; "
+            + (
+                "section data are steady, without dynamic stall."
+                if fields.unsteady is None
+                else "the lags of dynamic stall are those of a NACA 0012."
+            ),
         )
     top_mach = float(fields.mach.max())
     if disk.fit_range is not None:
@@ -199,7 +204,7 @@ def _pitch_waves(design: Design, power: PowerBudget, elastic: ElasticTwist | Non
     found: list[Caveat] = []
     highest = max((one.per_rev for wave in design.pitch_waves for one in wave.harmonics), default=0)
     frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)
-    if frequency > FAST_PITCH:
+    if frequency > FAST_PITCH and not design.models.dynamic_stall:
         found.append(
             Caveat(
                 "fast-pitch",

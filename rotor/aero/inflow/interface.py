@@ -9,7 +9,7 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared.
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
+from rotor.engine.memory import Memory
 from rotor.engine.terms import Shape, Structure
 
 
@@ -62,6 +63,8 @@ class SectionInterface:
     forces: int
     balanced: int | None = None
     """The force in whose place it returns the inflow that it balances by itself; None without."""
+    memory: Callable[[Array, Any], Memory] | None = None
+    """How its forces follow the channels at other azimuths; None where they do not."""
 
 
 PLAIN = SectionInterface(section, PAIRS, len(CHANNELS), len(FORCES))
@@ -74,6 +77,10 @@ class InflowTerms(Protocol):
     @property
     def key(self) -> Hashable:
         """The same for the same structure."""
+        ...
+
+    def unsteady(self, half_chord: Array) -> "InflowTerms":
+        """The same under sections that are unsteady; half_chord: over R, (elements,)."""
         ...
 
     @property
@@ -127,6 +134,11 @@ class InflowTerms(Protocol):
 class WithoutNodes:
     """The part of `InflowTerms` that is the same for all models without unknowns of their own."""
 
+    def unsteady(self, half_chord: Array) -> Self:
+        """Itself: nothing is shed, lift follows in the section."""
+        del half_chord
+        return self
+
     def start(self) -> Array:
         """No nodes."""
         return np.zeros(0)
@@ -140,6 +152,7 @@ class GridAsAsked:
     """The part of `InflowModel` that is the same for all models that are solved on the grid asked for."""
 
     fine_tip = False
+    pointwise = True
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """That of the models, of equally wide elements."""
@@ -177,6 +190,11 @@ class InflowModel(Protocol):
     @property
     def fine_tip(self) -> bool:
         """Whether the elements are panels of a lifting line, which are finer towards the tip; else equally wide."""
+        ...
+
+    @property
+    def pointwise(self) -> bool:
+        """Whether its section is that of `section`, not one that balances itself at each azimuth."""
         ...
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:

@@ -21,7 +21,8 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence
-from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, PAIRS, UP, UT, SectionData, section
+from rotor.aero.lifting_line.shed import shed_correction
+from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.design.design import Models
@@ -56,7 +57,8 @@ _RIGID = dict(zip(SectionData._fields[-len(NO_MOMENT) :], NO_MOMENT, strict=True
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
-    held, by_held, _ = section(c, data._replace(tables=data.held, friction=0.0, **_RIGID), slopes, False)
+    still = data._replace(tables=data.held, friction=0.0, added=NOTHING_ADDED, **_RIGID)
+    held, by_held, _ = section(c, still, slopes, False)
     gain, by_speed = np.empty_like(c[UT]), np.empty_like(c[UT])
     circulation_gain(c[UT], gain, by_speed)
     f = np.concatenate([f, (gain * held[FZ])[None]])
@@ -85,6 +87,7 @@ class LiftingLineInflow:
     )
     load_dependent = True
     fine_tip = True
+    pointwise = True
 
     def without_tip_loss(self) -> "LiftingLineInflow":
         """Itself: the tip loss of a lifting line is that of its finite blades."""
@@ -101,9 +104,17 @@ class LiftingLineInflow:
 
 
 @lru_cache(maxsize=32)
-def _matrix(line: Line, course: WakeCourse) -> NDArray[np.float32]:
-    """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists."""
-    return (influence(line, course) * (math.pi / line.blades)).astype(np.float32)
+def _matrix(line: Line, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
+    """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
+
+    half_chord: of unsteady sections over R, (panels,), or empty.
+    """
+    made = influence(line, course)
+    if half_chord:
+        blocks = made.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
+        panel = np.arange(line.panels)
+        blocks[panel, :, panel] += shed_correction(line, course, np.array(half_chord))
+    return (made * (math.pi / line.blades)).astype(np.float32)
 
 
 class LiftingLineTerms:
@@ -113,10 +124,15 @@ class LiftingLineTerms:
     live: Sequence[tuple[int, Shape]] = ()
     interface = _LINE
 
-    def __init__(self, line: Line, course: WakeCourse) -> None:
-        self.line, self.course = line, course
+    def __init__(self, line: Line, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
+        """half_chord: of unsteady sections over R, (panels,), or empty."""
+        self.line, self.course, self._half_chord = line, course, half_chord
         self.key: Hashable = "lifting line", line.panels, line.azimuths
         self.least_azimuths = line.azimuths
+
+    def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
+        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line.shed`."""
+        return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
 
     def build(self, structure: Structure) -> None:
         """Nothing: what is solved for are nodes."""
@@ -132,7 +148,7 @@ class LiftingLineTerms:
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course), tolerance, 2.4 * thrust)
+        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course, self._half_chord), tolerance, 2.4 * thrust)
 
     def start(self) -> Array:
         """An elliptical circulation that carries the thrust to which the course belongs."""

@@ -149,6 +149,7 @@ class LocalMomentumInflow(GridAsAsked):
     )
     tip: bool = True
 
+    pointwise = False
     load_dependent = True
 
     def without_tip_loss(self) -> "LocalMomentumInflow":

@@ -129,6 +129,11 @@ def _groups(panels: int) -> Integers:
     return np.unique(np.r_[0, np.arange(panels, 0, -GROUP)])
 
 
+def strip_of(line: Line, panel: int) -> int:
+    """The strip of the far wake that a panel belongs to."""
+    return int(np.searchsorted(_groups(line.panels), panel, side="right") - 1)
+
+
 def _strip_weights(line: Line) -> Array:
     """By which circulations of panels become those of strips: weighted with r Δr, for the same impulse."""
     edges = _groups(line.panels)
@@ -235,7 +240,7 @@ def influence(line: Line, course: WakeCourse) -> Array:
     Downwash over ΩR along the blade's normal, by circulation over ΩR².
     """
     n, m, blades = line.panels, line.azimuths, line.blades
-    wake, own = build_wake(line, course, line.psi), _own_core(line, course)
+    wake, own = build_wake(line, course, line.psi), own_core(line, course)
     out = np.empty((n, m, n, m))
     for position in range(m // blades):
         at = position + m // blades * np.arange(blades)
@@ -251,7 +256,7 @@ def mean_influence(line: Line, course: WakeCourse) -> Array:
     at = line.azimuths // line.blades * np.arange(line.blades)
     wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
     order = np.arange(line.blades)
-    return _seen(line, wake, targets, at, order, order[:1], _own_core(line, course)).sum(axis=1).T
+    return _seen(line, wake, targets, at, order, order[:1], own_core(line, course)).sum(axis=1).T
 
 
 def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
@@ -297,7 +302,7 @@ def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
     return np.array(along, dtype=np.float32).reshape(6, -1)
 
 
-def _own_core(line: Line, course: WakeCourse) -> Array:
+def own_core(line: Line, course: WakeCourse) -> Array:
     """c⁴ of a blade's own young trailers at its control points, (panels,)."""
     y = np.clip((line.r - course.mu_x - BARE[0]) / (BARE[1] - BARE[0]), 0.0, 1.0)
     return (OWN_CORE * (1.0 - y * y * (3.0 - 2.0 * y))) ** 4

@@ -1,0 +1,154 @@
+"""The section with dynamic stall: static forces, what `dynamic_stall` adds, and how both follow the channels.
+
+What is added to C_n and C_c is turned by the angle from zero lift x into lift and drag,
+
+    ΔC_l = ΔC_n cos x + ΔC_c sin x,    ΔC_d = ΔC_n sin x − ΔC_c cos x
+
+The circulation of a lifting line stays that of the static section: its wake sheds as before.
+"""
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rotor.aero.dynamic_stall import ADDED, INPUTS, SLOWEST, STATES, StallData, follow, window
+from rotor.aero.inflow.interface import SectionInterface
+from rotor.aero.look_up import wrapped
+from rotor.aero.section import FX, FZ, LOSS, RATE, TH, UP, UR, UT, M, SectionData, angles_of_attack
+from rotor.airfoil.stall_onset import ZERO
+from rotor.arrays import Array
+from rotor.compiled import compiled
+from rotor.engine.memory import Memory
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+class StallingData(NamedTuple):
+    """Data of a section with dynamic stall."""
+
+    section: SectionData
+    stall: StallData
+
+
+@_compile
+def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, zero: Any, right: Any) -> None:
+    """x, M and q of one row, the angle from zero lift y; with slopes of α, M and q by the channels in `right`."""
+    cos, sin, tip, b = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach, stall.half_chord[i]
+    numbers = stall.numbers[i]
+    last = numbers.shape[1] - 1
+    angles_of_attack(c[TH, i], c[UT, i], c[UP, i], y)
+    for j in range(len(y)):
+        t, p, r = c[UT, i, j], c[UP, i, j], c[UR, i, j]
+        normal = t * cos - r * sin
+        v = np.sqrt(normal * normal + p * p + 1e-30)
+        place = min(v * tip * last, last - 1e-9)
+        cell = int(place)
+        rise = numbers[ZERO, cell + 1] - numbers[ZERO, cell]
+        y[j] = wrapped(y[j] - numbers[ZERO, cell] - rise * (place - cell))
+        zero[j] = rise * last if v * tip < 1.0 else 0.0
+        share, _ = window(y[j])
+        below = v * v + SLOWEST * SLOWEST
+        inputs[0, j], inputs[1, j] = y[j] * share, v * tip
+        inputs[2, j] = b * c[RATE, i, j] * v / below
+        if right.shape[2] > 0:
+            square = t * t + p * p + 1e-30
+            right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
+            by_v = (tip, b * c[RATE, i, j] * (below - 2.0 * v * v) / (below * below))
+            for k in range(2):
+                right[1 + k, UT, i, j] = by_v[k] * normal * cos / v
+                right[1 + k, UP, i, j] = by_v[k] * p / v
+                right[1 + k, UR, i, j] = -by_v[k] * normal * sin / v
+            right[2, RATE, i, j] = b * v / below
+
+
+@_compile
+def _added(c: Any, data: Any, slopes: bool) -> Any:
+    """ΔC_l, ΔC_d and ΔC_m, `STATES`, and with slopes the kernel and the right factor of the memory."""
+    section, stall = data
+    n, m = c.shape[1:]
+    out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
+    own = n if slopes else 0
+    kernel, right = np.zeros((3, 3, own, m, m)), np.zeros((3, c.shape[0], own, m))
+    inputs, y, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty(m)
+    added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 3 * m if slopes else 0)), np.empty((len(STATES), m))
+    turned = np.empty((3, 3 * m if slopes else 0))
+    for i in range(n):
+        _inputs(c, i, section, stall, inputs, y, zero, right)
+        follow(i, inputs[0], inputs[1], inputs[2], stall, slopes, added, by, shown)
+        for j in range(m):
+            x = inputs[0, j]
+            share, falls = window(y[j])
+            cos, sin = np.cos(x), np.sin(x)
+            lift = added[0, j] * cos + added[1, j] * sin
+            drag = added[0, j] * sin - added[1, j] * cos
+            out[0, i, j], out[1, i, j], out[2, i, j] = share * lift, share * drag, share * added[2, j]
+            for k in range(len(STATES)):
+                states[k, i, j] = shown[k, j] * share
+            states[0, i, j] += 1.0 - share
+            if slopes:
+                for k in range(3 * m):
+                    turned[0, k] = share * (by[0, j, k] * cos + by[1, j, k] * sin)
+                    turned[1, k] = share * (by[0, j, k] * sin - by[1, j, k] * cos)
+                    turned[2, k] = share * by[2, j, k]
+                turned[0, j] -= share * drag
+                turned[1, j] += share * lift
+                values = (lift, drag, added[2, j])
+                for o in range(3):
+                    for k in range(m):
+                        # By y through x = y w(y), by M through the zero-lift angle.
+                        inside, fall = window(y[k])
+                        by_y = turned[o, k] * (inside + y[k] * fall)
+                        if k == j:
+                            by_y += falls * values[o]
+                        kernel[o, 0, i, j, k] = by_y
+                        kernel[o, 1, i, j, k] = turned[o, m + k] - by_y * zero[k]
+                        kernel[o, 2, i, j, k] = turned[o, 2 * m + k]
+    return out, states, kernel, right
+
+
+def added_to(c: Array, data: StallingData) -> tuple[Array, Array]:
+    """ΔC_l, ΔC_d, ΔC_m, (3, elements, azimuths), and `dynamic_stall.STATES`, (4, elements, azimuths)."""
+    out, states, _, _ = _added(c, data, False)
+    return out, states
+
+
+def _memory(c: Array, data: StallingData, forces: int) -> Memory:
+    """How forces follow what is added, with the inputs around the azimuth."""
+    section = data.section
+    _, _, kernel, right = _added(c, data, True)
+    t, p = c[UT], c[UP]
+    u = np.hypot(t, p)
+    k = section.half_solidity[:, None] * u
+    lift = c[LOSS] if section.lossy else 1.0
+    left = np.zeros((forces, 3, *c.shape[1:]))
+    left[FZ, 0], left[FZ, 1] = k * lift * t, -k * p
+    left[FX, 0], left[FX, 1] = k * lift * p, k * t
+    if len(section.moment_gain):
+        left[M] = -section.lag[:, None] * left[FZ]
+        left[M, 2] += section.moment_gain[:, None] * u * u
+    if len(section.unloaded):
+        left *= ~section.unloaded
+    return Memory(left, kernel, right)
+
+
+class _StallingSection:
+    """The section of an inflow model with dynamic stall."""
+
+    def __init__(self, inner: SectionInterface) -> None:
+        self._inner = inner
+
+    def __call__(self, c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+        """As `section.section`: partial derivatives are those at what is added."""
+        return self._inner.section(c, data.section._replace(added=added_to(c, data)[0]), slopes, flow)
+
+    def memory(self, c: Array, data: StallingData) -> Memory:
+        """See `SectionInterface`."""
+        return _memory(c, data, self._inner.forces)
+
+
+@lru_cache(maxsize=8)
+def stalling(inner: SectionInterface) -> SectionInterface:
+    """The interface of a section with dynamic stall."""
+    own = _StallingSection(inner)
+    return SectionInterface(own, inner.pairs, inner.channels, inner.forces, None, own.memory)

@@ -1,0 +1,87 @@
+"""What dynamic stall needs of a section beside its coefficients, over the Mach number: from its own static data.
+
+In Kirchhoff's flow past a flat plate, separated behind x = f c (Thwaites, Incompressible Aerodynamics, 1960),
+
+    C_n = C_nα (α − α0) K(f),    K = ¼ (1 + √f)²
+
+so the static data give f at every angle, and how far behind the quarter chord the normal force acts gives
+m = (C_m − C_m0)/C_n. Lags are those of Leishman and Beddoes (J. AHS 34(3), 1989) for a NACA 0012, in semi-chords of
+travel, as the program DSmodel (L. Pancini, github.com/luizpancini/DSmodel, commit f1b38dd) lists them. Its author has
+adapted the travel of the vortex up to Mach 0.3; that of Mach 0.4 stands in for it.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from rotor.airfoil.bicubic import N_MACH, bicubic_coefficients, mach_nodes
+from rotor.airfoil.c81 import C81Block
+from rotor.airfoil.section_table import SectionTable
+from rotor.arrays import Array
+
+LEAST_SEPARATION = 0.02
+"""f where the flow is separated from the leading edge on: its root has no slope at 0 (Leishman and Beddoes)."""
+WIDEST = np.deg2rad(50.0)
+"""Angle from zero lift within which f and m are used; see `rotor.aero.dynamic_stall`."""
+ATTACHED = np.deg2rad(2.0)
+"""Angle from zero lift from which secants of C_n are taken: C_nα is the largest up to stall, so f = 1 is reached."""
+_CENTRE = 0.1
+"""C_n below which the place where it acts passes over to the quarter chord. Our choice."""
+
+ONSET = (SLOPE, POSITIVE, NEGATIVE, ZERO, LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, TRAVEL) = tuple(range(8))
+"""Rows of `StallOnset.numbers`."""
+
+_LAG_MACH = (0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8)
+_LAGS = {
+    LAG_PRESSURE: (1.7, 1.8, 2.0, 2.5, 3.0, 3.3, 4.3),
+    LAG_SEPARATION: (3.0, 2.5, 2.2, 2.0, 2.0, 2.0, 2.0),
+    LAG_VORTEX: (6.0, 6.0, 6.0, 6.0, 6.0, 6.0, 4.0),
+    TRAVEL: (9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0),
+}
+
+
+class StallOnset(NamedTuple):
+    """Of one section."""
+
+    numbers: Array
+    """At the Mach nodes, (8, nodes): C_nα [1/rad]; angles from zero lift [rad] at which attached flow has the normal
+    force of static stall, positive and negative (a negative number); zero-lift angle [rad]; T_p, T_f, T_v, T_vl."""
+    tables: Array
+    """f and m by the angle from zero lift and the Mach number, (α cells, Mach cells, 2, 4, 4)."""
+
+
+@lru_cache(maxsize=32)
+def stall_onset(table: SectionTable) -> StallOnset:
+    """From a section's static data."""
+    mach = mach_nodes()
+    zero = table.zero_lift_alpha(mach)
+    angles = np.arange(-180.0, 180.1, 0.5)
+    x = np.deg2rad(angles)[:, None]
+    f, m = np.ones((len(x), len(mach))), np.zeros((len(x), len(mach)))
+    force, moment = _normal_force(table, zero + x, mach), table.moment(zero + x, mach)
+    inside = (np.abs(x) <= WIDEST) & (np.abs(x) >= np.deg2rad(1.0)) & (mach >= 0.0)
+    secant = np.divide(force, x, out=np.zeros_like(force), where=inside)
+    negative, positive = table.stall_alpha(mach)
+    attached = (np.abs(x) >= ATTACHED) & (x <= positive - zero) & (x >= negative - zero)
+    slope = np.where(attached, secant, 0.0).max(axis=0)
+    slope = np.where(slope > 0.0, slope, table.lift_slope(mach))  # Where stall begins at once.
+    ratio = np.divide(force, slope * x, out=np.ones_like(force), where=inside)
+    f[inside] = np.clip((2.0 * np.sqrt(np.maximum(ratio, 0.25)) - 1.0) ** 2, LEAST_SEPARATION, 1.0)[inside]
+    if moment is not None:
+        of_lift = moment - moment[len(x) // 2]
+        m = np.where(np.abs(x) <= WIDEST, of_lift * force / (force * force + _CENTRE**2), 0.0)
+    numbers = np.empty((len(ONSET), N_MACH + 1))
+    numbers[SLOPE], numbers[ZERO] = slope, zero
+    numbers[POSITIVE] = _normal_force(table, positive, mach) / slope
+    numbers[NEGATIVE] = _normal_force(table, negative, mach) / slope
+    for row, lags in _LAGS.items():
+        numbers[row] = np.interp(mach, _LAG_MACH, lags)
+    blocks = (bicubic_coefficients(C81Block(mach, angles, values)) for values in (f, m))
+    return StallOnset(numbers, np.ascontiguousarray(np.stack(list(blocks), axis=2)))
+
+
+def _normal_force(table: SectionTable, alpha: Array, mach: Array) -> Array:
+    """C_n of the static data."""
+    own = table(alpha, mach)
+    return own.cl * np.cos(alpha) + own.cd * np.sin(alpha)

@@ -1,0 +1,89 @@
+"""Trims with dynamic stall: exact derivatives, gradients, convergence, and nothing where it is off."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotor import load_design, make_design, solve
+from rotor.design.design import Design
+from rotor.engine.linearise import evaluate, jacobian, transposed
+from rotor.trim.adjoint import Adjoint, power_gradient
+from rotor.trim.distribution import distribution
+
+HEAVY = {"mu": 0.35, "mass_kg": 9500.0}
+
+
+def steady(design: Design) -> Design:
+    return replace(design, models=replace(design.models, dynamic_stall=False))
+
+
+@pytest.mark.parametrize("changed", [{}, {"off": "elastic-twist"}, {"bending": True}])
+def test_the_jacobian_is_exact(changed: dict[str, object]):
+    solution = solve(make_design(**HEAVY, dynamic_stall=True, **changed)).require()  # pyright: ignore[reportArgumentType]
+    assert solution.disk.unsteady is not None
+    assert solution.disk.unsteady.separation.min() < 0.5
+    point = Adjoint(solution).point
+    system, rng = point.system, np.random.default_rng(0)
+    matrix = jacobian(point)[0]
+    v = rng.normal(size=len(system.free)) * system.limits
+    v *= 1e-3 / np.abs(v).max()
+
+    def residual(step: float):
+        x = point.x.copy()
+        x[system.free] += step * v
+        return evaluate(system, system.grid, x).residual
+
+    expected, found = matrix @ v, (residual(1e-3) - residual(-1e-3)) / 2e-3
+    assert np.abs(found - expected).max() < 1e-5 * np.abs(expected).max()
+    w = rng.normal(size=len(matrix)) / system.tolerance
+    assert transposed(point, w)[0] @ v == pytest.approx(w @ expected, rel=1e-9)
+
+
+def test_the_gradient_is_that_of_trims():
+    """Power by linear twist. The wake lies still, as it does for the gradient."""
+    design = make_design(**HEAVY, twist="linear:-10", dynamic_stall=True)
+    solution = solve(design).require()
+    gradient = power_gradient(solution)
+    along = gradient.along((gradient.r - 0.75)[None])[0]
+    powers = [solve(design.with_twist(f"linear:{rate}"), solution).require().power.total for rate in (-9.99, -10.01)]
+    assert along == pytest.approx((powers[0] - powers[1]) / np.radians(0.02), rel=2e-3)
+
+
+def test_random_designs_trim_as_with_steady_sections():
+    rng = np.random.default_rng(3)
+    for _ in range(6):
+        mu, rate, mass = rng.uniform(0.1, 0.4), rng.uniform(-24.0, 0.0), rng.uniform(6500.0, 10000.0)
+        design = make_design(mu=float(mu), twist=f"linear:{rate:.2f}", mass_kg=float(mass), dynamic_stall=True)
+        unsteady, still = solve(design), solve(steady(design))
+        assert unsteady.converged or not still.converged, unsteady.message
+        assert unsteady.power.total == pytest.approx(still.power.total, rel=0.05)
+
+
+def test_stalled_lift_comes_later_and_is_more():
+    design = make_design(**HEAVY, dynamic_stall=True)
+    unsteady, still = solve(design).require(), solve(steady(design)).require()
+    assert unsteady.power.total < 0.995 * still.power.total
+    assert np.nanmin(distribution(unsteady).cm) < np.nanmin(distribution(still).cm) - 0.01
+    assert not [caveat for caveat in unsteady.caveats if "without dynamic stall" in caveat.sentence]
+
+
+@pytest.mark.parametrize("given", [{"hover": True}, {"mu": 0.3, "inflow": "local-momentum"}])
+def test_no_effect_in_hover_and_where_the_section_balances_itself(given: dict[str, object]):
+    design = make_design(**given, dynamic_stall=True)  # pyright: ignore[reportArgumentType]
+    assert solve(design).power.total == solve(steady(design)).power.total
+
+
+def test_design_files_keep_it(tmp_path: Path):
+    design = make_design(mu=0.3, dynamic_stall=True)
+    design.save(tmp_path / "own.json")
+    read = load_design(tmp_path / "own.json")
+    assert read == design
+    assert make_design(case=read, off="dynamic-stall") == make_design(mu=0.3)
+    assert "dynamic_stall" not in make_design(mu=0.3).to_dict()
+
+
+def test_it_is_off_unless_asked_for():
+    assert not make_design().models.dynamic_stall
+    assert solve(make_design(mu=0.3)).disk.unsteady is None
