@@ -64,7 +64,7 @@ INFLOW_MENUS = {
 }
 """Inputs that choose the inflow: name → title of each choice."""
 
-MODEL_INPUTS = (*INFLOW_MENUS, *SWITCHES, "bending")
+MODEL_INPUTS = (*INFLOW_MENUS, *SWITCHES, "bending", "dynamic_stall")
 """Inputs that are fields of `rotor.design.design.Models`."""
 
 
@@ -117,6 +117,8 @@ class Inputs:
     download: bool = True
     bending: bool = False
     """Whether blades bend in flap and lag."""
+    dynamic_stall: bool = False
+    """Whether sections stall with lags and vortices."""
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
     found: TwistLaw | None = None

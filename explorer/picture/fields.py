@@ -142,6 +142,22 @@ def _elastic_deg(solution: Solution, grid: PolarGrid) -> Array:
     return np.degrees(grid.refine(elastic))
 
 
+def _unsteady(name: str) -> Callable[[Solution, PolarGrid], Array]:
+    """Samples a field of dynamic stall."""
+
+    def sample(solution: Solution, grid: PolarGrid) -> Array:
+        unsteady = solution.disk.unsteady
+        if unsteady is None:
+            return np.zeros((len(grid.r), len(grid.psi)))
+        return np.clip(grid.refine(getattr(unsteady, name)), -2.0, 1.0 if name == "separation" else 2.0)
+
+    return sample
+
+
+def _steady(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
+    return np.full((len(grid.r), len(grid.psi)), solution.disk.unsteady is None)
+
+
 def _rigid(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
     return np.full((len(grid.r), len(grid.psi)), solution.disk.elastic_twist is None)
 
@@ -162,6 +178,8 @@ FIELDS: dict[str, Field] = {
         Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
+        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, _steady),
+        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, _steady),
         Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_rigid),
     )
 }

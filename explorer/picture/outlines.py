@@ -33,17 +33,26 @@ def reverse_flow_segments(solution: Solution) -> Array:
 
 
 def positive_stall_segments(solution: Solution) -> Array:
-    """Where the angle of attack is the positive stall angle, the reverse-flow region left out; (n, 2, 2), in radii."""
-    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
-    flow = refined(solution, grid)
-    return _outside_reverse_flow(contour(grid, (flow.upper - flow.alpha).astype(np.float64), 0.0), solution, 0.0)
+    """Where stall begins at positive angles of attack, the reverse-flow region left out; (n, 2, 2), in radii.
+
+    That is the stall angle, or with dynamic stall the separation point of static stall.
+    """
+    return _stall_segments(solution, positive=True)
 
 
 def negative_stall_segments(solution: Solution) -> Array:
-    """The same for the negative stall angle."""
+    """The same at negative angles."""
+    return _stall_segments(solution, positive=False)
+
+
+def _stall_segments(solution: Solution, *, positive: bool) -> Array:
     grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
     flow = refined(solution, grid)
-    return _outside_reverse_flow(contour(grid, (flow.alpha - flow.lower).astype(np.float64), 0.0), solution, 0.0)
+    left = flow.upper - flow.alpha if positive else flow.alpha - flow.lower
+    if flow.separation is not None:
+        up = flow.alpha > 0.5 * (flow.upper + flow.lower)
+        left = np.where(up == positive, flow.attached, np.float32(0.3))
+    return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
 
 
 def drag_divergence_segments(solution: Solution) -> Array:

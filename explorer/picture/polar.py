@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
 from rotor.arrays import Array
@@ -192,6 +193,13 @@ class Refined:
     """Negative stall angle [rad]."""
     upper: Single
     """Positive stall angle [rad]."""
+    separation: Single | None = None
+    """f″ of dynamic stall; None with steady sections."""
+
+    @property
+    def attached(self) -> Single:
+        """Negative where stalled: the margin, or with dynamic stall how far f″ is above that of static stall."""
+        return self.margin if self.separation is None else self.separation - np.float32(STALLED)
 
     @property
     def margin(self) -> Single:
@@ -218,4 +226,5 @@ def refined(solution: Solution, grid: PolarGrid) -> Refined:
     disk = solution.disk
     lower, upper = stall_angles(solution)
     theta, u_t, u_p, low, high = grid.refine_all((disk.theta, disk.u_t, disk.u_p, lower, upper))
-    return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high)
+    separation = None if disk.unsteady is None else grid.refine_all((disk.unsteady.separation,))[0]
+    return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high, separation)

@@ -68,9 +68,9 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
         mark_line(codes, region.value, values, where, part * half_width, grid.r)
 
     if marks.stall:
-        margin = flow.margin
-        mark_below(codes, MarkedRegion.STALLED.value, margin, clear)
-        line(MarkedRegion.STALL_RIM, margin, clear, 0.8)
+        attached = flow.attached
+        mark_below(codes, MarkedRegion.STALLED.value, attached, clear)
+        line(MarkedRegion.STALL_RIM, attached, clear, 0.8)
     if marks.drag_divergence:
         line(MarkedRegion.DASH, divergence_margin(solution, grid), clear & _dashes(grid), 1.0)
     if marks.reverse_flow:
@@ -148,10 +148,10 @@ def region_masks(solution: Solution, grid: PolarGrid, slowest: float = 0.0) -> d
     that itself. Stall and drag divergence count where U_T/ΩR is above `slowest`.
     """
     flow = refined(solution, grid)
-    clear = flow.u_t > slowest
+    stalled, up = (flow.attached < 0.0) & (flow.u_t > slowest), flow.alpha > 0.5 * (flow.upper + flow.lower)
     return {
-        "stall": (flow.alpha > flow.upper) & clear,
-        "negative_stall": (flow.alpha < flow.lower) & clear,
+        "stall": stalled & up,
+        "negative_stall": stalled & ~up,
         "reverse_flow": flow.u_t < 0.0,
         "drag_divergence": (divergence_margin(solution, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
     }

@@ -108,6 +108,9 @@ class DesignControls:
                 gui.add_checkbox("Blade bending", start.bending, hint=hint("bending"))
             )
             self._bending_words = gui.add_html("")
+            self._inputs["dynamic_stall"] = self._watched(
+                gui.add_checkbox("Dynamic stall", start.dynamic_stall, hint=hint("dynamic_stall"))
+            )
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         by_hand(preset, self._preset_chosen)

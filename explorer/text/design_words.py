@@ -163,6 +163,7 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
     off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
     off += ", blades bend" if inputs.bending else ""
+    off += ", dynamic stall" if inputs.dynamic_stall else ""
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
     if inputs.climbs and inputs.climb_m_s:

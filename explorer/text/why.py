@@ -118,6 +118,8 @@ def _model_causes(a: Design, b: Design) -> list[str]:
     ]
     if a.models.bending != b.models.bending:
         causes.append("with blade bending" if b.models.bending else "without blade bending")
+    if a.models.dynamic_stall != b.models.dynamic_stall:
+        causes.append("with dynamic stall" if b.models.dynamic_stall else "without dynamic stall")
     if a.models.inflow != b.models.inflow:
         causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
     if a.models.hover_inflow != b.models.hover_inflow:
@@ -218,13 +220,13 @@ def _area_change(a: float, b: float, least: float) -> tuple[str, str] | None:
 
 
 def _stalled(solution: Solution) -> Booleans:
-    return (solution.disk.stall_margin < 0.0) & (solution.disk.u_t >= 0.0)
+    return solution.disk.stalled
 
 
 def _divergent(solution: Solution) -> Booleans:
     """Beyond drag divergence, stalled elements left out: their drag has another cause."""
     disk = solution.disk
-    return (disk.cd_mach > _DIVERGENCE) & (disk.u_t >= 0.0) & (disk.stall_margin >= 0.0)
+    return (disk.cd_mach > _DIVERGENCE) & (disk.u_t >= 0.0) & ~disk.stalled
 
 
 def _ring(solution: Solution) -> Array:

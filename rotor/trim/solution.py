@@ -17,12 +17,12 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
-from rotor.aero.display import Unsteady
+from rotor.aero.display import STALLED, Unsteady
 from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
-from rotor.arrays import Array
+from rotor.arrays import Array, Booleans
 from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
@@ -87,6 +87,13 @@ class DiskFields:
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
     unsteady: Unsteady | None = None
     """What dynamic stall does; None with steady sections."""
+
+    @property
+    def stalled(self) -> Booleans:
+        """Beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the chord; not in
+        reverse flow, (elements, azimuths)."""
+        beyond = self.stall_margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED
+        return beyond & (self.u_t >= 0.0)
 
     @property
     def edges(self) -> Array:

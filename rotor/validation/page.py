@@ -54,7 +54,7 @@ _AGAINST = {
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NOT_MODELLED = (
     "blade bending; torsion where the rotor file has no blade structure",
-    "dynamic stall, an option (steady sections here)",
+    "dynamic stall (steady sections)",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "a change of lift slope by the swept tip",
     "the trailing-edge tab of the UH-60A between 0.73 and 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",

@@ -14,9 +14,10 @@ from explorer.picture import disk_image, lettering
 from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
+from explorer.picture.outlines import positive_stall_segments
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid, refined, stall_angles
-from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, region_codes
+from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, region_codes, region_masks
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
@@ -132,8 +133,29 @@ class TestHatch:
         assert shown(fast, size, Marks())[size // 2, round(0.875 * size), 3] == round(255 * 0.76)
 
 
+UNSTEADY = ("Separation point", "Stall vortex cn")
+
+
+class TestDynamicStall:
+    def test_its_fields_are_absent_with_steady_sections(self, fast: Solution):
+        for title in UNSTEADY:
+            assert not field_values(fast, FIELDS[title]).size
+
+    def test_its_fields_and_regions_are_what_the_section_does(self):
+        solution = solve(make_design(mu=0.35, mass_kg=9500.0, dynamic_stall=True)).require()
+        separation, vortex = (field_values(solution, FIELDS[title]) for title in UNSTEADY)
+        assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
+        assert 0.02 < vortex.max() < 1.0
+        grid = polar_grid(solution.disk, 80, 240)
+        masks, flow = region_masks(solution, grid), refined(solution, grid)
+        stalled = masks["stall"] | masks["negative_stall"]
+        assert np.array_equal(stalled, (flow.attached < 0.0) & (flow.u_t > 0.0))
+        assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05
+        assert len(positive_stall_segments(solution)) > 10
+
+
 class TestRanges:
-    @pytest.mark.parametrize("title", FIELDS)
+    @pytest.mark.parametrize("title", [title for title in FIELDS if title not in UNSTEADY])
     def test_a_fitted_range_uses_the_colours(self, title: str, fast: Solution):
         """Neither saturated nor flat: at most a fiftieth lies beyond, and the values fill half of the range."""
         field = FIELDS[title]

@@ -186,6 +186,8 @@ class TestFields:
     def test_rescaling_holds_the_data(self, forward: Solution):
         for field in FIELDS.values():
             values = field_values(forward, field)
+            if not values.size:  # Dynamic stall is off.
+                continue
             low, high = fitted_range(field, values)
             assert np.mean((values < low) | (values > high)) <= 0.011
             assert not field.two_sided or low == -high

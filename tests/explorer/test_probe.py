@@ -286,3 +286,40 @@ class TestDrawing:
         placed = svg.spread([10.0, 11.0, 40.0, 9.0], 12.0)
         assert placed[3] < placed[0] < placed[1] < placed[2] == 40.0
         assert min(np.diff(sorted(placed))) > 11.5
+
+
+@pytest.fixture(scope="module")
+def stalled() -> Solution:
+    return solve(make_design(mu=0.35, mass_kg=9500.0, dynamic_stall=True)).require()
+
+
+class TestDynamicStall:
+    def test_the_region_is_what_the_section_does(self, stalled: Solution):
+        unsteady, disk = stalled.disk.unsteady, stalled.disk
+        assert unsteady is not None
+        differ = (unsteady.separation < 0.7) & (disk.stall_margin > 0.02) & (disk.u_t > 0.1)
+        i, j = np.argwhere(differ)[0]  # Still separated, though the angle has come back.
+        p = probe(stalled, disk.r[i], disk.psi[j])
+        assert p.region is FlowRegion.STALLED
+        assert p.unsteady is not None
+        assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)
+
+    def test_the_loop_is_the_disks_own(self, stalled: Solution):
+        disk = stalled.disk
+        p = probe(stalled, disk.r[12], 1.0)
+        assert p.unsteady is not None
+        assert_allclose(p.unsteady.loop[0], disk.alpha[12], atol=1e-9)
+        assert_allclose(p.unsteady.loop[1], disk.cl[12], atol=1e-12)
+
+    def test_the_drawer_draws_it_and_names_its_parts(self, stalled: Solution):
+        p = probe(stalled, 0.6, math.radians(285.0))
+        assert "a turn" in lift_curve(p)
+        assert lift_curve(p).count("<path") >= 1
+        words = probe_panel(p, stalled)
+        assert "Separation" in words
+        assert "Vortex" in words
+
+    def test_steady_sections_have_none_of_it(self, fast: Solution):
+        p = probe(fast, 0.6, 1.0)
+        assert p.unsteady is None
+        assert "a turn" not in lift_curve(p)

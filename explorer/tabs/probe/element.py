@@ -7,6 +7,7 @@ from enum import Enum
 import numpy as np
 
 from explorer.picture.regions import DRAG_DIVERGENCE
+from rotor.aero.display import STALLED, Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
@@ -66,6 +67,18 @@ class Blend:
         return curve
 
 
+@dataclass(frozen=True, eq=False)
+class UnsteadyProbe:
+    """What dynamic stall does at the element, and its way around the disk."""
+
+    separation: float
+    """f″, over the chord."""
+    vortex: float
+    """C_n of the vortex."""
+    loop: Array
+    """α [rad] and C_l at the azimuths of the disk, NaN in reverse flow, (2, azimuths)."""
+
+
 @dataclass(frozen=True)
 class Probe:
     """A blade element as it passes (r, ψ). SI and radians; loads are of one blade and per metre of span."""
@@ -120,6 +133,8 @@ class Probe:
     """∂C_d/∂M"""
     idle: bool
     """Whether the models leave its loads out, as they may in reverse flow."""
+    unsteady: "UnsteadyProbe | None"
+    """None with steady sections."""
 
     @property
     def u(self) -> float:
@@ -148,7 +163,7 @@ class Probe:
         margin = self.stall_margin
         if margin is None:
             return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
-        if margin < 0.0:
+        if margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED:
             return FlowRegion.STALLED
         return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
 
@@ -175,7 +190,9 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     table_mach = mach if design.models.compressibility else LOW_MACH
     alpha = math.pi - (math.pi - theta + phi) % (2.0 * math.pi)
     chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed())
-    cm = section.moment(alpha, table_mach)
+    cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
+    if cm is not None and unsteady is not None:
+        cm += at.held(unsteady.moment)
     idle = u_t < 0.0 and not design.models.reverse_flow
     pressure = 0.5 * design.condition.density * (u_t**2 + u_p**2) * speed**2
     return Probe(
@@ -206,7 +223,18 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         stall=section.stall_angles(table_mach),
         cd_mach=at.held(disk.cd_mach),
         idle=idle,
+        unsteady=None if unsteady is None else _around(disk, unsteady, at, r),
     )
+
+
+def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) -> UnsteadyProbe:
+    """At a point, and around the disk at its radius."""
+    loop = np.empty((2, len(disk.psi)))
+    for k, psi in enumerate(disk.psi.tolist()):
+        there = _GridPoint(disk, r, psi)
+        theta, u_t, u_p = (there.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p))
+        loop[:, k] = (theta - math.atan2(u_p, u_t), there.held(disk.cl)) if u_t > 0.0 else math.nan
+    return UnsteadyProbe(at.held(unsteady.separation), at.held(unsteady.vortex), loop)
 
 
 class _GridPoint:

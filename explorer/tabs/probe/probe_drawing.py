@@ -301,6 +301,11 @@ def _table(probe: Probe) -> str:
         ("probe_section", "Section", escape(sections_of(probe.section))),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
+    if probe.unsteady is not None:
+        entries += (
+            ("probe_separation", "Separation", f"{number(probe.unsteady.separation, 2)} c"),
+            ("probe_vortex", "Vortex C<sub>n</sub>", number(probe.unsteady.vortex, 3)),
+        )
     cells = "".join(
         f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
         for key, name, value in entries

@@ -45,12 +45,21 @@ _TITLES = {
 
 
 def lift_curve(probe: Probe) -> str:
-    """C_l over α of this section at this Mach number, both stall angles, public points, and where the element is."""
+    """C_l over α of this section at this Mach number, both stall angles, public points, and where the element is.
+
+    With dynamic stall also the way of the element around the disk, at its own Mach numbers.
+    """
     degrees = math.degrees(probe.alpha)
     low, high, step = (-15.0, 20.0, 5.0) if -15.0 < degrees < 20.0 else (-180.0, 180.0, 60.0)
+    loop = np.full((2, 1), np.nan) if probe.unsteady is None else probe.unsteady.loop
+    loop = np.stack([np.degrees(loop[0]), loop[1]])
+    if high == 20.0 and (loop[0] > 20.0).any():
+        high = 30.0
     alpha = np.linspace(low, high, 91)
     curve = probe.section.lift_curve(np.radians(alpha), probe.table_mach)
-    bottom, top = min(-1.0, float(curve.min()), probe.cl), max(1.6, float(curve.max()), probe.cl)
+    inside = (loop[0] > low) & (loop[0] < high)
+    reached = [float(curve.min()), float(curve.max()), probe.cl, *loop[1, inside].tolist()]
+    bottom, top = min(-1.0, *reached), max(1.6, *reached)
 
     def x(value: float) -> float:
         return _LEFT + (value - low) / (high - low) * (_RIGHT - _LEFT)
@@ -80,13 +89,22 @@ def lift_curve(probe: Probe) -> str:
             )
     path = " ".join(f"{x(a):.1f},{y(cl):.1f}" for a, cl in zip(alpha.tolist(), curve.tolist(), strict=True))
     marks.append(f'<polyline points="{path}" fill="none" stroke="{LIFT}" stroke-width="1.8"/>')
+    way = "M"  # A line that is broken where the element is out of the picture.
+    for k in [*range(loop.shape[1]), 0] if inside.any() else []:
+        way += f"{x(loop[0, k]):.1f} {y(loop[1, k]):.1f}L" if inside[k] else "M"
+    for piece in way.split("M"):
+        if piece.count("L") > 1:
+            marks.append(f'<path d="M{piece.rstrip("L")}" fill="none" stroke="{NOW}" stroke-width="1.6"/>')
     here = x(degrees), y(probe.cl)
     marks.append(svg.line((here[0], _BOTTOM), here, MARK, 1.0))
     if not probe.idle:
         marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
+    around = ""
+    if probe.unsteady is not None:
+        around = f'<span{tip("chart_stall_loop")}><span class="rx-dash" style="background:{NOW}"></span>a turn</span>'
     return (
         f'<div class="rx-line rx-probe-title"{tip("chart_lift_curve")}><span><b>Lift curve</b></span>'
-        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>'
+        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>{around}'
         f'<span><span class="rx-dash" style="background:{LIMIT}"></span>stall</span></div>'
         f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" role="img" '
         f'aria-label="Lift coefficient over angle of attack">{"".join(marks)}</svg>'

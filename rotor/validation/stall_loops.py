@@ -1,0 +1,94 @@
+"""Loops of a pitching aerofoil: dynamic stall beside what the University of Glasgow measured.
+
+Nothing is fitted: f and m come from the static table that goes with the runs, lags from `rotor.airfoil.stall_onset`.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow
+from rotor.airfoil.c81 import C81Block, C81Deck
+from rotor.airfoil.section_table import SectionTable, table_from_deck
+from rotor.airfoil.stall_onset import ZERO, stall_onset
+from rotor.arrays import Array
+from rotor.assets import asset_path, csv_rows
+
+MACH = 0.119
+RUNS = ("14051", "14061")
+_AZIMUTHS = 192
+_ENDS = ((90.0, 0.0, 1.29, -0.32), (180.0, 0.0, 1.8, 0.0))
+"""Where the table has no measurement, as it continues: α [°], C_l, C_d, C_m. Far from all angles compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class StallLoop:
+    """One run: C_n and C_m at the points measured."""
+
+    run: str
+    alpha: Array
+    """[rad], in the order of time, (points,) as all others."""
+    measured: Array
+    """C_n and C_m, (2, points)."""
+    static: Array
+    """The section's static data there."""
+    dynamic: Array
+    """Those with dynamic stall."""
+
+    def rms(self, ours: Array) -> tuple[float, float]:
+        """Root mean square of the differences in C_n and C_m."""
+        apart = np.sqrt(np.mean((ours - self.measured) ** 2, axis=1))
+        return float(apart[0]), float(apart[1])
+
+
+def glasgow_section() -> SectionTable:
+    """The static data of the model, symmetric."""
+    rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == "static"]
+    half = [tuple(float(row[name]) for name in ("alpha_deg", "cl", "cd", "cm")) for row in rows] + list(_ENDS)
+    upper = np.array(half)
+    whole = np.concatenate([upper[:0:-1] * [-1.0, -1.0, 1.0, -1.0], upper])
+    mach = np.array([0.0, 1.0])
+    blocks = (C81Block(mach, whole[:, 0], np.repeat(whole[:, k : k + 1], 2, axis=1)) for k in (1, 2, 3))
+    return table_from_deck("glasgow-5", "University of Glasgow, model 5", C81Deck("glasgow-5", *blocks))
+
+
+def stall_loop(run: str) -> StallLoop:
+    """A run beside ours."""
+    rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == run]
+    alpha, cl, cd, cm = (np.array([float(row[name]) for row in rows]) for name in ("alpha_deg", "cl", "cd", "cm"))
+    mean, amplitude, k = (float(rows[0][name]) for name in ("mean_deg", "amplitude_deg", "k"))
+    rises = np.append(np.diff(alpha) > 0.0, True)
+    share = np.arcsin(np.clip((alpha - mean) / amplitude, -1.0, 1.0))
+    phase = np.where(rises, share, math.pi - share) % (2.0 * math.pi)
+    alpha = np.radians(alpha)
+    static, added = pitching(glasgow_section(), MACH, math.radians(mean), math.radians(amplitude), k)
+    ends = np.linspace(0.0, 2.0 * math.pi, _AZIMUTHS + 1)
+
+    def at_points(around: Array) -> Array:
+        return np.stack([np.interp(phase, ends, np.append(own, own[0])) for own in around])
+
+    measured = np.stack([cl * np.cos(alpha) + cd * np.sin(alpha), cm])
+    return StallLoop(run, alpha, measured, at_points(static), at_points(static + added))
+
+
+def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k: float) -> tuple[Array, Array]:
+    """Static C_n and C_m at α = mean + amplitude sin ωt about the quarter chord, and what unsteady flow adds, (2, 192).
+
+    Angles in radians; k = ωb/U. A turn of the kernel is a period: at V = 1 its half chord is k. The moment holds the
+    damping of the pitch rate, −(π/2) q, which in a rotor `rotor.aero.section` adds.
+    """
+    phase = 2.0 * math.pi * np.arange(_AZIMUTHS) / _AZIMUTHS
+    alpha, q = mean + amplitude * np.sin(phase), k * amplitude * np.cos(phase)
+    onset = stall_onset(table)
+    data = StallData(
+        onset.numbers[None].copy(), onset.tables[None].copy(), np.zeros((1, 2), np.int64), np.zeros(1), np.array([k]),
+        mach, False,
+    )  # fmt: skip
+    zero = float(np.interp(mach, np.linspace(0.0, 1.0, onset.numbers.shape[1]), onset.numbers[ZERO]))
+    added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
+    follow(0, alpha - zero, np.full(_AZIMUTHS, mach), q, data, False, added, np.empty((3, _AZIMUTHS, 0)), shown)
+    own, moment = table(alpha, mach), table.moment(alpha, mach)
+    assert moment is not None
+    static = np.stack([own.cl * np.cos(alpha) + own.cd * np.sin(alpha), moment])
+    return static, np.stack([added[ADDED_N], added[ADDED_M] - 0.5 * math.pi * q])
