@@ -34,7 +34,7 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit
 
 def test_each_mode_has_its_own_rail(watched: Watched):
     rail = watched.page.locator("[data-dock-region=right]")
-    for mode, mark in (("optimise", "Objective"), ("actuate", "Show blade cut"), ("explore", "Adv. ratio")):
+    for mode, mark in (("optimise", "Objective"), ("actuate", "Plies per side"), ("explore", "Adv. ratio")):
         watched.mode(mode)
         rail.get_by_text(mark).first.wait_for()
     rail.get_by_text("Objective").wait_for(state="detached")

@@ -279,15 +279,16 @@ class LiftedScene:
             )
             for name, (colour, pixels) in _LINES.items()
         }
-        self._held = False
+        self._held, self._radius = False, 0.0
         self._leaving: threading.Timer | None = None
 
     def hold(self, radius: float) -> None:
         """Lift the blade of a rotor of this radius [m] out, or leave it where it is held."""
         if self._leaving is not None:
             self._leaving.cancel()
-        pose = lifted.lifted_pose(radius)
-        viser_compat.place(self._frame, pose.wxyz, pose.position)
+        if radius != self._radius:  # Only then: on its way the page moves it.
+            self._radius, pose = radius, lifted.lifted_pose(radius)
+            viser_compat.place(self._frame, pose.wxyz, pose.position)
         if not self._held:
             self._held = True
             self._move(True, radius)
