@@ -170,12 +170,12 @@ class SceneController:
                 self.scene.rotor.turn(turned_blades(drawn.solution, drawn.view))
                 self._air.show(drawn.solution, drawn.view, scene_theme(drawn.view.dark))
 
-    def look(self, view: View) -> None:
+    def look(self, view: View, eased: bool = False) -> None:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
         if self.camera is not None:
-            self.camera.aim(view)
+            self.camera.aim(view, eased)
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""

@@ -1,5 +1,6 @@
 """What is shown: views and colour range by the buttons over the scene; units, theme and size of type."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -9,7 +10,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
-from explorer.picture.camera_views import View
+from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
@@ -78,6 +79,10 @@ class SceneViews:
         self._view: View = "3d"
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
+        self._instead = False
+        """Whether something else than the rotor stands in the stage."""
+        self.leave_landscape: Callable[[], None] = lambda: None
+        """Called when a view of the rotor is asked for."""
         cut.on_update(lambda _: self._cut_switched())
         context.bridge.on("view", self.look)
         context.bridge.on("colours", self._colour)
@@ -92,17 +97,42 @@ class SceneViews:
         """Show the rotor from there."""
         self._close_cut()
         self._view = view
+        if self._instead:
+            self._show()
+            self.leave_landscape()
+            return
         if view != "disk":
             self._hide_plan()
         self._scene.look(view)
         self._show()
         self._context.wake()
 
+    def give_way(self, fitted: Callable[[float], Camera]) -> None:
+        """Something else takes the place of the rotor; the camera goes there."""
+        self._instead = True
+        self._hide_plan()
+        self._see(False)
+        if self._scene.camera is not None:
+            self._scene.camera.aim_with(fitted, eased=True)
+        self._show()
+
+    def come_back(self) -> None:
+        """The rotor, or the blade cut open, again."""
+        self._instead = False
+        if not self._cut.value:
+            self._see(True)
+            self._scene.look(self._view, eased=True)
+        self._show()
+
+    def _see(self, seen: bool) -> None:
+        self._scene.set_seen(seen)
+        self._probe.set_seen(seen)
+
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
         """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
-        if self._view != "disk" or self._cut.value or (view.beside and pinned is not None):
+        if self._view != "disk" or self._instead or self._cut.value or (view.beside and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
@@ -136,8 +166,7 @@ class SceneViews:
 
     def _cut_switched(self) -> None:
         cut, camera = self._cut.value, self._scene.camera
-        self._scene.set_seen(not cut)
-        self._probe.set_seen(not cut)
+        self._see(not cut)
         if camera is not None:
             if cut:
                 camera.aim_with(partial(fit_cut, camera.radius))
@@ -146,4 +175,4 @@ class SceneViews:
         self._show()
 
     def _show(self) -> None:
-        self._context.bridge.set(views={"all": VIEWS, "now": "" if self._cut.value else self._view})
+        self._context.bridge.set(views={"all": VIEWS, "now": "" if self._cut.value or self._instead else self._view})
