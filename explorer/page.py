@@ -36,6 +36,7 @@ from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Layout, Sections
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
+from explorer.tabs.optimise.landscape_panel import LandscapePanel
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
@@ -96,7 +97,7 @@ class Page:
         self.scene = SceneController(client, rotor, self.display, facts.dark)
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
         with layout.in_mode("optimise"):
-            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
+            tasks = self._tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"), callbacks.wake)
             with tasks["Search"]:
                 self.optimise = OptimisePanel(context)
             with tasks["Map"]:
@@ -139,6 +140,7 @@ class Page:
         """Everything that only follows."""
         BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self.camera.radius, self._curve.take)
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
+        self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
         bridge.on("nearest", lambda _: self._nearest_trim())
@@ -227,6 +229,7 @@ class Page:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
+        self._landscape.show(state, self._tasks.now, reading.sliders)
         self.results.show(state, self._pause)
         self.vibration.show(state)
         self.per_rev.show(state, self.vibration.words, self.vibration.index)

@@ -64,6 +64,21 @@ class Camera:
     look_at: Array
 
 
+def eased_between(start: Camera, end: Camera, part: float) -> Camera:
+    """Between two cameras, 0…1: the direction turns about the subject, so that it stays in view."""
+    middle = (1.0 - part) * start.look_at + part * end.look_at
+    arms = start.position - start.look_at, end.position - end.look_at
+    lengths = [max(float(np.linalg.norm(arm)), 1e-9) for arm in arms]
+    angles = [
+        (math.atan2(arm[1], arm[0]), math.asin(arm[2] / length)) for arm, length in zip(arms, lengths, strict=True)
+    ]
+    turn = (angles[1][0] - angles[0][0] + math.pi) % math.tau - math.pi
+    around, above = angles[0][0] + part * turn, (1.0 - part) * angles[0][1] + part * angles[1][1]
+    length = lengths[0] ** (1.0 - part) * lengths[1] ** part
+    arm = np.array([math.cos(around) * math.cos(above), math.sin(around) * math.cos(above), math.sin(above)])
+    return Camera(middle + length * arm, middle)
+
+
 @dataclass(frozen=True)
 class Cover:
     """Fractions of the canvas's height that cards cover along its whole width, from above and from below."""

@@ -1,6 +1,7 @@
 """The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
 
 import math
+import threading
 import time
 from collections.abc import Callable
 from functools import partial
@@ -8,7 +9,16 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, View, between_cards, fit
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    USUAL_COVER,
+    Camera,
+    Cover,
+    View,
+    between_cards,
+    eased_between,
+    fit,
+)
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
@@ -18,6 +28,8 @@ _LEAST_COVER = 1e-3
 """A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
+_EASED = 0.7
+"""A flight to another subject takes so long [s]."""
 _TAKEN = 0.3
 """A camera this far [m] from where it was put was moved by the user."""
 
@@ -41,15 +53,17 @@ class FittedCamera:
         self._held = False
         self._wanted: tuple[float, bool] | None = None
         """What `follow` was given while the camera was held."""
+        self._flight = 0
+        """Number of the last aim: a flight to an earlier one ends."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
 
-    def aim(self, view: View) -> None:
+    def aim(self, view: View, eased: bool = False) -> None:
         """Show the rotor, and go on doing so when the canvas changes."""
         self._view = view
-        self._aim(partial(self._fitted, view))
+        self._aim(partial(self._fitted, view), eased)
 
     def _fitted(self, view: View, aspect: float) -> Camera:
         return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover, self._beside)
@@ -97,19 +111,39 @@ class FittedCamera:
         if not held and wanted is not None:
             self.follow(*wanted)
 
-    def aim_with(self, fitted: Callable[[float], Camera]) -> None:
+    def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         """The same for any other subject: `fitted` finds the camera for a width over height without cards."""
         self._view = None
-        self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover))
+        self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased)
 
-    def _aim(self, fitted: Callable[[float], Camera]) -> None:
+    def _aim(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         camera = self._client.camera
         self._fit, self._following = fitted, True
         target = fitted(camera.aspect)
-        with self._client.atomic():
-            camera.position = target.position
-            camera.look_at = target.look_at
+        self._flight += 1
         self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
+        if eased:
+            start = Camera(np.array(camera.position), np.array(camera.look_at))
+            threading.Thread(target=self._fly, args=(self._flight, start, target), daemon=True).start()
+        else:
+            self._stand(target)
+
+    def _fly(self, flight: int, start: Camera, target: Camera) -> None:
+        """From one place to another in `_EASED`, unless the camera is aimed anew meanwhile."""
+        begin, part = time.monotonic(), 0.0
+        while part < 1.0:
+            time.sleep(_EASED / 24)
+            if flight != self._flight:
+                return
+            part = min((time.monotonic() - begin) / _EASED, 1.0)
+            self._stand(eased_between(start, target, part * part * (3.0 - 2.0 * part)))
+
+    def _stand(self, at: Camera) -> None:
+        camera = self._client.camera
+        with self._client.atomic():
+            camera.position = at.position
+            camera.look_at = at.look_at
+        self._client.flush()
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following:

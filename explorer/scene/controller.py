@@ -177,12 +177,16 @@ class SceneController:
         if not behind:
             self.play(self._page.playing)
 
-    def look(self, view: View) -> None:
+    def set_seen(self, seen: bool) -> None:
+        """Whether the rotor is in the scene, or makes room for something else."""
+        self.scene.set_seen(seen)
+
+    def look(self, view: View, eased: bool = False) -> None:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
         if self.camera is not None:
-            self.camera.aim(view)
+            self.camera.aim(view, eased)
 
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""

@@ -128,7 +128,7 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._behind, self._close, self._fitted = False, False, rotor
+        self._seen, self._behind, self._close, self._fitted = True, False, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -181,6 +181,11 @@ class Scene:
             self._beside = False
             self.rotor.frame.position = np.zeros(3)
             self._set_visible()
+
+    def set_seen(self, seen: bool) -> None:
+        """Whether the rotor is in the scene, or makes room for something else."""
+        self._seen = seen
+        self._set_visible()
 
     def set_behind(self, behind: bool) -> None:
         """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
@@ -249,10 +254,11 @@ class Scene:
     def _set_visible(self) -> None:
         self.rotor.words.visible = not (self._close or self._behind)
         self.rotor.image.visible = not self._behind
-        self._airframe.visible = not (self._beside or self._close or self._alone)
+        self.rotor.frame.visible = self._seen
+        self._airframe.visible = self._seen and not (self._beside or self._close or self._alone)
         self._shadow.visible = self._airframe.visible and not self._behind
         for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
-            handle.visible = self._beside
+            handle.visible = self._seen and self._beside
 
 
 def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:

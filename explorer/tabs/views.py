@@ -1,5 +1,6 @@
 """What is shown: views and colour range by the buttons over the scene; units, theme and size of type."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Literal
@@ -8,7 +9,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
-from explorer.picture.camera_views import View
+from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
@@ -75,6 +76,10 @@ class SceneViews:
         self._view: View = "3d"
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
+        self._instead = False
+        """Whether something else than the rotor stands in the stage."""
+        self.leave_landscape: Callable[[], None] = lambda: None
+        """Called when a view of the rotor is asked for."""
         context.bridge.on("view", self.look)
         context.bridge.on("colours", self._colour)
         context.layout.watchers.append(self._mode_changed)
@@ -91,11 +96,36 @@ class SceneViews:
             return
         self._lift(False, view)
         self._view = view
+        if self._instead:
+            self._show()
+            self.leave_landscape()
+            return
         if view != "disk":
             self._hide_plan()
         self._scene.look(view)
         self._show()
         self._context.wake()
+
+    def give_way(self, fitted: Callable[[float], Camera]) -> None:
+        """Something else takes the place of the rotor; the camera goes there."""
+        self._instead = True
+        self._hide_plan()
+        self._see(False)
+        if self._scene.camera is not None:
+            self._scene.camera.aim_with(fitted, eased=True)
+        self._show()
+
+    def come_back(self) -> None:
+        """The rotor, or the lifted blade, again."""
+        self._instead = False
+        self._see(True)
+        if not self._actuator.lifted:
+            self._scene.look(self._view, eased=True)
+        self._show()
+
+    def _see(self, seen: bool) -> None:
+        self._scene.set_seen(seen)
+        self._probe.set_seen(seen and not self._actuator.lifted)
 
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
         """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
@@ -103,7 +133,7 @@ class SceneViews:
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
-        if self._view != "disk" or self._actuator.lifted or (view.beside and pinned is not None):
+        if self._view != "disk" or self._instead or self._actuator.lifted or (view.beside and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
@@ -147,4 +177,5 @@ class SceneViews:
     def _show(self) -> None:
         lifted, own = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
         views = (*([("actuator", "Actuator")] if own else []), *VIEWS)
-        self._context.bridge.set(views={"all": views, "now": "actuator" if lifted else self._view})
+        now = "actuator" if lifted else "" if self._instead else self._view
+        self._context.bridge.set(views={"all": views, "now": now})

@@ -77,7 +77,7 @@
     if (matrix) {
       const found = fieldOf(), step = 2 * radius / (GRID - 1), range = Math.max(...found.power) - Math.min(...found.power);
       const shown = LEVELS.filter(level => level === 0 || range < 14 || Math.abs(level) >= 2);
-      inside += `<g clip-path="circle(${radius}px at ${middle}px ${middle}px)" fill="none" stroke="var(--rx-ink)">`;
+      inside += `<clipPath id="rxd${size}"><circle cx="${middle}" cy="${middle}" r="${radius}"/></clipPath><g clip-path="url(#rxd${size})" fill="none" stroke="var(--rx-ink)">`;
       const words = [];
       for (const level of shown) {
         const [path, places] = contour(found.power, level);
@@ -135,7 +135,7 @@
     for (const v of [-100, -75, -50, -25, 0, 25]) out += `<path d="M${left} ${Y(v).toFixed(1)}H${width - 4}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${left - 5}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${v > 0 ? '+' : v < 0 ? '−' : ''}${Math.abs(v)}</text>`;
     for (let v = Math.ceil(x0 / 2) * 2; v <= x1; v += 2) out += `<path d="M${X(v).toFixed(1)} ${top}V${base}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${X(v).toFixed(1)}" y="${base + 14}" text-anchor="middle">${v > 0 ? '+' : v < 0 ? '−' : ''}${Math.abs(v)}</text>`;
     out += `<text x="2" y="12">vibration change [%]</text><text x="${(left + right) / 2}" y="${height - 6}" text-anchor="middle">power change [%]</text>`;
-    if (alone.length) out += `<path d="M${right + 5} ${top}V${base}" stroke="var(--rx-faint)"/><text x="${width - 4}" y="${base + 14}" text-anchor="end">power</text><text x="${width - 4}" y="${height - 6}" text-anchor="end">not given</text>`;
+    if (alone.length) out += `<path d="M${right + 5} ${top}V${base}" stroke="var(--rx-faint)"/><text x="${width - 4}" y="${base + 14}" text-anchor="end">vibration</text><text x="${width - 4}" y="${height - 6}" text-anchor="end">alone</text>`;
     const fill = one => one.kind === 'computed' ? 'var(--rx-paper)' : 'var(--rx-dim)';
     alone.forEach((one, k) => {
       const x = right + 17 + 17 * k, [low, high] = one.vibration;
@@ -144,7 +144,7 @@
     });
     paired.forEach((one, k) => {
       const x = X(one.power), y = Y(one.vibration[0]), before = x > right - 96;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${fill(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/><text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text></g>`;
+      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${fill(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 420 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
     });
     if (dots.length) {
       out += `<path d="M${dots.map(one => `${X(one.power).toFixed(1)} ${Y(one.index).toFixed(1)}`).join('L')}" fill="none" stroke="var(--rx-accent)" stroke-width="1.4" opacity=".6"/>`;

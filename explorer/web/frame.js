@@ -239,7 +239,7 @@
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels'];
+  const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels', 'landscape_labels'];
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);

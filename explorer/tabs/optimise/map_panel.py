@@ -9,10 +9,10 @@ from html import escape
 import numpy as np
 import viser
 from numpy.typing import NDArray
-from scipy.interpolate import RectBivariateSpline
 
 from explorer.model.inputs import with_optimum
 from explorer.model.units import SI, Units, number
+from explorer.picture.landscape import refined
 from explorer.picture.png import encode_png
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
@@ -30,7 +30,7 @@ from rotor.optimisation.descent import BAND as _BAND
 
 CONTOURS = (0.005, 0.01, 0.02, 0.04, 0.08)
 """Power above the least, as parts of it, at which lines are drawn."""
-_SCALE = 0.08
+COLOURS_END = 0.08
 """At which the colours end."""
 _WIDE, _HIGH = 508, 380
 """Pixels of the picture: two for each of the drawing's units."""
@@ -63,24 +63,13 @@ class Map:
         return float(column) / n, float(row) / n, float(self.powers[row, column])
 
 
-def refined(powers: Array, wide: int, high: int) -> Array:
-    """Smooth between grid points, (high, wide), first row low; straight where some do not trim, NaN next to those."""
-    n = len(powers) - 1
-    row, column = np.linspace(0.0, n, high), np.linspace(0.0, n, wide)
-    degree = 3 if np.isfinite(powers).all() else 1
-    known = np.where(np.isfinite(powers), powers, 1e9)
-    grid = np.arange(n + 1.0)
-    values = RectBivariateSpline(grid, grid, known, kx=degree, ky=degree)(row, column)
-    return np.where(values < 1e8, values, np.nan)
-
-
 def picture(powers: Array) -> bytes:
     """PNG: colours by power above the least, lines at CONTOURS, the 0.1 % band white within a white edge."""
     values = refined(powers, _WIDE, _HIGH)[::-1]
     excess = values / float(np.nanmin(powers)) - 1.0
     known = np.isfinite(excess)
     excess = np.where(known, excess, 9.0)
-    pixels = (1.0 + np.clip(excess / _SCALE, 0.0, 1.0) ** 0.5 * (_LEVELS - 1)).astype(np.uint8)
+    pixels = (1.0 + np.clip(excess / COLOURS_END, 0.0, 1.0) ** 0.5 * (_LEVELS - 1)).astype(np.uint8)
     ring = np.searchsorted([_BAND, *CONTOURS], excess)
     change = np.zeros(ring.shape, dtype=bool)
     change[:, 1:] |= ring[:, 1:] != ring[:, :-1]
@@ -212,8 +201,8 @@ def colour_bar() -> str:
     stops = "".join(f'<stop offset="{k / 24:.3f}" stop-color="{css(rgb)}"/>' for k, rgb in enumerate(colours))
     marks = []
     for part in (0.0, *CONTOURS):
-        x = _LEFT + math.sqrt(part / _SCALE) * _W
-        line = f'<path d="M{x:.1f},2 v9" stroke="#fff" opacity=".8"/>' if 0.0 < part < _SCALE else ""
+        x = _LEFT + math.sqrt(part / COLOURS_END) * _W
+        line = f'<path d="M{x:.1f},2 v9" stroke="#fff" opacity=".8"/>' if 0.0 < part < COLOURS_END else ""
         marks.append(f'{line}<text x="{x:.1f}" y="22" text-anchor="middle">{100 * part:g}</text>')
     return (
         '<svg viewBox="0 0 300 38" width="100%" class="rx-map" data-explorer="map-colours" role="img" '
@@ -248,16 +237,16 @@ class MapPanel:
 
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
-        self._context, self._search, gui = context, search, context.gui
+        self._context, self.search, gui = context, search, context.gui
         self._job: Job | None = None
         self._task: MapTask | None = None
-        self._map: Map | None = None
+        self.map: Map | None = None
         self._line = "Power over two parameters, the others fixed. Click the map to take a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        titles = tuple([parameter.title for parameter in self._search.request().known_concept().parameters])
+        titles = tuple([parameter.title for parameter in self.search.request().known_concept().parameters])
         self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
         self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
         self._draw = gui.add_button("Compute map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
@@ -271,18 +260,18 @@ class MapPanel:
     def begin(self) -> None:
         """Draw the map of the concept chosen for the search, about the design on the sliders."""
         try:
-            design, request = self._context.inputs().design(), self._search.request()
+            design, request = self._context.inputs().design(), self.search.request()
             concept = request.known_concept()
             titles = [parameter.title for parameter in concept.parameters]
             if len(titles) < 2:
                 raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
             axes = self._axes(titles)
-            objective = request.wanted(design, self._search.legs)
+            objective = request.wanted(design, self.search.legs)
         except ValueError as error:
             self._line = str(error)
             self._context.wake()
             return
-        values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
+        values = self.search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         task = self._task = MapTask(design, concept, objective, axes, values)
         if self._job is not None:
             self._context.pool.stop(self._job, quiet=True)
@@ -297,7 +286,7 @@ class MapPanel:
 
     def refresh(self, design: Design | None) -> None:
         """Bring the tab into line with the concept and with the design on the sliders."""
-        concept = self._search.request().known_concept()
+        concept = self.search.request().known_concept()
         titles = tuple(parameter.title for parameter in concept.parameters)
         if titles != self._offered:
             self._offered = titles
@@ -307,7 +296,7 @@ class MapPanel:
                 menu.value = titles[axis]
         self._title.content = f'<div class="rx rx-dim rx-small">Concept: {concept.title}</div>'
         self._state.content = f'<div class="rx rx-dim rx-small" data-explorer="map-state">{self._line}</div>'
-        drawn = self._map
+        drawn = self.map
         if drawn is None:
             return
         here, exact = self._place(drawn, design)
@@ -315,13 +304,18 @@ class MapPanel:
         seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
             self._drawn = seen
-            self._picture.content = f'<div class="rx">{title(drawn)}{drawing(drawn, here, exact)}{colour_bar()}</div>'
+            box = f"{title(drawn)}{drawing(drawn, here, exact)}{colour_bar()}"
+            self._picture.content = (
+                f'<div class="rx" data-explorer="map-box">{box}</div>'
+                '<div class="rx rxl-buttons"><button data-map-large>Enlarge the map</button>'
+                '<button data-do="landscape" data-value="on">Landscape in the stage</button></div>'
+            )
             self._legend.content = legend(drawn, None if here is None else exact, units)
             self._point.visible = True
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:
-            return default_axes(self._search.request().known_concept())
+            return default_axes(self.search.request().known_concept())
         x, y = titles.index(self._x.value), titles.index(self._y.value)
         if x == y:
             raise ValueError("Both axes are the same parameter: choose two.")
@@ -334,7 +328,7 @@ class MapPanel:
             case JobProgress(MapLevel(powers)):
                 grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
                 if np.isfinite(grid).any():
-                    self._map = Map(task, grid)
+                    self.map = Map(task, grid)
                     mu = task.objective.conditions[0].flight.advance_ratio
                     where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
                     self._line = f"{len(powers)} × {len(powers)} points, {where}"
@@ -348,6 +342,11 @@ class MapPanel:
                 pass
         self._context.wake()
 
+    def place(self, drawn: Map, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
+        """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
+        place, exact = _nearest_place(drawn, twist)
+        return (place[0], place[1]), exact
+
     def _place(self, drawn: Map, design: Design | None) -> tuple[tuple[float, float] | None, bool]:
         """Where the design on the sliders lies on the map, and whether it lies in its plane."""
         if design is None:
@@ -359,7 +358,7 @@ class MapPanel:
         return (place[0], place[1]), exact
 
     def _apply(self, text: str) -> None:
-        drawn = self._map
+        drawn = self.map
         if drawn is None or not text.strip():
             return
         try:

@@ -174,6 +174,11 @@ class OptimisePanel:
             timer.start()
         return None if frame is None else frame.design
 
+    @property
+    def run(self) -> SearchRun | None:
+        """The last search; None before the first."""
+        return self._run
+
     def starts_chart(self) -> dict[str, Any] | None:
         """Of the search, in place of charts along the blade; None where there is none."""
         run = self._run

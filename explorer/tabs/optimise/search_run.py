@@ -199,6 +199,8 @@ class SearchRun:
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]
         """Power at each evaluation of each start [W]; one without trim or beyond a limit repeats the one before.
         At the end that of the minimum it leads to."""
+        self.paths: list[list[tuple[tuple[float, ...], float]]] = [[] for _ in range(search.starts)]
+        """Parameters and power [W] of each start's best design so far, whenever there was a better one."""
         self.progress: Progress | None = None
         self.optimum: Optimum | None = None
         self._lock = threading.Lock()
@@ -271,6 +273,9 @@ class SearchRun:
             trace = self.traces[progress.start]
             if progress.power is not None and progress.feasible:
                 trace.append(progress.power)
+                path = self.paths[progress.start]
+                if not path or progress.power < path[-1][1]:
+                    path.append((progress.parameters, progress.power))
             elif trace:
                 trace.append(trace[-1])
         best, values = progress.best_power, progress.best_parameters
@@ -288,6 +293,7 @@ class SearchRun:
             for start in minimum.starts:
                 if self.traces[start] and minimum.power < self.traces[start][-1]:
                     self.traces[start].append(minimum.power)
+                    self.paths[start].append((minimum.parameters, minimum.power))
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
             self._add(optimum.evaluations, optimum.best.power, optimum.design)
 
