@@ -83,6 +83,27 @@ class Cover:
         return 0.5 * (self.below - self.above)
 
 
+@dataclass(frozen=True)
+class Shot:
+    """A camera from any side on a part of the rotor."""
+
+    azimuth_deg: float
+    """From where; 0 is behind the tail, 90 the advancing side."""
+    elevation_deg: float
+    centre: tuple[float, float, float]
+    """Of the box that fills the canvas, from the hub [R]."""
+    half: tuple[float, float, float]
+    """Half its size [R]."""
+
+    def fit(self, radius: float, aspect: float) -> Camera:
+        """For a rotor of this radius [m] and a canvas of this width over height, without cards."""
+        azimuth, elevation = math.radians(self.azimuth_deg), math.radians(self.elevation_deg)
+        level = math.cos(elevation)
+        backward = np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
+        corners = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+        return framed(radius * (np.array(self.centre) + corners * np.array(self.half)), backward, aspect)
+
+
 USUAL_COVER = Cover()
 UNCOVERED = Cover(0.04, 0.04)
 """A margin: for pictures without cards."""

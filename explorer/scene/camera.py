@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, View, between_cards, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
@@ -96,6 +96,10 @@ class FittedCamera:
         wanted, self._wanted = self._wanted, None
         if not held and wanted is not None:
             self.follow(*wanted)
+
+    def hold_shot(self, shot: Shot) -> None:
+        """Show a part of the rotor from one side."""
+        self.aim_with(lambda aspect: shot.fit(self.radius, aspect))
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
         """The same for any other subject: `fitted` finds the camera for a width over height without cards."""

@@ -99,10 +99,11 @@ class SceneViews:
         self._context.wake()
 
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
-        """The disk from above, drawn by the page itself; two rotors side by side stay in the scene."""
+        """The disk from above, drawn by the page itself; two rotors, side by side or wiped, stay in the scene."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
-        if self._view != "disk" or self._cut.value or (view.beside and pinned is not None):
+        self._context.bridge.set(wipe=view.wipe and pinned is not None and not self._cut.value)
+        if self._view != "disk" or self._cut.value or ((view.beside or view.wipe) and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
