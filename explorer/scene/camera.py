@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer.hosting.browser import call
 from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
 
 _SETTLES = 1.5
@@ -38,7 +39,7 @@ class FittedCamera:
         """Whether two rotors stand side by side."""
         self._fit: Callable[[float], Camera] = partial(self._fitted, "3d")
         self._following = True
-        self._held = False
+        self._held = self._flies = False
         self._wanted: tuple[float, bool] | None = None
         """What `follow` was given while the camera was held."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
@@ -98,7 +99,8 @@ class FittedCamera:
             self.follow(*wanted)
 
     def hold_shot(self, shot: Shot) -> None:
-        """Show a part of the rotor from one side."""
+        """Show a part of the rotor from one side; the camera flies there."""
+        self._flies = True
         self.aim_with(lambda aspect: shot.fit(self.radius, aspect))
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
@@ -110,9 +112,13 @@ class FittedCamera:
         camera = self._client.camera
         self._fit, self._following = fitted, True
         target = fitted(camera.aspect)
-        with self._client.atomic():
-            camera.position = target.position
-            camera.look_at = target.look_at
+        if self._flies:
+            self._flies = False
+            call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
+        else:
+            with self._client.atomic():
+                camera.position = target.position
+                camera.look_at = target.look_at
         self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
 
     def _moved(self, camera: viser.CameraHandle) -> None:

@@ -69,6 +69,8 @@ class SceneController:
         """Follows the shaft tilt, once the page has one."""
         self._look: View = "3d"
         self._drawn: _Drawn | None = None
+        self._compared = False
+        """Whether A is at the place of B."""
         self._fine = False
         """Whether the frame is drawn as finely as it can be."""
         self._ranges: dict[str, Range] = {}
@@ -143,6 +145,9 @@ class SceneController:
             self._air.show(solution, view, scene_theme(view.dark))
             if beside is not None:
                 self._air.hide_vortices()
+            if view.wipe or self._compared:
+                self._compared = view.wipe and beside is not None
+                self._page.compare(beside if self._compared else None)
             if beside is None or other is None:
                 self.scene.hide_beside()
             else:

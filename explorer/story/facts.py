@@ -64,7 +64,7 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Line:
+class ChartLine:
     """One line of a chart."""
 
     name: str
@@ -75,7 +75,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Chart:
+class StepChart:
     """What is drawn in the caption: power [W], a part of one, or degrees over what is moved."""
 
     x_title: str
@@ -83,9 +83,11 @@ class Chart:
     kind: Literal["power", "percent", "angle"]
     x: tuple[float, ...]
     x_kind: Literal["mu", "rate", "signed"]
-    lines: tuple[Line, ...]
+    lines: tuple[ChartLine, ...]
     band: tuple[tuple[float, ...], tuple[float, ...]] | None = None
     """Low and high."""
+    dots: tuple[str, ...] = ()
+    """Colours of the dots; those of the lines where none are given."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,11 @@ class Facts:
     numbers: Mapping[str, Number]
     right: int
     """Of the answers to choose from."""
-    chart: Chart
+    chart: StepChart
+
+    def words(self, units: Units) -> dict[str, str]:
+        """The numbers as they are written."""
+        return {name: one.words(units) for name, one in self.numbers.items()}
 
 
 @dataclass(frozen=True)
@@ -133,11 +139,12 @@ def _trim(step: LectureStep) -> Facts:
     values = step.control.values
     hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([one.total for one in powers]))
     parts = tuple(
-        Line(name, name, tuple(getattr(one, name) for one in powers)) for name in ("induced", "profile", "parasite")
+        ChartLine(name, name, tuple(getattr(one, name) for one in powers))
+        for name in ("induced", "profile", "parasite")
     )
-    chart = Chart(
+    chart = StepChart(
         "advance ratio", "power", "power", values, "mu",
-        (Line("total", "b", tuple(one.total for one in powers)), *parts),
+        (ChartLine("total", "b", tuple(one.total for one in powers)), *parts),
     )  # fmt: skip
     ratio = cruise.induced / hover.induced
     numbers = {
@@ -162,11 +169,11 @@ def _hover_twist(step: LectureStep) -> Facts:
         "best_rigid": Number("rate", least(rigid, 0.0, None).rate_deg),
     }  # fmt: skip
     totals = tuple(one.power.total for one in blades.b)
-    chart = Chart(
+    chart = StepChart(
         "twist [°/R]", "total power", "power", step.control.values, "rate",
-        (Line("A", "a", (a.power.total,) * len(totals)), Line("B", "b", totals)),
+        (ChartLine("A", "a", (a.power.total,) * len(totals)), ChartLine("B", "b", totals)),
     )  # fmt: skip
-    return blades.facts(numbers, saving, chart, totals)
+    return blades.facts(numbers, saving, chart, (a.power.total,) * len(totals), totals)
 
 
 def _changes(step: LectureStep, value: Callable[[Solution, Solution], float]) -> Facts:
@@ -174,12 +181,14 @@ def _changes(step: LectureStep, value: Callable[[Solution, Solution], float]) ->
     blades = _Sweep(step)
     a, b = blades.pair
     induced, profile = (
-        tuple(getattr(one.power, name) - getattr(other.power, name) for one, other in zip(blades.b, blades.a, strict=True))
+        tuple(
+            getattr(one.power, name) - getattr(other.power, name) for one, other in zip(blades.b, blades.a, strict=True)
+        )
         for name in ("induced", "profile")
     )
-    chart = Chart(
+    chart = StepChart(
         "twist [°/R]", "B − A", "power", step.control.values, "rate",
-        (Line("induced", "induced", induced), Line("profile", "profile", profile)),
+        (ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)),
     )  # fmt: skip
     total = a.power.total - b.power.total
     numbers = {**_named(step, a, b), "induced_part": Number("percent", (a.power.induced - b.power.induced) / total)}
@@ -198,19 +207,19 @@ def _fast_twist(step: LectureStep) -> Facts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
     rates = tuple(float(rate) for rate in range(-20, 1, 2))
-    lines, dots = list[Line](), list[list[tuple[float, float]]]()
+    lines, dots = list[ChartLine](), list[list[tuple[float, float]]]()
     for k, (stop, name) in enumerate(zip(blades.stops, ("with fuselage drag", "without"), strict=True)):
         totals = [
             solve(replace(stop.inputs, linear=rate).design(), blades.b[k]).require().power.total for rate in rates
         ]
         ends = [one.power.total for one in (blades.a[k], blades.b[k])]
         lowest = min(*totals, *ends)
-        lines.append(Line(name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)))
+        lines.append(ChartLine(name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)))
         dots.append([
             (rate, total / lowest - 1.0)
             for rate, total in zip((_against(step).linear, step.inputs.linear), ends, strict=True)
         ])  # fmt: skip
-    chart = Chart("twist [°/R]", "above least", "percent", rates, "rate", tuple(lines))
+    chart = StepChart("twist [°/R]", "above least", "percent", rates, "rate", tuple(lines), dots=("a", "b"))
     fast = step.inputs.advance_ratio
 
     def rate(on: Sequence[str]) -> float:
@@ -241,8 +250,8 @@ def _reverse_flow(step: LectureStep) -> Facts:
         "cost_percent": Number("percent", b.power.total / a.power.total - 1.0),
         "slow_mu": Number("mu", step.control.values[slow]), "slow_cost": Number("power", costs[slow]),
     }  # fmt: skip
-    chart = Chart(
-        "advance ratio", "cost", "power", step.control.values, "mu", (Line("cost, B − A", "b", costs),)
+    chart = StepChart(
+        "advance ratio", "cost", "power", step.control.values, "mu", (ChartLine("cost, B − A", "b", costs),)
     )  # fmt: skip
     return flight.facts(numbers, b.power.total / a.power.total - 1.0, chart, costs)
 
@@ -264,11 +273,11 @@ def _two_segments(step: LectureStep) -> Facts:
         "twist_a": Number("words", 0.0, angle_words(_against(step).linear)),
         "flat": Number("percent", _FLAT), "flat_low": Number("rate", min(flat)), "flat_high": Number("rate", max(flat)),
     }  # fmt: skip
-    chart = Chart(
+    chart = StepChart(
         "inboard twist [°/R]", "against A", "percent", step.control.values, "rate",
-        (Line("A", "a", (0.0,) * len(changes)), Line("B", "b", changes)),
+        (ChartLine("A", "a", (0.0,) * len(changes)), ChartLine("B", "b", changes)),
     )  # fmt: skip
-    return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, changes)
+    return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, (0.0,) * len(changes), changes)
 
 
 def _fixed_or_moving(step: LectureStep) -> Facts:
@@ -280,7 +289,7 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
     stops = tuple(
         Stop(
             f"{speed_words(mu)}, {angle_words(rate)}", replace(step.inputs, advance_ratio=mu, linear=rate),
-            replace(step.inputs, advance_ratio=mu, linear=fixed), ((mu, rate), (mu, fixed)),
+            replace(step.inputs, advance_ratio=mu, linear=fixed), ((mu, fixed), (mu, rate)),
         )
         for mu, rate in zip(SPEEDS, rates, strict=True)
     )  # fmt: skip
@@ -296,9 +305,9 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
         "fixed_saving": Number("fine", 1.0 - moving.fixed_kw / moving.baseline_kw),
         "baseline": Number("words", 0.0, f"a fixed {angle_words(-16.0)}"),
     }  # fmt: skip
-    chart = Chart(
+    chart = StepChart(
         "advance ratio", "twist [°/R]", "angle", SPEEDS, "mu",
-        (Line("best fixed, A", "a", (fixed,) * len(SPEEDS)), Line("best at each speed, B", "b", rates)), (low, high),
+        (ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)), (low, high),
     )  # fmt: skip
     return _answered(step, stops, numbers, moving.gain, chart)
 
@@ -321,8 +330,9 @@ def _power_or_vibration(step: LectureStep) -> Facts:
         "wakes_low": Number("signed", 0.01 * ends[0]), "wakes_high": Number("signed", 0.01 * ends[1]),
     }  # fmt: skip
     powers, indices = zip(*changes, strict=True)
-    chart = Chart(
-        "power, change from A", "vibration", "percent", powers, "signed", (Line("front", "b", indices),)
+    chart = StepChart(
+        "power, change from A", "vibration index, change from A", "percent", powers, "signed",
+        (ChartLine("front", "b", indices),),
     )  # fmt: skip
     return _answered(step, tuple(stops), numbers, changes[0][1], chart)
 
@@ -339,14 +349,15 @@ def _piezoelectric_ply(step: LectureStep) -> Facts:
         "to_mu": Number("mu", verdict.baseline.pair.advance_ratios[1]),
         "required": Number("angle", math.degrees(verdict.required)), "attainable": Number("angle", reach),
         "gross": Number("power", verdict.gross_saving), "net_cost": Number("power", -verdict.net_saving),
+        "net": Number("change", -verdict.net_saving),
         "mass": Number("mass", verdict.installed.masses.aircraft),
     }  # fmt: skip
-    chart = Chart(
+    chart = StepChart(
         "advance ratio", "change of twist [°]", "angle", SPEEDS, "mu",
-        (Line("reach", "limit", (reach,) * len(SPEEDS)), Line("wanted", "b", wanted)),
+        (ChartLine("reach", "limit", (reach,) * len(SPEEDS)), ChartLine("wanted", "b", wanted)),
         ((0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)),
     )  # fmt: skip
-    return flight.facts(numbers, verdict.net_saving, chart, wanted)
+    return flight.facts(numbers, verdict.net_saving, chart, (reach,) * len(SPEEDS), wanted)
 
 
 _FINDERS: dict[str, Callable[[LectureStep], Facts]] = {
@@ -378,7 +389,7 @@ class _Sweep:
         start = self._step.control.start
         return self.a[start], self.b[start]
 
-    def facts(self, numbers: Mapping[str, Number], answer: float, chart: Chart, *curves: Sequence[float]) -> Facts:
+    def facts(self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]) -> Facts:
         """With dots on these curves over the values of the control."""
         stops = tuple(
             replace(stop, dots=tuple((value, curve[k]) for curve in curves))
@@ -398,7 +409,7 @@ def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
 
 
 def _answered(
-    step: LectureStep, stops: tuple[Stop, ...], numbers: Mapping[str, Number], answer: float, chart: Chart
+    step: LectureStep, stops: tuple[Stop, ...], numbers: Mapping[str, Number], answer: float, chart: StepChart
 ) -> Facts:
     """With the bounds between the answers, and the right one."""
     bounds = {

@@ -153,8 +153,6 @@ def quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
         "total_percent": percent(other.total / one.total - 1.0, 2, sign=True),
         "reverse_area": percent(b.reverse_flow_area, 1),
         "tilt": degrees(b.controls.shaft_tilt, 1),
-        "one_percent": power(0.01 * other.total),
-        "mass": on_one_line(units.mass.text(b.design.condition.mass, 1 if units.mass.size > 1.0 else 0)),
     }
     if a.hub_loads is not None and b.hub_loads is not None:
         found["index_b"] = percent(0.01 * b.hub_loads.index, 1)
@@ -212,6 +210,7 @@ _CHANGES = (
 )
 _AFT, _STARBOARD, _AHEAD = 0.0, 90.0, 180.0
 _CRAFT = ((0.16, 0.0, -0.16), (1.0, 0.72, 0.2))
+_LONG = ((0.24, 0.0, -0.1), (1.3, 0.4, 0.3))
 _DISK = ((0.0, 0.0, -0.05), (1.12, 1.12, 0.06))
 _BLADE = ((0.3, 0.55, -0.02), (0.3, 0.42, 0.06))
 """Centre and half size of what a camera holds, in radii."""
@@ -243,7 +242,7 @@ STEPS: tuple[LectureStep, ...] = (
             "Fuselage drag", (1.0, 0.0), lambda inputs, on: replace(inputs, fuselage=on > 0.5),
             lambda on: "as it is" if on > 0.5 else "none", 0, "switch",
         ),
-        Shot(80.0, 9.0, *_CRAFT), (*_POWERS[1:], ("tilt", "shaft tilt, forward")),
+        Shot(76.0, 9.0, *_LONG), (*_POWERS[1:], ("tilt", "shaft tilt, forward")),
         bounds=(-0.005, 0.005), against=replace(_LINEAR, linear=-4.0, advance_ratio=0.35), field="Thrust dT/dr",
     ),
     LectureStep(
@@ -262,21 +261,21 @@ STEPS: tuple[LectureStep, ...] = (
         against=replace(_LINEAR, linear=-10.6, advance_ratio=0.3), field="Thrust dT/dr",
     ),
     LectureStep(
-        "fixed_or_moving", step_text("fixed_or_moving"), _LINEAR, _fly(SPEEDS, 0.35, "Speed"),
+        "fixed_or_moving", step_text("fixed_or_moving"), _LINEAR, _fly(SPEEDS, 0.0, "Speed"),
         Shot(24.0, 18.0, *_BLADE), _POWERS, bounds=(0.01, 0.05), against=replace(_LINEAR, linear=-12.0),
     ),
     LectureStep(
         "power_or_vibration", step_text("power_or_vibration"), replace(_UH60A, advance_ratio=0.3, bending=True),
         Control("Compromise", tuple(map(float, range(FRONT))), lambda inputs, _: inputs,
                 lambda at: "least power" if at == 0.0 else "least vibration" if at == FRONT - 1 else "between", 0),
-        Shot(66.0, 16.0, *_DISK),
+        Shot(64.0, 20.0, *_LONG),
         (("total_percent", "power, from A to B"), ("index_b", "vibration index"), ("index_change", "from A to B")),
         bounds=(0.0,), against=replace(_UH60A, advance_ratio=0.3, bending=True), field="Angle of attack",
     ),
     LectureStep(
         "piezoelectric_ply", step_text("piezoelectric_ply"), _UH60A, _fly(SPEEDS, 0.3, "Speed"),
         Shot(20.0, 20.0, *_BLADE),
-        (("total_b", "total power"), ("one_percent", "one per cent of that"), ("mass", "gross mass")),
+        (("required", "twist wanted"), ("attainable", "twist in reach"), ("net", "power, on balance")),
         bounds=(0.0,), mode="actuate",
     ),
 )  # fmt: skip

@@ -1,10 +1,10 @@
-"""What the page and the file get of a step: its words with their numbers filled in, and its chart in the page's units."""
+"""What the page and the file get of a step: its words with their numbers filled in, its chart in the page's units."""
 
 from collections.abc import Sequence
 from typing import Any
 
 from explorer.model.units import Unit, Units, number
-from explorer.story.facts import Chart, Facts, Line
+from explorer.story.facts import StepChart, Facts, ChartLine
 from explorer.story.steps import STEPS, LectureStep, angle_words, speed_words
 
 _AWAITED = "…"
@@ -60,26 +60,27 @@ def chart_record(facts: Facts, units: Units) -> dict[str, Any]:
         "y_title": chart.y_title + symbol,
         "lines": [_line(line, scaled(line.y)) for line in chart.lines],
         "band": None if chart.band is None else [scaled(edge) for edge in chart.band],
+        "dot_colours": chart.dots or [line.colour for line in chart.lines],
         "dots": [[[round(wide * x, 4), round(y / size, 4)] for x, y in stop.dots] for stop in facts.stops],
     }
 
 
-def _line(line: Line, y: list[float | None]) -> dict[str, Any]:
+def _line(line: ChartLine, y: list[float | None]) -> dict[str, Any]:
     return {"name": line.name, "colour": line.colour, "y": y}
 
 
-def _y_unit(chart: Chart, units: Units) -> tuple[float, str]:
+def _y_unit(chart: StepChart, units: Units) -> tuple[float, str]:
     if chart.kind == "power":
         unit: Unit = units.power[0]
         return unit.size, f" [{unit.symbol}]"
     return (0.01, " [%]") if chart.kind == "percent" else (1.0, "")
 
 
-def _x_words(chart: Chart, x: float) -> str:
+def _x_words(chart: StepChart, x: float) -> str:
     if chart.x_kind == "mu":
         return speed_words(x)
     return angle_words(x).removesuffix("/R") if chart.x_kind == "rate" else f"{number(100.0 * x, 1, sign=True)} %"
 
 
 def _words(facts: Facts | None, units: Units) -> dict[str, str]:
-    return _Awaited({} if facts is None else {name: one.words(units) for name, one in facts.numbers.items()})
+    return _Awaited({} if facts is None else facts.words(units))

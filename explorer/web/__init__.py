@@ -51,4 +51,5 @@ def scripts(*names: str) -> str:
 @cache
 def frame() -> str:
     """Style sheets, skeleton and scripts of the page, to stand at the beginning of its body."""
-    return f"{styles(*STYLES)}{text('frame.html')}{scripts(*SCRIPTS)}"
+    body = fill("frame.html", {"column": text("column.html"), "stage": text("wipe.html")})
+    return f"{styles(*STYLES)}{body}{scripts(*SCRIPTS)}"

@@ -209,7 +209,7 @@
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
       const wide = ['.rxf-inset', '.rxf-field', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
-      const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
+      const low = [...wide.filter(box => box.top > stage.top + stage.height / 3), seen('.rxs-wipe > span')].filter(Boolean), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
       const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;

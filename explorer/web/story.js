@@ -67,11 +67,11 @@ window.makeStory = (column, figures, report) => {
     for (const other of list.querySelectorAll('.rxs-answer')) other.hidden = other !== place || guess === null;
     if (guess !== null) {
       const right = answer && answer.right === guess;
-      place.querySelector('p').innerHTML = answer ? `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'Not so.'}</b> ${marked(answer.answer)}` : 'Computing …';
+      place.querySelector('p').innerHTML = answer ? `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'Not so.'}</b> ${marked(answer.answer)}` : text(now.problem || 'Computing …');
       chart(place.querySelector('figure'), answer?.chart, stop);
     }
     const out = part.querySelector('output'), slider = part.querySelector('[data-stop]');
-    out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : 'computing …';
+    out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : now.problem || 'computing …';
     if (slider) {
       if (document.activeElement !== slider || !slider.matches(':active')) slider.value = stop ?? 0;
       slider.disabled = held || !step.control.words.length;
@@ -88,8 +88,8 @@ window.makeStory = (column, figures, report) => {
     for (const button of foot.querySelectorAll('[data-do=lecture]')) button.hidden = held;
     foot.querySelector('[data-value=back]').disabled = at === 0;
     foot.querySelector('[data-value=next]').textContent = step.last ? now.finish : 'Next';
-    figures.hidden = guess === null || !now.figures.length;
-    const numbers = now.figures.map(([title, value]) => `<div><b class="rxf-num">${text(value)}</b><span>${text(title)}</span></div>`).join('');
+    figures.hidden = false;
+    const numbers = now.figures.map(([title, value]) => `<div><b class="rxf-num"${value === '?' ? ' data-unknown' : ''}>${text(value)}</b><span>${text(title)}</span></div>`).join('');
     if (figures.innerHTML !== numbers) figures.innerHTML = numbers;
     if (aim !== at && !near(at)) go(at);
   };
@@ -97,7 +97,7 @@ window.makeStory = (column, figures, report) => {
   // Lines over what is moved, with the present place on each.
   const chart = (figure, data, stop) => {
     if (!data) { figure.innerHTML = ''; return; }
-    const width = Math.max(figure.clientWidth, 260), height = innerHeight < 800 ? 132 : 168, left = 46, right = 10, top = 8, bottom = 22;
+    const width = Math.max(figure.clientWidth, 260), height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, left = 46, right = 10, top = 8, bottom = 22;
     const values = [...data.lines.flatMap(line => line.y), ...(data.band ?? []).flat()].filter(y => y !== null);
     let low = Math.min(...values), high = Math.max(...values);
     const room = 0.06 * (high - low || 1);

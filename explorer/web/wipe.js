@@ -3,14 +3,14 @@
 (() => {
   const stage = document.querySelector('.rxf-stage'), place = stage.querySelector('[data-part=wipe]'), handle = place.querySelector('[role=slider]');
   const node = name => window.__viserMutable?.nodeRefFromName?.[name];
-  let on = false, at = 0.5, second = false, hooked = null, told = null;
+  let on = false, alone = false, at = 0.5, second = false, hooked = null, told = null;
 
   const side = a => {
     for (const [name, seen] of [['/compared', a], ['/rotor', !a]]) if (node(name)) node(name).visible = seen;
   };
   const hook = scene => {
     hooked = scene;
-    scene.onBeforeRender = (_, __, ___, target) => { if (on && !target && node('/compared')) side(second); };
+    scene.onBeforeRender = (_, __, ___, target) => { if ((on || alone) && !target && node('/compared')) side(second); };
     scene.onAfterRender = (renderer, _, camera, target) => {
       if (!on || target || second || !node('/compared')) return;
       const {clientWidth, clientHeight} = renderer.domElement;
@@ -64,6 +64,8 @@
       show();
     },
     name(a, b) { place.querySelector('[data-side=a]').textContent = a; place.querySelector('[data-side=b]').textContent = b; },
+    // A is seen in the wipe or not at all; in the page the server hides it.
+    keepAlone() { alone = true; show(); },
     heard(listener) { told = listener; },
     get at() { return at; },
   };

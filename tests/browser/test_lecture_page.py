@@ -4,11 +4,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
+from explorer.tabs.lecture.steps import STEPS
 from test_session_page import design_in_address, shown_kw
 from watched import COARSE, Visit
 
 from explorer.app import App
-from explorer.tabs.lecture.steps import STEPS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -1,4 +1,4 @@
-"""The lecture of one session: its steps beside the scene, the guess and the control of each, and what its end gives back."""
+"""The lecture of one session: its steps beside the scene, guess and control of each, and what its end gives back."""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -14,14 +14,18 @@ from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, FactsTask
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
+from explorer.story.story_file import StoryTask
 from explorer.story.telling import answer_record, step_record
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.lecture.cases import CASES, FLIGHTS
 from explorer.text.glossary import hint
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed
 
 _NO_CASE = "–"
+_PATIENCE = 600.0
+"""[s] for the numbers of a step: seconds, but for a server that many use."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ class LecturePanel(Tab):
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
-        self._told = PoolAnswers(context.pool, 4, self._facts_came)
+        self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
         gui.add_html(
             '<div class="rx rx-dim">Ten steps: each sets the page, asks for a guess and answers it. '
             "End gives your own design back.</div>"
@@ -76,7 +80,11 @@ class LecturePanel(Tab):
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
+        self._file = gui.add_button(
+            "Lecture as one file", icon=viser.Icon.FILE_EXPORT, color="gray", hint=hint("story")
+        )
         self._begin.on_click(lambda _: self.toggle())
+        self._file.on_click(lambda _: self._write_file())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
         by_hand(self._case, self._case_chosen)
         for name, action in (("lecture", self._pressed), ("story", self._step_asked), ("guess", self._guessed),
@@ -167,6 +175,26 @@ class LecturePanel(Tab):
         """The browser has left."""
         self._told.stop()
 
+    def _write_file(self) -> None:
+        """Have the lecture made as a file in a worker process, in the page's units and theme, and send it."""
+        context, view = self._context, self._context.view()
+        task = StoryTask(ViewState(units=view.units, dark=view.dark))
+        self._file.disabled, self._file.label = True, "Making the file, about a minute …"
+
+        def heard(news: JobEvent) -> None:
+            match news:
+                case JobEnded(str(text)):
+                    context.download("lecture.html", text.encode("utf-8"))
+                case JobEnded():
+                    context.notify("No file of the lecture", "It took too long: try again when fewer use this server.")
+                case JobFailed(message):
+                    context.notify("No file of the lecture", message)
+                case _:
+                    return
+            self._file.disabled, self._file.label = False, "Lecture as one file"
+
+        context.pool.submit(task, heard, _PATIENCE, urgency=6)
+
     def _fly_on(self) -> None:
         """The lecture ends in Actuate, on the blade of its last step."""
         before, self._before = self._before, None
@@ -203,6 +231,11 @@ class LecturePanel(Tab):
         """What is computed of a step; None until then."""
         found = self._told.answer(FactsTask(step))
         return found if isinstance(found, Facts) else None
+
+    def _problem(self, step: int) -> str:
+        """Why there are none; empty else."""
+        found = self._told.answer(FactsTask(step))
+        return found if isinstance(found, str) else ""
 
     def _facts_came(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
@@ -242,10 +275,10 @@ class LecturePanel(Tab):
             return
         step, state, facts = STEPS[place.step], self._state, self._facts(place.step)
         guessed = place.guess is not None
-        figures = list[tuple[str, str]]()
-        if guessed and state is not None:
-            values = quantities(state.solution, state.reference, units)
-            figures = [(caption, values.get(name, "–")) for name, caption in step.figures]
+        values = dict[str, str]()
+        if guessed and state is not None and facts is not None:
+            values = {**facts.words(units), **quantities(state.solution, state.reference, units)}
+        figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(one, self._facts(k), units) for k, one in enumerate(STEPS)],
             lecture={
@@ -255,8 +288,9 @@ class LecturePanel(Tab):
                 "stop": place.stop,
                 "figures": figures,
                 "busy": state is None,
+                "problem": self._problem(place.step),
                 "held": self._context.held,
-                "finish": "Fly the actuator",
+                "finish": "Fly it",
             },
         )
 
