@@ -307,7 +307,8 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
     }  # fmt: skip
     chart = StepChart(
         "advance ratio", "twist [°/R]", "angle", SPEEDS, "mu",
-        (ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)), (low, high),
+        (ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)),
+        (low, high),
     )  # fmt: skip
     return _answered(step, stops, numbers, moving.gain, chart)
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from explorer.model.units import Unit, Units, number
-from explorer.story.facts import StepChart, Facts, ChartLine
+from explorer.story.facts import ChartLine, Facts, StepChart
 from explorer.story.steps import STEPS, LectureStep, angle_words, speed_words
 
 _AWAITED = "…"
