@@ -53,12 +53,12 @@ window.makeStory = (column, figures, report) => {
     if (!now || !steps.length) return;
     const {at, guess, answer, stop, held} = now;
     column.dataset.step = at + 1;
-    [...list.children].forEach((part, k) => {
-      part.inert = k !== at;
+    [...list.children].forEach((one, k) => {
+      one.inert = k !== at;
       const own = k === at ? now : {guess: null, answer: null, stop: null};
-      for (const button of part.querySelectorAll('.rxs-guess button')) {
+      for (const button of one.querySelectorAll('.rxs-guess button')) {
         const n = Number(button.dataset.value);
-        button.disabled = held || own.guess !== null || own.asked === false;
+        button.disabled = held || own.guess !== null;
         button.toggleAttribute('data-chosen', own.guess === n);
         button.toggleAttribute('data-right', Boolean(own.answer) && own.answer.right === n);
       }

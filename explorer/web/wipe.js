@@ -45,7 +45,7 @@
     const box = stage.getBoundingClientRect();
     put((event.clientX - box.left) / box.width);
   });
-  for (const end of ['pointerup', 'pointercancel']) handle.addEventListener(end, () => { held = false; });
+  for (const over of ['pointerup', 'pointercancel']) handle.addEventListener(over, () => { held = false; });
   handle.addEventListener('keydown', event => {
     const by = {ArrowLeft: -0.05, ArrowRight: 0.05}[event.key];
     if (!by) return;
