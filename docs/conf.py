@@ -35,6 +35,7 @@ import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import demo  # noqa: E402
 from explorer.export.report import document  # noqa: E402
+from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
 from rotor.command.parser import build_parser  # noqa: E402
 
@@ -143,6 +144,7 @@ class Commands(SphinxDirective):
             page_command._parser(),
             document._parser(),
             demo._parser(),
+            story_file._parser(),
         ):
             text = parser.format_help()
             title = parser.prog.removeprefix("python -m ")

@@ -15,7 +15,7 @@ from rotor.terminal import OneLineParser, StopSignal, run_command
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `demo` and `blade`."""
+    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story`, `demo` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["report"]:
         from explorer.export.report.document import main as report
@@ -25,6 +25,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from explorer.export.blade import main as blade
 
         return blade(given[1:])
+    if given[:1] == ["story"]:
+        from explorer.story.story_file import main as story
+
+        return story(given[1:])
     if given[:1] == ["demo"]:
         from explorer.export.demo import main as demo
 
@@ -83,8 +87,9 @@ def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog="python -m explorer",
         description="Explore helicopter blade twist in a browser.",
-        epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), demo "
-        "(the rotor in a sweep of twist and speed as an HTML file), blade (shapes for CAD).",
+        epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), story "
+        "(the lecture as an HTML file), demo (the rotor in a sweep of twist and speed as an HTML file), blade (shapes "
+        "for CAD).",
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")

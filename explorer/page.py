@@ -129,7 +129,7 @@ class Page:
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             export = ExportPanel(context, self.scene, self.history)
         with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(context)
+            self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)

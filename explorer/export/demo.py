@@ -25,6 +25,7 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of
+from explorer.scene.scene import ROTOR
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
@@ -87,7 +88,7 @@ def demo_html(
             for twist in twists:
                 solution = solve(_variant(design, twist, speed), start)
                 start = solution if solution.converged else start
-                row.append(_point(solution, shape, view, colour_range) if solution.converged else None)
+                row.append(point_record(solution, shape, view, colour_range) if solution.converged else None)
                 bar.update()
             points.append(row)
     edges = edge_pairs(shape)
@@ -98,10 +99,8 @@ def demo_html(
         "knots": [speed * design.rotor.tip_speed / KNOT for speed in speeds],
         "opening": [list(twists).index(first[0]), list(speeds).index(first[1])],
         "points": points,
-        "shape": _packed(blade_vertices(shape, UNTWISTED)),
-        "rings": list(shape.rings.shape[:2]),
+        **shape_record(shape),
         "jig": [_packed(shape.pitch(parse_twist(f"linear:{twist:g}"), view.exaggeration)) for twist in twists],
-        "faces": _packed(np.asarray(shape.faces)),
         "edges": _packed(edges),
         "ghost": JIG_EDGES,
         "parts": [[name, title, PARTS[name]] for name, title in part_titles(design).items()],
@@ -123,7 +122,7 @@ def demo_html(
         "title": escape(f"{design.rotor.name}: twist and speed"),
         "label": f"Linear {record['label']}",
         "data": web.json_block("demo-data", record),
-        "scripts": web.scripts("scene.js", "demo.js"),
+        "scripts": web.scripts("scene.js", "still_rotor.js", "demo.js"),
     }
     front = web.fill("demo.html", words)
     body = page.rindex("</body>")
@@ -166,14 +165,25 @@ def flown_pitch(solution: Solution, shape: BladeShape, exaggeration: float) -> A
     return np.array(basis) @ pitch / count
 
 
-def _point(solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float]) -> dict[str, Any]:
+def shape_record(shape: BladeShape) -> dict[str, Any]:
+    """What `still_rotor.js` shapes blades from."""
+    return {
+        "shape": _packed(blade_vertices(shape, UNTWISTED)),
+        "rings": list(shape.rings.shape[:2]),
+        "faces": _packed(np.asarray(shape.faces)),
+    }
+
+
+def point_record(
+    solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float], root: str = ROTOR
+) -> dict[str, Any]:
     """One trim: powers [kW], motion and pitch of the blades, poses, and the picture of the disk as WebP."""
     picture = make_picture(solution, view, colour_range, pixels=PIXELS)
     image = io.BytesIO()
     Image.open(io.BytesIO(picture.png)).convert("RGBA").save(image, "WEBP", quality=80)
     return {
         "power": [round(getattr(solution.power, name) / 1e3, 2) for name in part_titles(solution.design)],
-        "motion": motion_of(solution),
+        "motion": motion_of(solution, root),
         "poses": [
             [pose.wxyz.tolist(), pose.position.tolist()] for pose in (picture.rotor, picture.disk, picture.airframe)
         ],

@@ -269,6 +269,8 @@ class ViewState:
     """Whether arrows show the induced inflow."""
     beside: bool = False
     """Whether A stands beside B while a design is pinned."""
+    wipe: bool = False
+    """Whether A is seen left of a handle, and B right of it, while a design is pinned."""
 
 
 def inputs_of(design: Design) -> Inputs:

@@ -64,21 +64,6 @@ class Camera:
     look_at: Array
 
 
-def eased_between(start: Camera, end: Camera, part: float) -> Camera:
-    """Between two cameras, 0…1: the direction turns about the subject, so that it stays in view."""
-    middle = (1.0 - part) * start.look_at + part * end.look_at
-    arms = start.position - start.look_at, end.position - end.look_at
-    lengths = [max(float(np.linalg.norm(arm)), 1e-9) for arm in arms]
-    angles = [
-        (math.atan2(arm[1], arm[0]), math.asin(arm[2] / length)) for arm, length in zip(arms, lengths, strict=True)
-    ]
-    turn = (angles[1][0] - angles[0][0] + math.pi) % math.tau - math.pi
-    around, above = angles[0][0] + part * turn, (1.0 - part) * angles[0][1] + part * angles[1][1]
-    length = lengths[0] ** (1.0 - part) * lengths[1] ** part
-    arm = np.array([math.cos(around) * math.cos(above), math.sin(around) * math.cos(above), math.sin(above)])
-    return Camera(middle + length * arm, middle)
-
-
 @dataclass(frozen=True)
 class Cover:
     """Fractions of the canvas's height that cards cover along its whole width, from above and from below."""
@@ -96,6 +81,27 @@ class Cover:
     def lift(self) -> float:
         """How far above the middle of the canvas the middle of the free part lies."""
         return 0.5 * (self.below - self.above)
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A camera from any side on a part of the rotor."""
+
+    azimuth_deg: float
+    """From where; 0 is behind the tail, 90 the advancing side."""
+    elevation_deg: float
+    centre: tuple[float, float, float]
+    """Of the box that fills the canvas, from the hub [R]."""
+    half: tuple[float, float, float]
+    """Half its size [R]."""
+
+    def fit(self, radius: float, aspect: float) -> Camera:
+        """For a rotor of this radius [m] and a canvas of this width over height, without cards."""
+        azimuth, elevation = math.radians(self.azimuth_deg), math.radians(self.elevation_deg)
+        level = math.cos(elevation)
+        backward = np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
+        corners = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+        return framed(radius * (np.array(self.centre) + corners * np.array(self.half)), backward, aspect)
 
 
 USUAL_COVER = Cover()

@@ -1,7 +1,6 @@
 """The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
 
 import math
-import threading
 import time
 from collections.abc import Callable
 from functools import partial
@@ -9,16 +8,8 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import (
-    FIELD_OF_VIEW,
-    USUAL_COVER,
-    Camera,
-    Cover,
-    View,
-    between_cards,
-    eased_between,
-    fit,
-)
+from explorer.hosting.browser import call
+from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
@@ -28,8 +19,8 @@ _LEAST_COVER = 1e-3
 """A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
-_EASED = 0.7
-"""A flight to another subject takes so long [s]."""
+_FLIGHT = 1.0
+"""A flight of the camera takes no longer [s]."""
 _TAKEN = 0.3
 """A camera this far [m] from where it was put was moved by the user."""
 
@@ -51,10 +42,10 @@ class FittedCamera:
         self._fit: Callable[[float], Camera] = partial(self._fitted, "3d")
         self._following = True
         self._held = False
+        self._arrives = 0.0
+        """When a flight of the camera ends."""
         self._wanted: tuple[float, bool] | None = None
         """What `follow` was given while the camera was held."""
-        self._flight = 0
-        """Number of the last aim: a flight to an earlier one ends."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
@@ -102,7 +93,7 @@ class FittedCamera:
             return
         self._cover = cover
         if self._following and self._put is not None and not self._held:
-            self._aim(self._fit)
+            self._aim(self._fit, eased=time.monotonic() < self._arrives)
 
     def hold(self, held: bool) -> None:
         """Stand still while the blade is in the user's hand; what was to be followed meanwhile is followed then."""
@@ -110,6 +101,10 @@ class FittedCamera:
         wanted, self._wanted = self._wanted, None
         if not held and wanted is not None:
             self.follow(*wanted)
+
+    def hold_shot(self, shot: Shot) -> None:
+        """Show a part of the rotor from one side; the camera flies there."""
+        self.aim_with(lambda aspect: shot.fit(self.radius, aspect), eased=True)
 
     def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         """The same for any other subject: `fitted` finds the camera for a width over height without cards."""
@@ -120,30 +115,14 @@ class FittedCamera:
         camera = self._client.camera
         self._fit, self._following = fitted, True
         target = fitted(camera.aspect)
-        self._flight += 1
-        self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
+        self._arrives = time.monotonic() + _FLIGHT if eased else 0.0
         if eased:
-            start = Camera(np.array(camera.position), np.array(camera.look_at))
-            threading.Thread(target=self._fly, args=(self._flight, start, target), daemon=True).start()
+            call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
         else:
-            self._stand(target)
-
-    def _fly(self, flight: int, start: Camera, target: Camera) -> None:
-        """From one place to another in `_EASED`, unless the camera is aimed anew meanwhile."""
-        begin, part = time.monotonic(), 0.0
-        while part < 1.0:
-            time.sleep(_EASED / 24)
-            if flight != self._flight:
-                return
-            part = min((time.monotonic() - begin) / _EASED, 1.0)
-            self._stand(eased_between(start, target, part * part * (3.0 - 2.0 * part)))
-
-    def _stand(self, at: Camera) -> None:
-        camera = self._client.camera
-        with self._client.atomic():
-            camera.position = at.position
-            camera.look_at = at.look_at
-        self._client.flush()
+            with self._client.atomic():
+                camera.position = target.position
+                camera.look_at = target.look_at
+        self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following:

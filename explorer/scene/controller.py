@@ -6,6 +6,7 @@ While something moves, the disk is small and only the reference blade is bent. `
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import numpy as np
 import viser
 
 from explorer.model.inputs import ViewState, baseline_of
@@ -68,6 +69,8 @@ class SceneController:
         """Follows the shaft tilt, once the page has one."""
         self._look: View = "3d"
         self._drawn: _Drawn | None = None
+        self._compared = False
+        """Whether A is at the place of B."""
         self._fine = False
         """Whether the frame is drawn as finely as it can be."""
         self._ranges: dict[str, Range] = {}
@@ -133,7 +136,8 @@ class SceneController:
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
         self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
         picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
-        beside = drawn.pinned if view.beside and drawn.pinned is not None and drawn.pinned.converged else None
+        wanted = view.beside or view.wipe
+        beside = drawn.pinned if wanted and drawn.pinned is not None and drawn.pinned.converged else None
         other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
         with self._client.atomic():
             self.scene.show(picture, still=not self._page.playing)
@@ -141,11 +145,15 @@ class SceneController:
             self._air.show(solution, view, scene_theme(view.dark))
             if beside is not None:
                 self._air.hide_vortices()
+            if view.wipe or self._compared:
+                self._compared = view.wipe and beside is not None
+                self._page.compare(beside if self._compared else None)
             if beside is None or other is None:
                 self.scene.hide_beside()
             else:
                 radius = max(beside.design.rotor.radius, solution.design.rotor.radius)
-                self.scene.show_beside(beside.design.rotor, other, apart(radius))
+                offset = apart(radius) if view.beside else np.zeros(3)
+                self.scene.show_beside(beside.design.rotor, other, offset)
         self._client.flush()
         self._drawn, self._fine = drawn, True
 
@@ -221,4 +229,4 @@ class SceneController:
 
 def _field(view: ViewState, pinned: Solution | None) -> Field:
     """What the disk shows: B − A where wanted, but not while A stands beside B."""
-    return FIELDS[view.field] if view.beside else shown_field(view, pinned)
+    return FIELDS[view.field] if view.beside or view.wipe else shown_field(view, pinned)

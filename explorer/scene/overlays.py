@@ -90,6 +90,9 @@ class Ghost:
 
     def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> None:
         """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown."""
+        if view.wipe:  # A itself is seen, left of the handle.
+            self._surface.visible = self._lines.visible = False
+            return
         psi, exaggeration = math.radians(view.azimuth_deg), view.exaggeration
         ghost = ghost_twist(solution, other.twist, psi)
         bent = drawn_bending(solution, blade_shape(other.rotor).r, psi)

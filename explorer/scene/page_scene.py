@@ -16,7 +16,7 @@ from explorer.hosting.browser import call
 from explorer.picture.poses import pitch_series
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.overlays import VORTICES
-from explorer.scene.scene import ROTOR
+from explorer.scene.scene import COMPARED, ROTOR
 from rotor.trim.solution import Solution
 
 TURN_RATES = {"slow": math.radians(18.0), "normal": math.radians(54.0), "fast": math.radians(162.0)}
@@ -32,11 +32,11 @@ SURFACES = {
 """Materials by node: how rough and metallic, or a flat picture, which must not hide what lies behind its corners."""
 
 
-def motion_of(solution: Solution) -> dict[str, Any]:
+def motion_of(solution: Solution, root: str = ROTOR) -> dict[str, Any]:
     """What `rotorScene.move` needs: how blades flap and pitch, and where the tip vortices go."""
     rotor, controls = solution.design.rotor, solution.controls
     return {
-        "root": ROTOR,
+        "root": root,
         "blades": rotor.blades,
         "hinge": rotor.blade.flap_hinge * rotor.radius,
         "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
@@ -66,6 +66,11 @@ class PageScene:
         self._motion = solution
         if self.playing:
             self._send(solution)
+
+    def compare(self, solution: Solution | None) -> None:
+        """How the blades of A move, where it is at the same place."""
+        motion = None if solution is None else motion_of(solution, COMPARED)
+        call(self._client, "rotorScene.compare", motion)
 
     def turn(self, azimuth: float) -> None:
         """The reference blade is at ψ [rad] now; the page goes on from here until the next message."""

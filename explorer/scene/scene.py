@@ -146,7 +146,7 @@ class Scene:
         self._dark_parts = solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
         self.rotor = RotorNodes(api, ROTOR, rotor, theme)
         self._compared: RotorNodes | None = None
-        self._beside = self._alone = False
+        self._beside = self._alone = self._apart = False
         self._letters: list[viser.ImageHandle] = []
         self._light_up()
         self._fit_airframe(rotor)
@@ -164,21 +164,25 @@ class Scene:
         place(self._airframe, picture.airframe)
 
     def show_beside(self, rotor: Rotor, picture: Picture, offset: Array) -> None:
-        """A second rotor at −`offset` [m] and the first at +`offset`, marked A and B; the airframe makes room."""
+        """A second rotor at −`offset` [m] and the first at +`offset`, marked A and B; the airframe makes room.
+
+        Without an offset both are at one place: the page then draws one left of a handle and the other right of it.
+        """
         if self._compared is None:
             self._compared = RotorNodes(self._api, COMPARED, rotor, self._theme)
         self._compared.fit(rotor)
         self._compared.show(picture, everything=True)
         self._compared.frame.position = -offset
         self.rotor.frame.position = offset
-        self._beside = True
-        self._show_letters(rotor.radius, offset)
+        self._beside, self._apart = True, bool(np.any(offset))
+        if self._apart:
+            self._show_letters(rotor.radius, offset)
         self._set_visible()
 
     def hide_beside(self) -> None:
         """One rotor again."""
         if self._beside:
-            self._beside = False
+            self._beside = self._apart = False
             self.rotor.frame.position = np.zeros(3)
             self._set_visible()
 
@@ -255,10 +259,13 @@ class Scene:
         self.rotor.words.visible = not (self._close or self._behind)
         self.rotor.image.visible = not self._behind
         self.rotor.frame.visible = self._seen
-        self._airframe.visible = self._seen and not (self._beside or self._close or self._alone)
+        self._airframe.visible = self._seen and not (self._apart or self._close or self._alone)
         self._shadow.visible = self._airframe.visible and not self._behind
-        for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
-            handle.visible = self._seen and self._beside
+        for handle in self._letters:
+            handle.visible = self._seen and self._apart
+        if self._compared is not None:
+            self._compared.frame.visible = self._seen and self._beside
+            self._compared.words.visible = not self._close
 
 
 def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:

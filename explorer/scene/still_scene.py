@@ -88,11 +88,12 @@ def still_page(
     colour_range: tuple[float, float],
     covered: float = 0.0,
     edges: Array | None = None,
+    compared: Solution | None = None,
 ) -> str:
     """One as a page of its own; from a server that nobody else sees, for only servers can record.
 
     `covered`: the part of the window's width, on the right, that a panel will cover. `edges`: lines of the jig shape,
-    (n, 2, 3) [m], drawn at `JIG_EDGES`.
+    (n, 2, 3) [m], drawn at `JIG_EDGES`. `compared`: a second rotor at the same place, for a page that wipes the two.
     """
     server = viser_compat.quiet_server("127.0.0.1", 0, "still")
     try:
@@ -110,6 +111,10 @@ def still_page(
         # A file should be small: elastic twist alone is drawn with one shape for all, that of the reference blade.
         blades = turned_blades(solution, view, solution.design.active_twist is not None, bent=False)
         scene.show(replace(picture, blades=blades))
+        if compared is not None:
+            other = make_picture(compared, view, colour_range, pixels=_PIXELS, bent=False)
+            plain = turned_blades(compared, view, each=False, bent=False)
+            scene.show_beside(compared.design.rotor, replace(other, blades=plain), np.zeros(3))
         if edges is not None:
             colours = np.full(edges.shape, 60, dtype=np.uint8)
             server.scene.add_line_segments(

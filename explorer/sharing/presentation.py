@@ -21,6 +21,19 @@ Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
+class StoryPlace:
+    """Where a lecture is."""
+
+    step: int
+    guess: int | None = None
+    """The answer that was chosen; None before."""
+    stop: int = 0
+    """Position of the step's control."""
+    wipe: float = 0.5
+    """Where the handle between A and B is, from left to right (0…1)."""
+
+
+@dataclass(frozen=True)
 class PresentedView:
     """What a presenter shows."""
 
@@ -28,8 +41,8 @@ class PresentedView:
     view: ViewState
     against: Inputs | None = None
     """A of A/B."""
-    step: int | None = None
-    """Step of the lecture."""
+    place: StoryPlace | None = None
+    """In the lecture."""
     camera: tuple[Point, Point] | None = None
     """Position and the point looked at [m]."""
 

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 _FOLDER = Path(__file__).parent
-STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "big.css")
+STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "big.css")
 """Of the page; those that come later outweigh those before."""
 SCRIPTS = (
     "viser.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js", "plan.js",
-    "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js",
+    "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js", "wipe.js", "story.js", "lecture.js",
 )  # fmt: skip
 """Of the page, in the order in which they run: `viser.js` before viser's client, and `frame.js` defines `RX`."""
 
@@ -51,4 +51,5 @@ def scripts(*names: str) -> str:
 @cache
 def frame() -> str:
     """Style sheets, skeleton and scripts of the page, to stand at the beginning of its body."""
-    return f"{styles(*STYLES)}{text('frame.html')}{scripts(*SCRIPTS)}"
+    body = fill("frame.html", {"column": text("column.html"), "stage": text("wipe.html")})
+    return f"{styles(*STYLES)}{body}{scripts(*SCRIPTS)}"

@@ -69,7 +69,7 @@
     fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
     fit.textContent = now.fitted ? 'Reset' : 'Fit';
     fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
-    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="beside" aria-pressed="${now.beside}">A beside B</button>`;
+    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="beside" aria-pressed="${now.beside}">A beside B</button><button data-do="region" data-value="wipe" aria-pressed="${now.wipe}">Wipe A | B</button>`;
     part('legend').innerHTML = Object.entries(REGIONS).map(([name, [title, swatch]]) =>
       `<button data-do="region" data-value="${name}" aria-pressed="${now.regions[name]}"><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${name === 'stall' && now.stalled ? ` ${text(now.stalled)}` : ''}</button>`).join('') + apart;
   });

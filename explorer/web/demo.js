@@ -2,47 +2,19 @@
 (() => {
   const data = JSON.parse(document.getElementById('demo-data').textContent), $ = id => document.getElementById(`demo-${id}`);
   const box = document.getElementById('demo'), twist = $('twist'), speed = $('speed'), status = box.querySelector('[role=status]');
-  const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
-  const faces = new Uint32Array(bytes(data.faces)), edges = new Uint32Array(bytes(data.edges));
-  const floats = text => new Float32Array(bytes(text)), shape = floats(data.shape), [rings, points] = data.rings;
-  const jig = data.jig.map(floats), flown = {};
-  const images = {}, viewer = () => window.__viserMutable, node = name => viewer()?.nodeRefFromName?.[name];
+  const rotor = window.stillRotor(data), {node, pose} = rotor, floats = rotor.floats, edges = rotor.edges;
+  const jig = data.jig.map(floats);
   const minus = text => String(text).replace('-', '−'), total = point => point.power.reduce((sum, part) => sum + part, 0);
   const at = (s, t) => data.points[s][t];
   let psi = Math.PI / 5, playing = false, before = 0, calm = 0, shown = null;
 
-  const pose = (name, [wxyz, position]) => { viewer().nodePoseData[name] = {wxyz, position, poseUpdateState: 'needsUpdate'}; };
-
-  // After the rings come those of root and tip once more, and the centres of both.
-  const ringOf = [...Array(rings).keys(), 0, rings - 1].flatMap(ring => Array(points).fill(ring)).concat(0, rings - 1);
-  const turned = pitch => {
-    const vertices = new Float32Array(shape);
-    for (let v = 0; v < shape.length / 3; v++) {
-      const angle = pitch[ringOf[v]], cos = Math.cos(angle), sin = Math.sin(angle), y = shape[3 * v + 1], z = shape[3 * v + 2];
-      vertices[3 * v + 1] = y * cos - z * sin;
-      vertices[3 * v + 2] = y * sin + z * cos;
-    }
-    return vertices;
-  };
-  // Harmonics 1, cos ψ, sin ψ, cos 2ψ, … of the pitch of each ring.
-  const pitchAt = (waves, angle) => Array.from({length: rings}, (_, ring) => {
-    let sum = waves[ring];
-    for (let row = 1; row < waves.length / rings; row++) {
-      const n = Math.ceil(row / 2);
-      sum += waves[row * rings + ring] * (row % 2 ? Math.cos(n * angle) : Math.sin(n * angle));
-    }
-    return sum;
-  });
-
   const shapeBlades = angle => {
     if (!shown) return;
-    const [s, t] = shown.split(',').map(Number), point = at(s, t), waves = flown[shown] ??= floats(point.flown);
-    for (let k = 0; k < point.motion.blades; k++)
-      shapeBlade(k, turned(pitchAt(waves, angle + 2 * Math.PI * k / point.motion.blades)));
-    viewer().requestRender?.();
+    const [s, t] = shown.split(',').map(Number), point = at(s, t);
+    rotor.shape('/rotor', point, angle);
   };
   const drawJig = t => {
-    const vertices = turned(jig[t]);
+    const vertices = rotor.turned(jig[t]);
     node(data.ghost)?.traverse?.(part => {
       const ends = part.geometry?.attributes?.instanceStart?.data;
       if (ends?.array?.length !== 3 * edges.length) return;
@@ -50,38 +22,6 @@
       ends.needsUpdate = true;
     });
   };
-  // A viewer keeps a mesh with shared corners, or one corner for each face: both are filled.
-  const shapeBlade = (k, vertices) => {
-    node(`/rotor/blade_${k}`)?.traverse?.(part => {
-      const geometry = part.geometry, place = geometry?.attributes?.position;
-      if (!part.isMesh || !place) return;
-      if (place.array.length === vertices.length) place.array.set(vertices);
-      else if (place.array.length === 3 * faces.length)
-        faces.forEach((corner, n) => { for (let i = 0; i < 3; i++) place.array[3 * n + i] = vertices[3 * corner + i]; });
-      else return;
-      place.needsUpdate = true;
-      geometry.computeVertexNormals();
-      geometry.computeBoundingSphere();
-    });
-  };
-
-  const picture = (s, t) => images[[s, t]] ??= new Promise(done => {
-    const image = new Image();
-    image.onload = () => done(image);
-    image.src = `data:image/webp;base64,${at(s, t).disk}`;
-  });
-  const paint = async (s, t) => {
-    const image = await picture(s, t);
-    if (shown !== `${s},${t}`) return;
-    node('/rotor/disk/field')?.traverse?.(part => {
-      if (!part.isMesh || !part.material?.map) return;
-      part.material.map.dispose();
-      part.material.map.image = image;
-      part.material.map.needsUpdate = true;
-    });
-    viewer().requestRender?.();
-  };
-
   // `apart`: the first point, hover, has another inflow model, so no line leads to it.
   const chart = (svg, xs, ys, here, name, text, apart) => {
     const known = ys.filter(y => y !== null), low = 0.98 * Math.min(...known), high = 1.02 * Math.max(...known);
@@ -123,7 +63,7 @@
     ['/rotor', '/rotor/disk', '/airframe'].forEach((name, k) => pose(name, point.poses[k]));
     shapeBlades(psi);
     drawJig(t);
-    paint(s, t);
+    rotor.paint('/rotor', point);
     rotorScene.move(point.motion);
     calm = performance.now() + 1500;
   };

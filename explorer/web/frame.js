@@ -121,6 +121,7 @@
     if (open) page.dataset.rail = 'open'; else delete page.dataset.rail;
     root.querySelector('[data-page=rail]').ariaExpanded = String(open);
   }
+  RX.openRail = openRail;
   if (innerWidth <= 700) openRail(true);
 
   function mark(mode) {
@@ -183,25 +184,6 @@
     place.hidden = !words;
     if (words) place.innerHTML = icon('hand') + `<span data-explorer="prompt">${RX.text(words.text)}</span>`;
   });
-  RX.paint('lecture', step => {
-    const place = part('caption');
-    if (step && !page.hasAttribute('data-lecture')) openRail(false);  // Full-bleed, until the controls are asked for.
-    page.toggleAttribute('data-lecture', Boolean(step));
-    place.hidden = !step;
-    if (!step) { page.style.removeProperty('--rx-caption'); place.style.minHeight = ''; openRail(innerWidth <= 700); window.dispatchEvent(new Event('resize')); return; }
-    const figures = step.figures.map(([title, value, kind]) => `<div><b class="${kind ? `rxf-${kind}` : ''}">${RX.text(value)}</b><span>${RX.text(title)}</span></div>`).join('');
-    const dots = Array.from({length: step.of}, (_, k) => `<i ${k === step.at ? 'data-here' : ''}></i>`).join('');
-    const buttons = step.held ? '' : `<button data-do="lecture" data-value="back">Back</button><button data-do="lecture" data-value="again">Reset this step</button>
-      <button data-do="lecture" data-value="next" class="rxf-main">${step.at + 1 < step.of ? 'Next' : 'Finish'}</button><button data-do="lecture" data-value="end">End</button>`;
-    place.innerHTML = `<div data-explorer="lecture" data-step="${step.at + 1}"><h2>${RX.text(step.title)}</h2><p>${RX.text(step.watch)}</p>
-      <p><span data-explorer="said">${RX.text(step.said)}</span></p><p>${RX.text(step.todo)}</p></div>
-      <div class="rxf-figures">${figures}</div><div class="rxf-steps">${dots}<span class="rxf-push"></span>${buttons}</div>`;
-    // It grows to what a step needs and stays: with a caption that changed its height the scene would jump.
-    const height = place.offsetHeight;
-    if (innerWidth > 1100) place.style.minHeight = `${height}px`;
-    page.style.setProperty('--rx-caption', `${height}px`);
-  });
-
   // The power at the hand, while something is dragged in the scene.
   const tag = part('tag');
   let x = 0, y = 0;
@@ -226,8 +208,8 @@
     telling = setTimeout(() => {
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
-      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
-      const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = wide.filter(box => !low.includes(box)), notice = seen('.rxf-notice');
+      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
+      const high = wide.filter(box => box.top <= stage.top + stage.height / 3), low = [...wide.filter(box => !high.includes(box)), seen('.rxs-wipe > span')].filter(Boolean), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
       const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;
@@ -235,7 +217,7 @@
     }, 120);
   }
   RX.also('vibration', tellCover);
-  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.

@@ -1,7 +1,7 @@
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, lit = {}, tied = [], motion = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  let surfaces = {}, lit = {}, tied = [], motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -58,12 +58,17 @@
   // Of 1, cos ψ, sin ψ, cos 2ψ, …
   const harmonic = ([mean, ...waves], angle) =>
     waves.reduce((sum, size, k) => sum + size * (k % 2 ? Math.sin : Math.cos)((1 + (k >> 1)) * angle), mean);
-  const show = at => {
-    for (let k = 0; k < motion.blades; k++) {
-      const angle = at + 2 * Math.PI * k / motion.blades;
-      place(`${motion.root}/blade_${k}`, angle, harmonic(motion.flap, angle), harmonic(motion.pitch, angle), motion.hinge);
+  const pose = (of, at) => {
+    for (let k = 0; k < of.blades; k++) {
+      const angle = at + 2 * Math.PI * k / of.blades;
+      place(`${of.root}/blade_${k}`, angle, harmonic(of.flap, angle), harmonic(of.pitch, angle), of.hinge);
     }
-    for (const name of [`${motion.root}/head`, ...tied]) place(name, at, 0, 0, 0);
+    place(`${of.root}/head`, at, 0, 0, 0);
+  };
+  const show = at => {
+    pose(motion, at);
+    if (compared) pose(compared, at);
+    for (const name of tied) place(name, at, 0, 0, 0);
     trail(at);
     viewer().requestRender?.();
   };
@@ -176,6 +181,19 @@
       if (!mark) mark = {psi: angle, at};
       else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
       heard = {psi: angle, at};
+    },
+    // A second rotor at the same place turns with it.
+    compare(other) { compared = other; },
+    // Blades and head of any rotor at ψ, once.
+    pose(of, at) { pose(of, at); viewer().requestRender?.(); },
+    // The camera goes there smoothly, unless less motion was asked for.
+    look(position, target) {
+      const control = viewer()?.cameraControl, world = viewer()?.nodeRefFromName?.['/airframe']?.parent;
+      if (!control || !world) return;
+      world.updateWorldMatrix(true, false);
+      const [from, to] = [position, target].map(at => world.position.clone().set(...at).applyMatrix4(world.matrixWorld));
+      control.setLookAt(from.x, from.y, from.z, to.x, to.y, to.z, !calm.matches);
+      viewer().requestRender?.();
     },
     // What else turns with the reference blade while the rotor plays.
     tie(nodes) { tied = nodes; },

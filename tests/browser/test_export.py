@@ -15,6 +15,8 @@ from watched import Watched, opened, window
 from explorer.app import App
 from explorer.export.demo import demo_html
 from explorer.model.inputs import Inputs
+from explorer.story.steps import STEPS
+from explorer.story.story_file import story_html
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -183,5 +185,47 @@ def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path
     built, flying = (tip[tip[:, 1].argmax(), 2] - tip[tip[:, 1].argmin(), 2] for tip in tips)
     assert flying < built - 0.01  # Of a chord of 0.53 m.
     assert page.inner_text("#demo-total") == f"{solve(make_design(twist='linear:0', mu=0.2)).power.total / 1e3:.0f} kW"
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    page.close()
+
+
+@pytest.mark.slow
+def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser", tmp_path: Path):
+    """Opened as a file: guess, answer, control and handle act, numbers are the solver's, nothing is asked of a host."""
+    steps = [step for step in STEPS if step.name in ("trim", "responding_wake")]
+    (tmp_path / "lecture.html").write_text(story_html(steps), encoding="utf-8")
+    page = window(browser).new_page()
+    page.set_viewport_size({"width": 1280, "height": 720})
+    asked, wrong = list[str](), list[str]()
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.goto((tmp_path / "lecture.html").as_uri())
+    page.wait_for_selector("#rx[data-ready=true]")
+    figures = page.locator('[data-explorer="figures"] b')
+    assert figures.all_inner_texts() == ["?", "?", "?"]
+    page.locator("section[data-step='1'] .rxs-guess button").first.click()
+    power = solve(steps[0].begin().design()).power.total
+    assert figures.first.inner_text() == f"{power / 1e3:.0f}\u00a0kW"
+    slider = page.locator("section[data-step='1'] [data-stop]")
+    slider.press("Home")
+    page.wait_for_function("() => document.querySelector('section[data-step=\"1\"] output').textContent === 'hover'")
+    hover = solve(make_design(mu=0.0)).power.total
+    assert figures.first.inner_text() == f"{hover / 1e3:,.0f}\u00a0kW".replace(",", "\u00a0")
+    page.keyboard.press("PageDown")
+    page.wait_for_selector('.rxs-column[data-step="2"]')
+    page.wait_for_selector(".rxs-wipe", state="visible")
+    tip = """name => { let found; window.__viserMutable.nodeRefFromName[name].traverse(part => {
+        if (part.isMesh && part.geometry.attributes.position && !part.geometry.attributes.instanceStart)
+            found ??= Array.from(part.geometry.attributes.position.array); }); return found; }"""
+    read = f"() => ['/compared/blade_1', '/rotor/blade_1'].map({tip})"
+
+    def apart() -> bool:
+        a, b = page.evaluate(read)
+        return bool(np.max(np.abs(np.subtract(a, b))) > 0.05)  # A has no twist, B has; drawn four times as large [m].
+
+    Watched(page).until(apart)
+    page.get_by_role("slider", name="Between A, left, and B, right").press("ArrowLeft")
+    assert page.evaluate("() => rotorWipe.at") == pytest.approx(0.45)
+    assert wrong == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
     page.close()

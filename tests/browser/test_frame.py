@@ -134,14 +134,14 @@ def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
     watched.answered()
     page.evaluate("() => document.activeElement.blur()")
     page.keyboard.press("t")
-    page.wait_for_selector(".rxf-caption", state="visible")
+    page.wait_for_selector(".rxs-column", state="visible")
     watched.answered()
     for _ in range(3):
         assert "grabbed" not in watched.text("since")
-        page.locator(".rxf-caption [data-value=next]").click()
-        watched.answered()  # An answer draws the caption anew, and a button that is drawn anew misses its click.
-    page.locator(".rxf-caption [data-value=end]").click()
-    page.wait_for_selector(".rxf-caption", state="hidden")
+        page.locator(".rxs-foot [data-value=next]").click()
+        watched.answered()
+    page.locator(".rxs-foot [data-value=end]").click()
+    page.wait_for_selector(".rxs-column", state="hidden")
     watched.answered()
     assert "grabbed" not in watched.text("since")
 

@@ -185,34 +185,35 @@ def _the_bar_of_a_preview_stays_on_the_stage(watched: Watched) -> None:
     page.wait_for_selector(".rxf-notice", state="hidden")
 
 
-def test_the_lecture_is_the_scene_a_caption_and_three_numbers(sized: Watched, size: tuple[int, int]):
+def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watched, size: tuple[int, int]):
     watched, page, rail = sized, sized.page, sized.page.locator("[data-dock-region=right]")
     page.keyboard.press("t")
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
-    page.wait_for_function(
-        f"() => ({_LEAVES})(['', '.rxf-bar *, .rxf-caption *, .rxf-stage > .rxf-card']).length === 0"
-    )
+    page.wait_for_function(f"() => ({_LEAVES})(['', '.rxf-bar *, .rxs-foot *, .rxf-stage > .rxf-card']).length === 0")
     rail.wait_for(state="hidden")
     page.keyboard.press("PageDown")
     page.wait_for_selector('[data-explorer="lecture"][data-step="2"]')
-    page.wait_for_function("() => /\\d/.test(document.querySelector('[data-explorer=said]').innerText)")
-    page.wait_for_function("() => RX.state.field.difference === true")  # Wanted before there was an A.
-    page.wait_for_function("() => document.querySelectorAll('.rxf-figures b').length === 3")
+    page.wait_for_function("() => RX.state.wipe === true")  # Wanted before there was an A.
+    page.wait_for_function("() => document.querySelectorAll('.rxs-figures b').length === 3")
     # In the middle of its first line each is what is seen there: nothing lies over it. One call: answers redraw it.
     seen = """selector => { const e = document.querySelector(selector), box = e.getClientRects()[0];
         const x = box?.x + box?.width / 2, y = box?.y + box?.height / 2;
         return Boolean(box) && e.contains(document.elementFromPoint(x, y)); }"""
-    for part in ('[data-explorer="said"]', ".rxf-caption [data-value=next]"):
+    for part in (".rxs-list > [data-step='2'] h2", ".rxs-foot [data-value=next]", ".rxs-figures"):
         page.wait_for_function(seen, arg=part)
-    boxes = """() => ["canvas[data-engine]", ".rxf-caption"].map(
+    boxes = """() => ["canvas[data-engine]", ".rxs-column"].map(
         name => document.querySelector(name).getBoundingClientRect().toJSON())"""
-    scene, caption = watched.at_rest(lambda: page.evaluate(boxes))
-    assert scene["left"] == 0
-    assert scene["right"] == size[0]  # Full-bleed.
-    assert scene["height"] > 0.3 * size[1]
-    assert page.locator(".rxf-caption").evaluate("e => e.scrollWidth <= e.clientWidth")
-    assert caption["top"] >= scene["bottom"] - 1
-    assert caption["bottom"] <= size[1] + 1
+    scene, column = watched.at_rest(lambda: page.evaluate(boxes))
+    assert scene["right"] == size[0]
+    assert column["left"] == 0
+    assert column["bottom"] == size[1]
+    if size[0] > 860:
+        assert abs(column["right"] - scene["left"]) <= 1
+        assert scene["width"] > 0.45 * size[0]
+    else:  # Below the scene.
+        assert column["top"] >= scene["bottom"] - 1
+        assert scene["height"] > 0.3 * size[1]
+    assert page.locator(".rxs-list").evaluate("e => e.scrollWidth <= e.clientWidth")
     page.wait_for_function(f"() => ({_CARDS})().length === 0")
     for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):
         page.locator(panel).first.wait_for(state="hidden")
@@ -223,16 +224,17 @@ def test_the_lecture_is_the_scene_a_caption_and_three_numbers(sized: Watched, si
 
 
 def _controls_come_and_go(watched: Watched) -> None:
-    """Asked for in the lecture: the rail ends above the caption, and the scene beside it."""
+    """Asked for in the lecture: the rail beside the scene and the steps, in a narrow window in their place."""
     page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
     page.get_by_role("button", name="Controls").click()
     rail.wait_for(state="visible")
     page.wait_for_function(
         """() => {
             const rail = document.querySelector('[data-dock-region=right]').getBoundingClientRect();
-            const caption = document.querySelector('.rxf-caption').getBoundingClientRect();
+            const column = document.querySelector('.rxs-column'), steps = column.getBoundingClientRect();
             const scene = document.querySelector('canvas').getBoundingClientRect();
-            return rail.right <= innerWidth + 1 && rail.bottom <= caption.top + 1
+            return rail.right <= innerWidth + 1
+                && (rail.left >= steps.right - 1 || getComputedStyle(column).visibility === 'hidden')
                 && (scene.right <= rail.left + 1 || scene.bottom <= rail.top + 1);
         }"""
     )

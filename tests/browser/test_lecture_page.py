@@ -1,27 +1,40 @@
 """The lecture and the presenter on the real page."""
 
+import io
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
+from PIL import Image
 from test_session_page import design_in_address, shown_kw
-from watched import COARSE, Visit
+from watched import COARSE, Visit, painted
 
 from explorer.app import App
-from explorer.tabs.lecture.steps import STEPS
+from explorer.story.steps import STEPS
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Locator, Page
 
 pytestmark = pytest.mark.browser
 
 
+FIGURES = '[data-explorer="figures"] b'
+LONG = 600_000
+"""[ms] for the numbers of a step on a machine where much else runs."""
+
+
 def stands_at(page: "Page", step: int) -> None:
+    """A step stands, and its numbers have come."""
     page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
-    page.wait_for_function("""() => /\\d/.test(document.querySelector('[data-explorer="said"]').innerText)""")
+    page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=LONG)
 
 
-def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
+def section(page: "Page", step: int) -> "Locator":
+    return page.locator(f'.rxs-list > [data-step="{step}"]')
+
+
+def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     watched = visit()
     page = watched.page
     watched.drawer("lecture")
@@ -35,24 +48,98 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(visit: Visit):
     stands_at(page, 2)
     design_in_address(watched, "linear:-16;mu=0")
     watched.answered()
-    said = watched.reads("said", "^Induced power: A ")
-    page.evaluate("() => RX.send('knot', ['1', [1.0, -3.0]])")  # The curve's handle moves the rate.
-    watched.until_changed(lambda: watched.text("said"), said)
-    watched.reads("said", "^Induced power: A ")
-    for k in range(3, len(STEPS) + 1):
-        page.keyboard.press("PageDown")
-        stands_at(page, k)
-    page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
+    figures = page.locator(FIGURES)
+    assert figures.all_inner_texts() == ["?", "?", "?"]  # Nothing is told before the guess.
+    assert page.evaluate("() => RX.state.lecture.answer") is None
+    section(page, 2).locator(".rxs-guess button").first.click()
+    page.wait_for_function("() => RX.state.lecture.answer")
+    watched.answered()
+    told = figures.all_inner_texts()
+    assert all(any(character.isdigit() for character in one) for one in told)
+    assert section(page, 2).locator("[data-right]").count() == 2  # The right answer, and the word on the guess.
+    slider = section(page, 2).locator("[data-stop]")
+    slider.press("End")
+    design_in_address(watched, "linear:-24;mu=0")
+    watched.answered()
+    assert figures.all_inner_texts()[0] == told[0]  # A has no twist, whatever B has,
+    assert figures.all_inner_texts()[1] != told[1]  # and B another.
     page.keyboard.press("PageUp")
-    stands_at(page, len(STEPS) - 1)
+    stands_at(page, 1)
+    page.keyboard.press("PageDown")
+    stands_at(page, 2)
+    assert section(page, 2).locator("[data-chosen]").count() == 1  # A guess is made once.
+    page.evaluate("k => RX.send('story', k)", len(STEPS) - 1)
+    page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.
+    assert page.evaluate("() => RX.state.bar.mode") == "explore"
     watched.drawer("settings")
     page.get_by_label("Big type").check()
     page.wait_for_function(
         """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="drawer"]')).fontSize) > 16"""
     )
+
+
+def test_its_end_flies_the_actuator(visit: Visit):
+    """The last press ends the lecture in Actuate, with the rail that moves the actuator."""
+    watched = visit()
+    page = watched.page
+    page.keyboard.press("t")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
+    page.evaluate("k => RX.send('story', k)", len(STEPS) - 1)
+    page.wait_for_selector(f'[data-explorer="lecture"][data-step="{len(STEPS)}"]')
+    page.get_by_role("button", name="Fly it").click()
+    page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
+    watched.answered()
+    assert page.evaluate("() => RX.state.bar.mode") == "actuate"
+    design_in_address(watched, "mu=0.3")
+
+
+def test_a_scroll_of_the_column_is_a_step(visit: Visit):
+    watched = visit()
+    page = watched.page
+    page.keyboard.press("t")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
+    watched.answered()
+    page.evaluate(
+        "() => { const list = document.querySelector('.rxs-list'); list.scrollTop = list.children[2].offsetTop; }"
+    )
+    page.wait_for_selector('[data-explorer="lecture"][data-step="3"]')
+    design_in_address(watched, "linear:-12;inflow=pitt-peters")
+
+
+@pytest.mark.slow
+def test_a_and_b_are_wiped_at_one_place(browser: "Browser", app: App):
+    """Left of the handle stands A, right of it B: the pictures differ only where the handle went over them."""
+    watched = painted(browser, app.address, "light", (1180, 640))
+    page = watched.page
+    watched.quiet()
+    page.keyboard.press("t")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
+    page.evaluate("() => RX.send('story', 1)")
+    stands_at(page, 2)
+    page.wait_for_selector(".rxs-wipe", state="visible")
+    watched.answered()
+
+    def picture(share: float) -> np.ndarray:
+        page.evaluate("share => rotorWipe.set(true, share)", share)
+        box = page.locator("canvas[data-engine]").bounding_box()
+        assert box is not None
+        image = watched.at_rest(lambda: page.screenshot(clip={**box, "height": 400}))
+        return np.asarray(Image.open(io.BytesIO(image)).convert("RGB"), dtype=float)
+
+    b, half, a = picture(0.0), picture(0.5), picture(1.0)
+    width = b.shape[1]
+    left, right = slice(30, width // 2 - 30), slice(width // 2 + 30, width - 30)  # The handle itself apart.
+    for side in (left, right):
+        assert np.abs(a[:, side] - b[:, side]).mean() > 0.5
+    assert np.abs(half[:, left] - a[:, left]).mean() < 0.1
+    assert np.abs(half[:, right] - b[:, right]).mean() < 0.1
+    handle = page.get_by_role("slider", name="Between A, left, and B, right")
+    handle.press("ArrowRight")
+    assert float(handle.get_attribute("aria-valuenow") or 0) == 55
+    watched.close()
 
 
 @pytest.mark.slow
@@ -61,14 +148,50 @@ def test_with_another_inflow_a_step_compares_like_with_like(visit: Visit, app: A
     watched = visit()
     page = watched.page
     page.keyboard.press("t")
-    for k in range(1, 4):
-        stands_at(page, k)
-        page.keyboard.press("PageDown")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
+    page.evaluate("() => RX.send('story', 3)")
     stands_at(page, 4)
+    section(page, 4).locator(".rxs-guess button").first.click()
     inputs = app.sessions[-1].page.context.inputs()
     app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="pitt-peters"))
-    watched.reads("said", r"induced [+−]?0\skW")  # First the design, then A has the other inflow.
+    watched.reads("figures", r"^[+−]?0\skW")  # First the design, then A has the other inflow.
     page.wait_for_function("() => !RX.state.power.status.title.includes('different models')")
+
+
+@pytest.mark.slow
+def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit):
+    """Two browsers: step, guess, answer, control and handle of the one are those of the other."""
+    presenter = visit()
+    page = presenter.page
+    presenter.drawer("lecture")
+    page.get_by_role("button", name="Present", exact=True).click()
+    link = page.locator('[data-explorer="presence"] a').get_attribute("href")
+    assert link is not None
+    follower = visit(COARSE + link.replace("?", "&"))
+    other = follower.page
+    follower.reads("presence", "controlled by the presenter")
+    page.keyboard.press("t")
+    for k in (1, 2, 3):
+        stands_at(page, k)
+        stands_at(other, k)
+        assert section(other, k).locator("[data-stop]").is_disabled()
+        section(page, k).locator(".rxs-guess button").last.click()
+        other.wait_for_function("() => RX.state.lecture.answer")
+        presenter.answered()
+        follower.answered()
+        told = page.locator(FIGURES).all_inner_texts()
+        follower.until(lambda told=told: other.locator(FIGURES).all_inner_texts() == told)
+        if k < 3:
+            page.keyboard.press("PageDown")
+    section(page, 3).locator("[data-stop]").press("Home")
+    other.wait_for_function("() => RX.state.lecture.stop === 0")
+    design_in_address(follower, "linear:0;")
+    page.get_by_role("slider", name="Between A").press("ArrowRight")
+    other.wait_for_function("() => Math.abs(rotorWipe.at - 0.55) < 1e-6")
+    steps = other.locator(".rxs-list")  # The follower's column stands at the same step.
+    follower.until(lambda: steps.evaluate("list => Math.abs(list.scrollTop - list.children[2].offsetTop) < 40"))
+    page.keyboard.press("t")
+    other.wait_for_selector('[data-explorer="lecture"]', state="hidden")
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import Inputs
 from explorer.model.units import SI
-from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, eased_between
+from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.landscape import HEIGHT, SIZE, Landscape, refined
 from explorer.tabs.optimise.landscape_panel import half_widths, paths_on, valley_words
 from explorer.tabs.optimise.map_panel import Map
@@ -128,17 +128,6 @@ def test_the_camera_sees_the_whole_map_and_the_blade():
             depth = away @ forward
             assert abs(away @ up) / depth < math.tan(0.5 * FIELD_OF_VIEW)
             assert abs(away @ right) / depth < aspect * math.tan(0.5 * FIELD_OF_VIEW)
-
-
-def test_the_camera_flies_from_one_place_to_the_other():
-    start, end = Camera(np.array([20.0, 0.0, 8.0]), np.zeros(3)), Camera(np.array([0.0, 30.0, 9.0]), np.ones(3))
-    for part, one in ((0.0, start), (1.0, end)):
-        between = eased_between(start, end, part)
-        assert_allclose(between.position, one.position, atol=1e-9)
-        assert_allclose(between.look_at, one.look_at)
-    middle = eased_between(start, end, 0.5)
-    # It goes round the subject, not through it.
-    assert np.linalg.norm(middle.position - middle.look_at) > 20.0
 
 
 def test_refined_maps_keep_the_powers_of_the_grid():

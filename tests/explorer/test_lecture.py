@@ -10,21 +10,27 @@ from typing import Any
 import numpy as np
 import pytest
 
-from explorer.model.inputs import Inputs, ViewState, baseline_of
-from explorer.model.session_state import SessionState
-from explorer.model.units import AVIATION
+import rotor
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.units import AVIATION, SI, UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
+from explorer.story import steps
+from explorer.story.facts import Facts, facts_of
+from explorer.story.steps import MOVED, STEPS, LectureStep, beside, quantities, step_text, view_of
+from explorer.story.telling import answer_record, step_record
 from explorer.tabs.keys import KEYS
-from explorer.tabs.lecture import steps
+from explorer.tabs.lecture.cases import CASES
 from explorer.tabs.lecture.lecture_panel import PageSnapshot
-from explorer.tabs.lecture.steps import CASES, STEPS, LectureStep, beside, step_text, view_of
 from explorer.text.glossary import hint
+from rotor.files.make_design import make_design
+from rotor.optimisation.search import optimise
+from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, SPEEDS, moving_twist
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-BY_TITLE = {step.title: step for step in STEPS}
+BY_TITLE = {step.text.title: step for step in STEPS}
 
 
 def solved(inputs: Inputs) -> Solution:
@@ -34,8 +40,10 @@ def solved(inputs: Inputs) -> Solution:
 def both(title: str, **changed: object) -> tuple[Solution, Solution]:
     """A and B of a step, with something changed in both."""
     step = BY_TITLE[title]
-    assert step.against is not None
-    return solved(replace(step.against, **changed)), solved(replace(step.inputs, **changed))
+    own = step.begin()
+    against = beside(step.against, step.inputs, own)
+    assert against is not None
+    return solved(replace(against, **changed)), solved(replace(own, **changed))
 
 
 class TestClaims:
@@ -56,7 +64,7 @@ class TestClaims:
 
         assert rise(flat) > 1.3  # Without twist inflow grows towards the tip,
         assert abs(rise(twisted) - 1.0) < 0.5 * (rise(flat) - 1.0)  # with it, far less.
-        more = solved(replace(BY_TITLE["Why twist helps in hover"].inputs, linear=-24.0))
+        more = solved(replace(BY_TITLE["Why twist helps in hover"].begin(), linear=-24.0))
         assert more.power.total > twisted.power.total
 
     def test_linear_inflow_does_not_see_it(self):
@@ -102,63 +110,176 @@ class TestClaims:
             assert straight.power.total < other < 1.003 * straight.power.total
 
 
-@pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
-def test_a_step_says_what_is_seen(step: LectureStep):
-    solution = solved(step.inputs)
-    baseline = solve(baseline_of(solution.design))
-    pinned = None if step.against is None else solved(step.against)
-    said = step.say(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
-    assert any(character.isdigit() for character in said)
-    assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
-    assert "nan" not in said
-    figures = step.figures(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
-    assert len({caption for caption, _, _ in figures}) == 3
-    for _, value, _ in figures:
-        assert re.search(r"\d", value)
-        assert " " not in value
-        assert len(value) <= 12
-    assert view_of(step, ViewState(dark=True)).dark
-    assert step.field in FIELDS
+@pytest.fixture(scope="module")
+def facts() -> dict[str, Facts]:
+    """What every step tells, computed once."""
+    return {step.name: facts_of(step) for step in STEPS}
+
+
+NAMED = re.compile(r"\{(\w+)\}")
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: step.name)
+class TestSteps:
+    def test_no_number_is_typed_by_hand(self, step: LectureStep):
+        """But in the name of the aircraft: all others are names in braces."""
+        for part in step.text.parts:
+            assert not re.search(r"\d", NAMED.sub("", part).replace("UH-60A", "")), part
+
+    def test_every_name_has_a_number(self, step: LectureStep, facts: dict[str, Facts]):
+        wanted = {name for part in step.text.parts for name in NAMED.findall(part)}
+        assert wanted <= set(facts[step.name].numbers)
+        for units in UNITS.values():
+            said = str((step_record(step, facts[step.name], units), answer_record(step, facts[step.name], units)))
+            assert "…" not in said
+            assert "nan" not in said
+            assert not any(mark in said for mark in (" kW", " hp", " %,", "\u2009kW"))  # A unit stays with its number.
+
+    def test_the_control_that_is_named_is_the_one_of_the_step(self, step: LectureStep):
+        named = [name for part in step.text.parts for name in re.findall(r"\*\*(.+?)\*\*", part)]
+        assert named == [step.control.label]
+
+    def test_each_place_of_the_control_is_another_design_that_trims(self, step: LectureStep, facts: dict[str, Facts]):
+        stops = facts[step.name].stops
+        assert len({stop.inputs.design() for stop in stops}) == len(stops) == len(step.control.values)
+        for stop in (stops[0], stops[step.control.start], stops[-1]):
+            assert solve(stop.inputs.design()).converged
+            assert stop.against is None or solve(stop.against.design()).converged
+
+    def test_each_answer_can_be_told_from_the_others(self, step: LectureStep, facts: dict[str, Facts]):
+        assert len(set(step.text.options)) == len(step.text.options) == len(step.bounds) + 1
+        assert list(step.bounds) == sorted(step.bounds)
+        assert 0 <= facts[step.name].right < len(step.text.options)
+
+    def test_the_chart_has_a_dot_for_each_place(self, step: LectureStep, facts: dict[str, Facts]):
+        """On its line, so that what is seen and what is drawn agree."""
+        chart, stops = facts[step.name].chart, facts[step.name].stops
+        for line in chart.lines:
+            assert len(line.y) == len(chart.x)
+        for stop in stops:
+            assert stop.dots
+            if chart.dots:
+                continue
+            for (x, y), line in zip(stop.dots, chart.lines, strict=False):
+                assert line.y[chart.x.index(x)] == pytest.approx(y)
+
+    def test_the_large_numbers_are_there(self, step: LectureStep, facts: dict[str, Facts]):
+        stop = facts[step.name].stops[step.control.start]
+        b = solved(stop.inputs)
+        a = b if stop.against is None else solved(stop.against)
+        values = {**facts[step.name].words(SI), **quantities(b, a, SI)}
+        assert len({caption for _, caption in step.figures}) == 3
+        for name, _ in step.figures:
+            assert re.search(r"\d", values[name])
+            assert " " not in values[name]
+            assert len(values[name]) <= 12
+
+    def test_it_shows_a_beside_b_where_it_compares(self, step: LectureStep):
+        view = view_of(step, ViewState(dark=True, difference=True))
+        assert view.dark
+        assert not view.difference
+        assert view.wipe == (step.against is not None) == bool(step.text.a) == bool(step.text.b)
+        assert step.field in FIELDS
+
+
+class TestAnswers:
+    """The right answers, and numbers of their texts, against what is known from elsewhere."""
+
+    def test_making_lift_takes_a_third(self, facts: dict[str, Facts]):
+        """Momentum theory: far from hover induced power falls as 1/µ; at µ 0.3 to well below half."""
+        assert facts["trim"].right == 0
+
+    def test_linear_inflow_shows_profile_power_alone(self, facts: dict[str, Facts]):
+        assert facts["linear_inflow"].right == 0
+        assert facts["responding_wake"].right == 1
+
+    def test_b_needs_less_at_speed_and_more_without_drag(self, facts: dict[str, Facts]):
+        assert facts["fast_twist"].right == 0
+        (_, weak), (_, strong) = facts["fast_twist"].stops[1].dots
+        assert weak < strong
+
+    def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, Facts]):
+        """The band over wakes is that of `python -m rotor ladder`, row by row."""
+        found = facts["fixed_or_moving"]
+        gains = [moving_twist(tuple(RUNGS), SPEEDS, wake).gain for wake in INFLOW_MODELS]
+        numbers = found.numbers
+        assert (numbers["gain_low"].value, numbers["gain_high"].value) == (min(gains), max(gains))
+        assert min(gains) <= numbers["gain"].value <= max(gains) < 0.01
+        assert found.right == 0
+
+    def test_moving_saves_what_the_trims_say(self, facts: dict[str, Facts]):
+        """The mean over the designs of the control, trimmed anew; their twists are rounded to a hundredth."""
+        stops = facts["fixed_or_moving"].stops
+        moving, fixed = (
+            np.mean([solved(inputs).power.total for inputs in blades if inputs is not None])
+            for blades in ([stop.inputs for stop in stops], [stop.against for stop in stops])
+        )
+        assert 1.0 - moving / fixed == pytest.approx(facts["fixed_or_moving"].numbers["gain"].value, abs=2e-5)
+
+    def test_the_front_trades_power_for_vibration(self, facts: dict[str, Facts]):
+        found = facts["power_or_vibration"]
+        powers, (line,) = found.chart.x, found.chart.lines
+        assert list(powers) == sorted(powers)
+        assert line.y == tuple(sorted((y for y in line.y if y is not None), reverse=True))
+        stop = found.stops[-1]
+        assert stop.against is not None
+        a, b = solved(stop.against), solved(stop.inputs)
+        assert b.power.total / a.power.total - 1.0 == pytest.approx(powers[-1], abs=1e-6)
+        assert a.hub_loads is not None
+        assert b.hub_loads is not None
+        assert b.hub_loads.index / a.hub_loads.index - 1.0 == pytest.approx(line.y[-1], abs=1e-4)
+
+    def test_the_ply_costs_more_than_it_saves(self, facts: dict[str, Facts]):
+        """Its mass at the power that a kilogram costs is more than what its twist saves."""
+        numbers = facts["piezoelectric_ply"].numbers
+        heavy = rotor.make_design(mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value)
+        carried = rotor.solve(heavy).power.total - rotor.solve(make_design(mu=0.3)).power.total
+        assert carried > numbers["gross"].value
+        assert facts["piezoelectric_ply"].right == 0
+        assert numbers["attainable"].value < numbers["required"].value
+
+    def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, Facts]):
+        step = BY_TITLE["What two segments add"]
+        best = optimise(step.begin().design(), "two-segment-free")
+        assert best.best is not None
+        assert solved(step.begin()).power.total < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
 
 
 def test_each_step_has_its_text_in_a_file_and_each_file_its_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     texts = {step_text(path.stem) for path in steps._TEXT.glob("*.md")}
-    assert texts == {(step.title, step.watch, step.do) for step in STEPS}
-    assert all(re.search(r"[.:?]", part) and "  " not in part for _, *parts in texts for part in parts)
+    assert texts == {step.text for step in STEPS}
+    assert all("  " not in part for text in texts for part in text.parts)
     monkeypatch.setattr(steps, "_TEXT", tmp_path)
-    (tmp_path / "good.md").write_text("# One title\n\nSee\nthis.\n\n## Try\n\nDo that.\n", encoding="utf-8")
-    assert step_text("good") == ("One title", "See this.", "Do that.")
-    for text in ("", "One title\n\nSee.\n\n## Try\n\nDo.\n", "# One title\n\nSee.\n", "# T\n\nSee.\n\n## Try\n\n"):
+    good = "# One title\n\nSee\nthis.\n\n## Guess\n\nWhat?\n\n- this\n- that\n\n## Answer\n\nThis.\n\n## Try\n\nDo.\n"
+    (tmp_path / "good.md").write_text(good, encoding="utf-8")
+    found = step_text("good")
+    assert (found.title, found.watch, found.options, found.a) == ("One title", "See this.", ("this", "that"), "")
+    pair = good.replace("## Guess", "## Compare\n\nA: one\n\nB: other\n\n## Guess")
+    (tmp_path / "pair.md").write_text(pair, encoding="utf-8")
+    assert (step_text("pair").a, step_text("pair").b) == ("one", "other")
+    for text in (
+        "", good.replace("# One", "One", 1), good.replace("\n- this\n- that\n", ""),
+        good.replace("## Try\n\nDo.\n", ""), pair.replace("B: other", ""),
+    ):  # fmt: skip
         (tmp_path / "bad.md").write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=r"bad\.md is no step of the lecture: write"):
             step_text("bad")
 
 
-def test_what_is_said_of_power_adds_up():
-    step = BY_TITLE["A rotor in trim"]
-    solution = solved(step.inputs)
-    said = step.say(SessionState(step.inputs, ViewState(), solution, solution, None))
-    shares = re.findall(r"([\d.]+)\u00a0%", said)
-    assert sum(map(float, shares)) == pytest.approx(100.0, abs=1.0)
-
-
-def test_the_large_numbers_are_those_of_the_solutions():
-    step = BY_TITLE["A wake that responds to loading"]
-    flat, twisted = both(step.title)
-    numbers = step.figures(SessionState(step.inputs, ViewState(), twisted, flat, flat))
-    changes = [float(value.removesuffix("\u00a0kW").replace("−", "-")) for _, value, _ in numbers]
-    parts = [getattr(twisted.power, name) - getattr(flat.power, name) for name in ("induced", "profile", "total")]
-    assert changes == pytest.approx([part / 1e3 for part in parts], abs=0.51)
-    imperial = step.figures(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
-    assert all(value.endswith("\u00a0hp") for _, value, _ in imperial)
+def test_what_is_not_computed_yet_is_left_open():
+    """A page says the title and the question at once; numbers follow."""
+    record = step_record(STEPS[0], None, SI)
+    assert record["title"] == STEPS[0].text.title
+    assert "…" in record["question"]
+    assert record["control"]["words"] == []
 
 
 class TestBeside:
     """A differs from B by what the step is about, whatever else the user changes."""
 
-    @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
-    def test_at_first_it_is_the_steps_own(self, step: LectureStep):
-        against = beside(step, step.inputs)
+    @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.name)
+    def test_a_is_the_steps_own(self, step: LectureStep):
+        against = beside(step.against, step.inputs, step.inputs)
         if step.against is None or against is None:
             assert step.against is against is None
         else:
@@ -166,19 +287,27 @@ class TestBeside:
 
     def test_the_other_wake_is_compared_with_itself(self):
         step = BY_TITLE["A wake that responds to loading"]
-        against = beside(step, replace(step.inputs, inflow="local-momentum", linear=-17.0))
+        against = beside(step.against, step.inputs, replace(step.inputs, inflow="local-momentum", linear=-17.0))
         assert against is not None
         assert against.design() == replace(step.against or Inputs(), inflow="local-momentum").design()
 
     def test_the_twist_and_the_flight_are_the_users(self):
         step = BY_TITLE["What reverse flow costs"]
-        against = beside(step, replace(step.inputs, advance_ratio=0.3, tip_loss=False))
-        assert against == replace(step.inputs, advance_ratio=0.3, tip_loss=False, reverse_flow=False)
+        flown = replace(step.inputs, advance_ratio=0.3, tip_loss=False)
+        assert beside(step.against, step.inputs, flown) == replace(flown, reverse_flow=False)
+
+    def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, Facts]):
+        stop = facts["power_or_vibration"].stops[0]
+        against = beside(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))
+        assert against is not None
+        assert against.twist_per_rev == ()
+        assert against.advance_ratio == 0.25
+        assert {"law", "linear"} <= MOVED
 
 
 def test_steps_and_their_keys():
-    assert len(STEPS) == 8
-    assert hint("lecture").startswith("Eight steps")
+    assert len(STEPS) == 10
+    assert hint("lecture").startswith("Ten steps")
     assert {"lecture", "lecture_next", "lecture_previous"} <= set(KEYS)
 
 

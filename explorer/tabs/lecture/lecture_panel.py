@@ -1,4 +1,4 @@
-"""The lecture of one session: where it begins, its caption below the scene, and what it gives back at its end."""
+"""The lecture of one session: its steps beside the scene, guess and control of each, and what its end gives back."""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -9,12 +9,23 @@ import viser
 from explorer.model.inputs import OWN, Inputs, ViewState
 from explorer.model.pinned import same_but_flight
 from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS
+from explorer.scene.camera import FittedCamera
+from explorer.sharing.presentation import StoryPlace
+from explorer.story.facts import Facts, FactsTask
+from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
+from explorer.story.story_file import StoryTask
+from explorer.story.telling import answer_record, step_record
+from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
-from explorer.tabs.lecture.steps import CASES, FLIGHTS, STEPS, beside, view_of
+from explorer.tabs.lecture.cases import CASES, FLIGHTS
 from explorer.text.glossary import hint
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed
 
 _NO_CASE = "–"
+_PATIENCE = 600.0
+"""[s] for the numbers of a step: seconds, but for a server that many use."""
 
 
 @dataclass(frozen=True)
@@ -49,27 +60,36 @@ class PageSnapshot:
 
 
 class LecturePanel(Tab):
-    """One session's. Buttons act at once; the caption's numbers follow the session."""
+    """One session's. Buttons act at once; the numbers follow the session."""
 
-    def __init__(self, context: TabContext) -> None:
-        self._context, gui = context, context.gui
-        self._step: int | None = None
+    def __init__(self, context: TabContext, camera: FittedCamera) -> None:
+        self._context, self._camera, gui = context, camera, context.gui
+        self._place: StoryPlace | None = None
+        self._guesses: dict[int, int] = {}
+        """Answers chosen, by step."""
         self._before: PageSnapshot | None = None
         """The visitor's own page, to be given back at the end."""
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
+        self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
         gui.add_html(
-            '<div class="rx rx-dim">Eight steps set the page and say what to watch. '
+            '<div class="rx rx-dim">Ten steps: each sets the page, asks for a guess and answers it. '
             "End gives your own design back.</div>"
         )
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
+        self._file = gui.add_button(
+            "Lecture as one file", icon=viser.Icon.FILE_EXPORT, color="gray", hint=hint("story")
+        )
         self._begin.on_click(lambda _: self.toggle())
+        self._file.on_click(lambda _: self._write_file())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
         by_hand(self._case, self._case_chosen)
-        context.bridge.on("lecture", self._clicked)
+        for name, action in (("lecture", self._pressed), ("story", self._step_asked), ("guess", self._guessed),
+                             ("stop", self._stop_asked), ("wiped", self._wiped)):  # fmt: skip
+            context.bridge.on(name, action)
         bind = context.keyboard.bind
         bind("lecture", self.toggle)
         bind("lecture_next", lambda: self.go(1))
@@ -78,22 +98,22 @@ class LecturePanel(Tab):
             bind(name, partial(self._fly, advance_ratio))
 
     @property
-    def step(self) -> int | None:
-        """The step that stands; None outside the lecture."""
-        return self._step
+    def place(self) -> StoryPlace | None:
+        """Where the lecture is; None outside it."""
+        return self._place
 
     def toggle(self) -> None:
         """Begin with the first step, or end."""
-        if self._step is None:
+        if self._place is None:
             self.set(0)
         else:
             self.end()
 
     def go(self, by: int) -> None:
-        """To another step; beyond the last the lecture ends."""
-        step = 0 if self._step is None else self._step + by
+        """To another step; beyond the last the lecture ends, in Actuate."""
+        step = 0 if self._place is None else self._place.step + by
         if step >= len(STEPS):
-            self.end()
+            self._fly_on()
         else:
             self.set(max(step, 0))
 
@@ -101,21 +121,22 @@ class LecturePanel(Tab):
         """Set the page as a step describes it."""
         if self._before is None:
             self._before = PageSnapshot.of(self._context)
-        self._stand_at(step)
-        wanted, context = STEPS[step], self._context
-        inputs = self._kept(wanted.inputs)
-        self._against = beside(wanted, inputs)
-        context.pin(self._against)
-        context.display.set_view(view_of(wanted, context.view()))
-        context.set_inputs(inputs)
-        self._stage(wanted.mode)
+            self._guesses.clear()
+        wanted = STEPS[step]
+        self._stand_at(StoryPlace(step, self._guesses.get(step), wanted.control.start))
+        self._context.display.set_view(view_of(wanted, self._context.view()))
+        self._move()
+        self._stage(wanted)
 
-    def follow(self, step: int | None) -> None:
-        """Show the step of another page, which sets the rest."""
-        if step != self._step:
-            self._against = None
-            self._stand_at(step)
-            self._stage("" if step is None else STEPS[step].mode)
+    def follow(self, place: StoryPlace | None) -> None:
+        """Show the place of another page, which sets the rest."""
+        if place == self._place:
+            return
+        before, self._against = self._place, None
+        self._stand_at(place)
+        self._context.bridge.set(wiped=0.5 if place is None else place.wipe)
+        if before is None or place is None or before.step != place.step:
+            self._stage(None if place is None else STEPS[place.step], aim=False)
 
     def hold(self, held: bool) -> None:
         """Take what moves the page from the user, or give it back."""
@@ -124,23 +145,23 @@ class LecturePanel(Tab):
         self._show()
 
     def end(self) -> None:
-        """The caption goes, and the visitor's own design, view and A come back."""
+        """The steps go, and the visitor's own design, view and A come back."""
         before, self._before = self._before, None
         self._stand_at(None)
         if before is not None:
             before.restore(self._context)
-        self._stage("")
+        self._stage(None)
 
     def show(self, state: SessionState) -> None:
         """Say what is seen now."""
         self._state = state
         self._name_case(state.inputs)
-        if self._step is None:
+        if self._place is None:
             return
         self._show()
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
             return  # The user has made another design A.
-        against = beside(STEPS[self._step], state.inputs)
+        against = self._beside(state.inputs)
         if against is not None and not same_but_flight(against, self._against):
             self._against = against
             self._context.pin(against)
@@ -150,38 +171,127 @@ class LecturePanel(Tab):
         self._state = None
         self._show()
 
-    def _stage(self, mode: str) -> None:
-        """The mode that a step is shown in, without a drawer; empty once the lecture has ended."""
-        layout = self._context.layout
-        layout.drawers_locked = self._step is not None
-        if mode:
-            layout.show_drawer("")
-        layout.show_mode(mode or "explore")
+    def stop(self) -> None:
+        """The browser has left."""
+        self._told.stop()
 
-    def _stand_at(self, step: int | None) -> None:
-        self._step, self._state = step, None
-        self._begin.label = "Start the lecture" if step is None else "End the lecture"
+    def _write_file(self) -> None:
+        """Have the lecture made as a file in a worker process, in the page's units and theme, and send it."""
+        context, view = self._context, self._context.view()
+        task = StoryTask(ViewState(units=view.units, dark=view.dark))
+        self._file.disabled, self._file.label = True, "Making the file, about a minute …"
+
+        def heard(news: JobEvent) -> None:
+            match news:
+                case JobEnded(str(text)):
+                    context.download("lecture.html", text.encode("utf-8"))
+                case JobEnded():
+                    context.notify("No file of the lecture", "It took too long: try again when fewer use this server.")
+                case JobFailed(message):
+                    context.notify("No file of the lecture", message)
+                case _:
+                    return
+            self._file.disabled, self._file.label = False, "Lecture as one file"
+
+        context.pool.submit(task, heard, _PATIENCE, urgency=6)
+
+    def _fly_on(self) -> None:
+        """The lecture ends in Actuate, on the blade of its last step."""
+        before, self._before = self._before, None
+        self._stand_at(None)
+        self._context.pin(None if before is None else before.pinned)
+        if before is not None:
+            now = self._context.view()
+            self._context.display.set_view(replace(before.view, units=now.units, dark=now.dark))
+        self._stage(None, mode="actuate")
+
+    def _stage(self, step: LectureStep | None, aim: bool = True, mode: str = "explore") -> None:
+        """The mode and the camera of a step, without a drawer; `mode`: once the lecture has ended."""
+        layout = self._context.layout
+        layout.drawers_locked = self._place is not None
+        if step is None:
+            layout.show_mode(mode)
+            if mode == "explore" and aim:
+                self._camera.aim("3d")
+            return
+        layout.show_drawer("")
+        layout.show_mode(step.mode)
+        if aim and step.mode == "explore":
+            self._camera.hold_shot(step.shot)
+
+    def _stand_at(self, place: StoryPlace | None) -> None:
+        if place is not None and self._place is None:
+            self._told.ask(tuple(map(FactsTask, range(len(STEPS)))), 0.0)
+        self._place, self._state = place, None
+        self._begin.label = "Start the lecture" if place is None else "End the lecture"
         self._show()
         self._context.wake()
 
-    def _show(self) -> None:
-        """The caption in the frame."""
-        if self._step is None:
-            self._context.bridge.set(lecture=None)
+    def _facts(self, step: int) -> Facts | None:
+        """What is computed of a step; None until then."""
+        found = self._told.answer(FactsTask(step))
+        return found if isinstance(found, Facts) else None
+
+    def _problem(self, step: int) -> str:
+        """Why there are none; empty else."""
+        found = self._told.answer(FactsTask(step))
+        return found if isinstance(found, str) else ""
+
+    def _facts_came(self) -> None:
+        """A step's numbers are there: those of the one that stands also put its control where they say."""
+        place = self._place
+        if place is not None and not self._context.held and self._facts(place.step) is not None:
+            step = STEPS[place.step]
+            if place.stop == step.control.start and self._context.inputs() == self._kept(step.begin()):
+                self._move()
+        self._show()
+
+    def _move(self) -> None:
+        """The design where the control is."""
+        place, context = self._place, self._context
+        if place is None:
             return
-        step, state = STEPS[self._step], self._state
-        watch = step.watch + (" The disk shows B − A: blue is less, rust is more." if step.difference else "")
-        self._context.bridge.set(
+        facts, step = self._facts(place.step), STEPS[place.step]
+        own = self._kept(step.begin() if facts is None else facts.stops[place.stop].inputs)
+        self._against = self._beside(own)
+        context.pin(self._against)
+        context.set_inputs(own)
+
+    def _beside(self, inputs: Inputs) -> Inputs | None:
+        """A of the step for these inputs."""
+        if self._place is None:
+            return None
+        facts, step = self._facts(self._place.step), STEPS[self._place.step]
+        if facts is None:
+            return beside(step.against, step.inputs, inputs)
+        stop = facts.stops[self._place.stop]
+        return beside(stop.against, stop.inputs, inputs)
+
+    def _show(self) -> None:
+        """The steps in the frame."""
+        place, bridge, units = self._place, self._context.bridge, UNITS[self._context.view().units]
+        if place is None:
+            bridge.set(lecture=None)
+            return
+        step, state, facts = STEPS[place.step], self._state, self._facts(place.step)
+        guessed = place.guess is not None
+        values = dict[str, str]()
+        if guessed and state is not None and facts is not None:
+            values = {**facts.words(units), **quantities(state.solution, state.reference, units)}
+        figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
+        bridge.set(
+            steps=[step_record(one, self._facts(k), units) for k, one in enumerate(STEPS)],
             lecture={
-                "at": self._step,
-                "of": len(STEPS),
-                "title": step.title,
-                "watch": watch,
-                "todo": step.do,
-                "said": "" if state is None else step.say(state),
-                "figures": [] if state is None else step.figures(state),
+                "at": place.step,
+                "guess": place.guess,
+                "answer": answer_record(step, facts, units) if guessed and facts is not None else None,
+                "stop": place.stop,
+                "figures": figures,
+                "busy": state is None,
+                "problem": self._problem(place.step),
                 "held": self._context.held,
-            }
+                "finish": "Fly it",
+            },
         )
 
     def _fly(self, advance_ratio: float) -> None:
@@ -201,15 +311,47 @@ class LecturePanel(Tab):
         """These inputs, with the rotor that the user brought still in the menu."""
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
-    def _clicked(self, which: Any) -> None:
-        if self._context.held or self._step is None:
+    def _pressed(self, which: Any) -> None:
+        if self._context.held or self._place is None:
             return
         match which:
             case "back":
                 self.go(-1)
             case "next":
                 self.go(1)
-            case "again":
-                self.set(self._step)
             case _:
                 self.end()
+
+    def _step_asked(self, step: Any) -> None:
+        """A dot was pressed, or the steps were scrolled."""
+        if not self._context.held and self._place is not None and int(step) != self._place.step:
+            self.set(min(max(int(step), 0), len(STEPS) - 1))
+
+    def _guessed(self, answer: Any) -> None:
+        place = self._place
+        if self._context.held or place is None or place.guess is not None:
+            return
+        if 0 <= int(answer) <= len(STEPS[place.step].bounds):
+            self._guesses[place.step] = int(answer)
+            self._change(replace(place, guess=int(answer)))
+
+    def _stop_asked(self, stop: Any) -> None:
+        """The control was moved."""
+        place = self._place
+        facts = None if place is None else self._facts(place.step)
+        if self._context.held or place is None or facts is None:
+            return
+        place = replace(place, stop=min(max(int(stop), 0), len(facts.stops) - 1))
+        if place != self._place:
+            self._change(place)
+            self._move()
+
+    def _wiped(self, share: Any) -> None:
+        if not self._context.held and self._place is not None:
+            self._change(replace(self._place, wipe=float(share)))
+
+    def _change(self, place: StoryPlace) -> None:
+        """Another place within the step."""
+        self._place = place
+        self._show()
+        self._context.wake()

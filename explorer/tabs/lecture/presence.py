@@ -158,7 +158,7 @@ class Presence(Tab):
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
             state = context.state()
             against = state.pin.inputs if state is not None and state.pin is not None else None
-            shown = PresentedView(context.inputs(), context.view(), against, self._lecture.step, self._camera)
+            shown = PresentedView(context.inputs(), context.view(), against, self._lecture.place, self._camera)
             self._presentations.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
@@ -198,7 +198,7 @@ class Presence(Tab):
                 context.pin(shown.against)
             if shown.inputs != context.inputs():
                 context.set_inputs(shown.inputs)
-            self._lecture.follow(shown.step)
+            self._lecture.follow(shown.place)
             if shown.camera is not None and shown.camera != self._camera:
                 self._camera = shown.camera
                 with context.client.atomic():

@@ -1,0 +1,25 @@
+// The lecture in the page: what the server says of it, drawn by `story.js`.
+(() => {
+  const page = document.documentElement, place = RX.part('caption');
+  const story = window.makeStory(place, RX.part('figures'), (what, value) => RX.send(what, value));
+  let wiped = null;
+  rotorWipe.heard(share => { clearTimeout(wiped); wiped = setTimeout(() => RX.send('wiped', share), 60); });
+  const name = () => {
+    const {lecture, steps, bar} = RX.state, step = lecture && steps?.[lecture.at];
+    rotorWipe.name(`A: ${step?.a || bar?.pinned?.title || ''}`, `B: ${step?.b || 'on the sliders'}`);
+  };
+  RX.paint('wipe', on => { name(); rotorWipe.set(on); });
+  RX.paint('wiped', share => rotorWipe.set(RX.state.wipe === true, share));
+  RX.paint('steps', steps => { story.steps(steps); name(); });
+  RX.paint('lecture', step => {
+    const begins = step && !page.hasAttribute('data-lecture');
+    page.toggleAttribute('data-lecture', Boolean(step));
+    place.hidden = !step;
+    if (begins || !step) {
+      RX.openRail(!step && innerWidth <= 700);  // Full-bleed, until the controls are asked for.
+      if (begins) story.rewind(); else { story.stop(); RX.part('figures').hidden = true; }
+      window.dispatchEvent(new Event('resize'));
+    }
+    if (step) { story.show(step); name(); }
+  });
+})();

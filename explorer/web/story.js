@@ -1,0 +1,182 @@
+// The lecture as a column of steps beside the scene: a guess, its answer with a chart, one control. The page and the file
+// without a server both use it: everything reports by `data-do`, and what is shown comes through `steps` and `now`.
+window.makeStory = (column, figures, report) => {
+  const text = value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]);
+  const marked = value => text(value).replace(/\*\*(.+?)\*\*/g, '<b>$1</b>').replace(/\*(.+?)\*/g, '<em>$1</em>');
+  const calm = matchMedia('(prefers-reduced-motion: reduce)');
+  const COLOURS = {a: 'pinned', b: 'blade', limit: 'ghost', total: 'ink'};
+  const colour = name => `var(--rx-${COLOURS[name] ?? name})`;
+  let steps = [], now = null, drawn = '', aim = null, settle = 0, sweep = 0;
+  const list = column.querySelector('.rxs-list'), foot = column.querySelector('.rxs-foot');
+  const section = k => list.children[k];
+
+  const draw = () => {
+    const names = JSON.stringify(steps.map(step => step.name));
+    if (names !== drawn) {
+      drawn = names;
+      list.innerHTML = steps.map((step, k) => `<section data-step="${k + 1}" aria-label="${text(step.title)}">
+        <p class="rxs-count">Step ${k + 1} of ${steps.length}</p><h2>${text(step.title)}</h2><p class="rxs-watch"></p>
+        <dl class="rxs-pair" hidden><dt data-side="a">A</dt><dd></dd><dt data-side="b">B</dt><dd></dd></dl>
+        <fieldset class="rxs-guess"><legend></legend><div>${step.options.map((_, n) => `<button data-do="guess" data-value="${n}"></button>`).join('')}</div></fieldset>
+        <div class="rxs-answer" aria-live="polite" hidden><p></p><figure></figure></div>
+        <div class="rxs-control"></div></section>`).join('');
+      foot.querySelector('.rxs-dots').innerHTML = steps.map((step, k) => `<button data-do="story" data-value="${k}" aria-label="${text(`Step ${k + 1}: ${step.title}`)}" title="${text(step.title)}"></button>`).join('');
+    }
+    steps.forEach((step, k) => {
+      const part = section(k), set = (place, html) => { if (place.innerHTML !== html) place.innerHTML = html; };
+      set(part.querySelector('.rxs-watch'), marked(step.watch));
+      set(part.querySelector('legend'), marked(step.question));
+      step.options.forEach((option, n) => set(part.querySelectorAll('.rxs-guess button')[n], text(option)));
+      const pair = part.querySelector('.rxs-pair');
+      pair.hidden = !step.a;
+      set(pair.children[1], text(step.a));
+      set(pair.children[3], text(step.b));
+      control(step, part.querySelector('.rxs-control'));
+    });
+  };
+
+  const control = (step, place) => {
+    const {label, kind, words} = step.control, last = words.length - 1;
+    if (place.dataset.count !== String(words.length)) {
+      place.dataset.count = words.length;
+      const bar = kind === 'switch'
+        ? `<div class="rxs-switch" role="group" aria-label="${text(label)}">${words.map((word, k) => `<button data-do="stop" data-value="${k}">${text(word)}</button>`).join('')}</div>`
+        : `<button data-sweep aria-label="Play: move ${text(label)} from end to end" title="Move it from end to end"></button><input type="range" min="0" max="${Math.max(last, 0)}" step="1" data-stop aria-label="${text(label)}">`;
+      place.innerHTML = `<p><b>${text(label)}</b><output class="rxf-num"></output></p><div class="rxs-bar">${bar}</div><p class="rxs-todo"></p>`;
+    }
+    const todo = step.todo.replace(`**${label}**: `, '');
+    const say = place.querySelector('.rxs-todo'), words_ = marked(todo.charAt(0).toUpperCase() + todo.slice(1));
+    if (say.innerHTML !== words_) say.innerHTML = words_;
+  };
+
+  const show = () => {
+    if (!now || !steps.length) return;
+    const {at, guess, answer, stop, held} = now;
+    column.dataset.step = at + 1;
+    [...list.children].forEach((one, k) => {
+      one.inert = k !== at;
+      const own = k === at ? now : {guess: null, answer: null, stop: null};
+      for (const button of one.querySelectorAll('.rxs-guess button')) {
+        const n = Number(button.dataset.value);
+        button.disabled = held || own.guess !== null;
+        button.toggleAttribute('data-chosen', own.guess === n);
+        button.toggleAttribute('data-right', Boolean(own.answer) && own.answer.right === n);
+      }
+    });
+    const part = section(at), place = part.querySelector('.rxs-answer'), step = steps[at];
+    for (const other of list.querySelectorAll('.rxs-answer')) other.hidden = other !== place || guess === null;
+    if (guess !== null) {
+      const right = answer && answer.right === guess;
+      place.querySelector('p').innerHTML = answer ? `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'Not so.'}</b> ${marked(answer.answer)}` : text(now.problem || 'Computing …');
+      chart(place.querySelector('figure'), answer?.chart, stop);
+    }
+    const out = part.querySelector('output'), slider = part.querySelector('[data-stop]');
+    out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : now.problem || 'computing …';
+    if (slider) {
+      if (document.activeElement !== slider || !slider.matches(':active')) slider.value = stop ?? 0;
+      slider.disabled = held || !step.control.words.length;
+      slider.ariaValueText = out.textContent;
+      const play = part.querySelector('[data-sweep]');
+      play.disabled = slider.disabled;
+      play.dataset.on = Boolean(sweep);
+    }
+    for (const button of part.querySelectorAll('[data-do=stop]')) {
+      button.ariaPressed = String(Number(button.dataset.value) === stop);
+      button.disabled = held;
+    }
+    foot.querySelectorAll('.rxs-dots button').forEach((dot, k) => { dot.ariaCurrent = k === at ? 'step' : 'false'; dot.disabled = held; });
+    for (const button of foot.querySelectorAll('[data-do=lecture]')) button.hidden = held;
+    foot.querySelector('[data-value=back]').disabled = at === 0;
+    foot.querySelector('[data-value=next]').textContent = step.last ? now.finish : 'Next';
+    figures.hidden = false;
+    const numbers = now.figures.map(([title, value]) => `<div><b class="rxf-num"${value === '?' ? ' data-unknown' : ''}>${text(value)}</b><span>${text(title)}</span></div>`).join('');
+    if (figures.innerHTML !== numbers) figures.innerHTML = numbers;
+    if (aim !== at && !near(at)) go(at);
+  };
+
+  // Lines over what is moved, with the present place on each.
+  const chart = (figure, data, stop) => {
+    if (!data) { figure.innerHTML = ''; return; }
+    const width = Math.max(figure.clientWidth, 260), height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, left = 46, right = 10, top = 8, bottom = 22;
+    const values = [...data.lines.flatMap(line => line.y), ...(data.band ?? []).flat()].filter(y => y !== null);
+    let low = Math.min(...values), high = Math.max(...values);
+    const room = 0.06 * (high - low || 1);
+    low -= low === 0 ? 0 : room;
+    high += room;
+    const [first, last] = [data.x[0], data.x.at(-1)];
+    const x = value => left + (width - left - right) * (value - first) / (last - first || 1), y = value => height - bottom - (height - top - bottom) * (value - low) / (high - low);
+    const step = 10 ** Math.floor(Math.log10((high - low) / 2)), size = [5, 2, 1].map(n => n * step).find(n => (high - low) / n >= 2) ?? step;
+    const ticks = [];
+    for (let value = Math.ceil(low / size) * size; value <= high; value += size) ticks.push(Number(value.toPrecision(6)));
+    const number = value => value.toLocaleString('en').replace(/,/g, '\u2009').replace('-', '−');
+    const path = ys => ys.map((value, k) => value === null ? '' : `${k && ys[k - 1] !== null ? 'L' : 'M'}${x(data.x[k]).toFixed(1)},${y(value).toFixed(1)}`).join('');
+    const area = data.band && `${path(data.band[0])}L${data.x.map((_, k) => `${x(data.x.at(-1 - k)).toFixed(1)},${y(data.band[1].at(-1 - k)).toFixed(1)}`).join('L')}Z`;
+    const key = `<figcaption><b>${text(data.y_title)}</b>${data.lines.length < 2 ? '' : data.lines.map(line => `<span><i data-line="${line.colour}" style="--c:${colour(line.colour)}"></i>${text(line.name)}</span>`).join('')}</figcaption>`;
+    figure.innerHTML = `${key}<svg width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${data.y_title} over ${data.x_title}`)}">
+      ${ticks.map(value => `<path d="M${left},${y(value).toFixed(1)}H${width - right}" class="rxs-grid"/><text x="${left - 6}" y="${(y(value) + 4).toFixed(1)}" text-anchor="end">${number(value)}</text>`).join('')}
+      ${area ? `<path d="${area}" class="rxs-band"/>` : ''}
+      ${data.lines.map(line => `<path d="${path(line.y)}" class="rxs-line" data-line="${line.colour}" style="--c:${colour(line.colour)}"/>`).join('')}
+      ${data.x.length < 7 && data.lines.length === 1 ? data.x.map((at, k) => `<circle cx="${x(at).toFixed(1)}" cy="${y(data.lines[0].y[k]).toFixed(1)}" r="3" fill="${colour(data.lines[0].colour)}"/>`).join('') : ''}
+      ${(data.dots[stop] ?? []).map(([at, value], k) => `<circle cx="${x(at).toFixed(1)}" cy="${y(value).toFixed(1)}" r="6" class="rxs-dot" style="--c:${colour(data.dot_colours?.[k] ?? 'ink')}"/>`).join('')}
+      <text x="${left}" y="${height - 5}">${text(data.x_ends[0])}</text><text x="${width - right}" y="${height - 5}" text-anchor="end">${text(data.x_ends[1])}</text>
+      <text x="${(left + width - right) / 2}" y="${height - 5}" text-anchor="middle">${text(data.x_title)}</text></svg>`;
+  };
+
+  // The column scrolls to the step that stands; where the hand scrolls it, the step in view is asked for.
+  const near = k => Math.abs(section(k).offsetTop - list.scrollTop) < 0.4 * list.clientHeight;
+  const go = k => {
+    aim = k;
+    list.scrollTo({top: section(k).offsetTop, behavior: calm.matches ? 'auto' : 'smooth'});
+  };
+  list.addEventListener('scroll', () => {
+    clearTimeout(settle);
+    settle = setTimeout(() => {
+      if (aim !== null) { if (near(aim)) aim = null; return; }
+      const seen = [...list.children].findIndex((part, k) => part.offsetTop + part.offsetHeight - list.scrollTop > 0.5 * list.clientHeight && k >= 0);
+      if (now && !now.held && seen >= 0 && seen !== now.at) report('story', seen);
+      else if (now?.held && seen !== now.at) go(now.at);
+    }, 140);
+  });
+
+  // The control: a slider reports its position once a frame at most; play walks it to the end and back to where it was.
+  let moved = null;
+  const move = stop => {
+    moved ??= requestAnimationFrame(() => { report('stop', moved === null ? stop : latest); moved = null; });
+    latest = stop;
+  };
+  let latest = 0;
+  const halt = () => { clearInterval(sweep); sweep = 0; };
+  column.addEventListener('input', event => {
+    if (!event.target.matches('[data-stop]')) return;
+    event.stopPropagation();
+    halt();
+    move(Number(event.target.value));
+  });
+  column.addEventListener('click', event => {
+    const near_ = event.target.closest('button');
+    if (!near_ || near_.disabled) return;
+    if (!('sweep' in near_.dataset)) { halt(); return; }
+    if (sweep) { halt(); show(); return; }
+    const last = steps[now.at].control.words.length - 1, from = now.stop;
+    let k = from >= last ? 0 : from;
+    sweep = setInterval(() => {
+      const busy = now.busy;
+      if (busy) return;
+      k += 1;
+      if (k > last) { halt(); move(from); show(); } else move(k);
+    }, 420);
+    show();
+  });
+  new ResizeObserver(() => show()).observe(column);
+
+  return {
+    steps(next) { steps = next; draw(); show(); },
+    show(next) {
+      if (now && next.at !== now.at) { halt(); aim = null; }
+      now = next;
+      show();
+    },
+    stop: halt,
+    rewind() { list.scrollTop = 0; aim = null; },
+  };
+};
