@@ -81,10 +81,9 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     phase = 2.0 * math.pi * np.arange(_AZIMUTHS) / _AZIMUTHS
     alpha, q = mean + amplitude * np.sin(phase), k * amplitude * np.cos(phase)
     onset = stall_onset(table)
-    data = StallData(
-        onset.numbers[None].copy(), onset.tables[None].copy(), np.zeros((1, 2), np.int64), np.zeros(1), np.array([k]),
-        mach, False,
-    )  # fmt: skip
+    section, weight = np.zeros((1, 2), np.int64), np.zeros(1)
+    numbers, tables = onset.numbers[None].copy(), onset.tables[None].copy()
+    data = StallData(numbers, tables, section, weight, np.full(1, k), mach, sheds=False)
     zero = float(np.interp(mach, np.linspace(0.0, 1.0, onset.numbers.shape[1]), onset.numbers[ZERO]))
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     follow(0, alpha - zero, np.full(_AZIMUTHS, mach), q, data, False, added, np.empty((3, _AZIMUTHS, 0)), shown)
