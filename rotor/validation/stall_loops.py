@@ -11,7 +11,7 @@ import numpy as np
 from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.airfoil.section_table import SectionTable, table_from_deck
-from rotor.airfoil.stall_onset import ZERO, stall_onset
+from rotor.airfoil.stall_onset import stall_onset
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 
@@ -81,11 +81,10 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     phase = 2.0 * math.pi * np.arange(_AZIMUTHS) / _AZIMUTHS
     alpha, q = mean + amplitude * np.sin(phase), k * amplitude * np.cos(phase)
     onset = stall_onset(table)
-    data = StallData(
-        onset.numbers[None].copy(), onset.tables[None].copy(), np.zeros((1, 2), np.int64), np.zeros(1), np.array([k]),
-        mach, False,
-    )  # fmt: skip
-    zero = float(np.interp(mach, np.linspace(0.0, 1.0, onset.numbers.shape[1]), onset.numbers[ZERO]))
+    section, weight = np.zeros((1, 2), np.int64), np.zeros(1)
+    numbers, tables = onset.numbers[None].copy(), onset.tables[None].copy()
+    data = StallData(numbers, tables, section, weight, np.full(1, k), mach, sheds=False)
+    zero = float(table.zero_lift_alpha(mach))
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     follow(0, alpha - zero, np.full(_AZIMUTHS, mach), q, data, False, added, np.empty((3, _AZIMUTHS, 0)), shown)
     own, moment = table(alpha, mach), table.moment(alpha, mach)

@@ -53,7 +53,7 @@ def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServ
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
     test_stand = 5 + 8  # Menus and sliders.
-    assert len(handles) == len(SLIDERS) + len(SWITCHES) + 8 + test_stand
+    assert len(handles) == len(SLIDERS) + len(SWITCHES) + 9 + test_stand
     for handle in handles:
         assert handle.hint in texts, f"{handle.label!r} explains nothing"
 

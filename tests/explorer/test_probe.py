@@ -298,8 +298,8 @@ class TestDynamicStall:
         unsteady, disk = stalled.disk.unsteady, stalled.disk
         assert unsteady is not None
         differ = (unsteady.separation < 0.7) & (disk.stall_margin > 0.02) & (disk.u_t > 0.1)
-        i, j = np.argwhere(differ)[0]  # Still separated, though the angle has come back.
-        p = probe(stalled, disk.r[i], disk.psi[j])
+        i, j = np.argwhere(differ)[0].tolist()  # Still separated, though the angle has come back.
+        p = probe(stalled, float(disk.r[i]), float(disk.psi[j]))
         assert p.region is FlowRegion.STALLED
         assert p.unsteady is not None
         assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)

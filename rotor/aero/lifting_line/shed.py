@@ -10,6 +10,7 @@ Inboard, where the wake passes back over the blade, it fades out as the core of 
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import exp1, hankel2
 
 from rotor.aero.lifting_line.geometry import WakeCourse
@@ -17,13 +18,13 @@ from rotor.aero.lifting_line.influence import BARE, TURNS, Line, build_wake, own
 from rotor.arrays import Array
 
 
-def theodorsen(k: Array) -> Array:
+def theodorsen(k: Array) -> NDArray[np.complex128]:
     """C(k), complex; 1 at k = 0."""
     one, zero = hankel2(1, np.maximum(k, 1e-12)), hankel2(0, np.maximum(k, 1e-12))
-    return np.asarray(one / (one + 1j * zero))
+    return np.asarray(one / (one + 1j * zero), dtype=np.complex128)
 
 
-def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> Array:
+def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
     """Downwash over ΩR of a panel's own shed lines by its circulation exp(inψ) over ΩR², in a straight wake: complex.
 
     harmonic: n, (harmonics,). The lines are those of `build_wake`, as if they ran on along the blade.
@@ -43,7 +44,7 @@ def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> 
 
 def shed_correction(line: Line, course: WakeCourse, half_chord: Array) -> Array:
     """To be added to A between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
-    n = np.arange((line.azimuths + 1) // 2)
+    n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
     age = 2.0 * math.pi * np.arange(line.azimuths) / line.azimuths
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths
     share = np.clip((line.r - course.mu_x - BARE[0]) / (BARE[1] - BARE[0]), 0.0, 1.0)

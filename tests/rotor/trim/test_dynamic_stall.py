@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from rotor.engine.linearise import evaluate, jacobian, transposed
 from rotor.trim.adjoint import Adjoint, power_gradient
 from rotor.trim.distribution import distribution
 
-HEAVY = {"mu": 0.35, "mass_kg": 9500.0}
+HEAVY: dict[str, Any] = {"mu": 0.35, "mass_kg": 9500.0}
 
 
 def steady(design: Design) -> Design:
@@ -20,8 +21,8 @@ def steady(design: Design) -> Design:
 
 
 @pytest.mark.parametrize("changed", [{}, {"off": "elastic-twist"}, {"bending": True}])
-def test_the_jacobian_is_exact(changed: dict[str, object]):
-    solution = solve(make_design(**HEAVY, dynamic_stall=True, **changed)).require()  # pyright: ignore[reportArgumentType]
+def test_the_jacobian_is_exact(changed: dict[str, Any]):
+    solution = solve(make_design(**HEAVY, dynamic_stall=True, **changed)).require()
     assert solution.disk.unsteady is not None
     assert solution.disk.unsteady.separation.min() < 0.5
     point = Adjoint(solution).point
@@ -70,8 +71,8 @@ def test_stalled_lift_comes_later_and_is_more():
 
 
 @pytest.mark.parametrize("given", [{"hover": True}, {"mu": 0.3, "inflow": "local-momentum"}])
-def test_no_effect_in_hover_and_where_the_section_balances_itself(given: dict[str, object]):
-    design = make_design(**given, dynamic_stall=True)  # pyright: ignore[reportArgumentType]
+def test_no_effect_in_hover_and_where_the_section_balances_itself(given: dict[str, Any]):
+    design = make_design(**given, dynamic_stall=True)
     assert solve(design).power.total == solve(steady(design)).power.total
 
 

@@ -20,7 +20,7 @@ FREQUENCIES = (0.05, 0.1, 0.2)
 
 def deficiency(k: float) -> complex:
     """C(k) by modified Bessel functions: another way than the code's."""
-    one, zero = kv(1, 1j * k), kv(0, 1j * k)
+    one, zero = kv([1.0, 0.0], np.full(2, 1j * k))
     return complex(one / (one + zero))
 
 
