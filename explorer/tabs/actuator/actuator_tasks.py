@@ -107,9 +107,9 @@ class PoolTask(Hashable, Protocol):
 class PoolAnswers:
     """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
 
-    def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None]) -> None:
-        """`answered` is called after every answer, on a thread of the pool."""
-        self._pool, self._urgency, self._answered = pool, urgency, answered
+    def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
+        """`answered` is called after every answer, on a thread of the pool; `limit` of one task [s]."""
+        self._pool, self._urgency, self._answered, self._limit = pool, urgency, answered, limit
         self._tasks: tuple[PoolTask, ...] = ()
         self._delay = 0.0
         self._failures: dict[PoolTask, str] = {}
@@ -160,7 +160,9 @@ class PoolAnswers:
             if self._running or self._stopped or task is None:
                 return
             self._running = True
-            self._job = self._pool.submit(task, lambda news: self._on_event(task, news), urgency=self._urgency)
+            self._job = self._pool.submit(
+                task, lambda news: self._on_event(task, news), limit=self._limit, urgency=self._urgency
+            )
 
     def _on_event(self, task: PoolTask, news: JobEvent) -> None:
         match news:

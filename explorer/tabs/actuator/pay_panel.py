@@ -29,6 +29,8 @@ from rotor.actuator.pay import (
 )
 from rotor.line_chart import round_ticks, tick_text
 
+_LIMIT = 300.0
+"""Of a search [s], which takes ten on an idle machine."""
 _KEPT_SPACE = "\u00a0"
 _SHOWN = 5
 """Builds in the table."""
@@ -67,7 +69,7 @@ class PayPanel:
 
     def __init__(self, context: TabContext) -> None:
         # Asked for by hand, so before the verdicts on the other actuators.
-        self._answers = PoolAnswers(context.pool, 4, context.wake)
+        self._answers = PoolAnswers(context.pool, 4, context.wake, _LIMIT)
         self._asked: PayTask | None = None
         self._wanted = False
         self._context, self._sent = context, ""
@@ -85,7 +87,9 @@ class PayPanel:
         task = self._asked
         if task is None:
             return
-        answer = self._answers.answer(task) or self._answers.answer(replace(task, builds=False))
+        answer, line_alone = self._answers.answer(task), self._answers.answer(replace(task, builds=False))
+        if not isinstance(answer, PayAnswer):
+            answer = line_alone or answer
         content = wait_panel()
         if isinstance(answer, str):
             content = f'<div class="rx rx-small" data-explorer="pay" data-kind="problem">{escape(answer)}</div>'
