@@ -200,7 +200,6 @@ def test_commits_are_checked_by_the_same_ruff():
 
 
 MOST_MODULES = 327
-"""Of both packages together; 164 of them in `rotor`. A further one takes the place of another."""
 """Of both packages together; 170 of them in `rotor`. A further one takes the place of another."""
 
 

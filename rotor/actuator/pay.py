@@ -11,12 +11,13 @@ and the line is where net = 0. P_fixed is the best fixed blade, s the shares of 
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import product
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.catalogue import ExtensionTwist, actuators
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, actuators
 from rotor.actuator.electrical import drive
 from rotor.actuator.installation import InstalledActuator, heavier, install
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_fixed
@@ -106,6 +107,7 @@ class BreakEven:
         return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
 
 
+@lru_cache(maxsize=16)
 def break_even(pair: ConditionPair) -> BreakEven:
     """The break-even line of a pair of flight conditions, any rotor; a second or two.
 
@@ -209,9 +211,21 @@ class Candidate:
 
     @property
     def earned(self) -> float:
-        """Saving over cost: above one it pays. The lightest build loses least, so the net alone would rank by mass."""
-        gain = self.saving + max(-self.stiffness_cost, 0.0)
-        return gain / max(self.mass_cost + self.hold + max(self.stiffness_cost, 0.0), 1e-9)
+        """What its twist saves over what it costs: above one it pays.
+
+        Net savings alone would rank by mass, as the lightest build loses least. What a softer blade saves by itself is
+        not credited: that needs no actuator.
+        """
+        return self.saving / max(self.mass_cost + self.hold + max(self.stiffness_cost, 0.0), 1e-9)
+
+    @property
+    def name(self) -> str:
+        """Actuator, count, span and blade, for a reader."""
+        placement, host, actuator = self.installed.placement, self.installed.host, self.installed.actuator
+        low, high = placement.span
+        one, many = ("ply", "plies") if isinstance(actuator, PiezoPly) else ("tube", "tubes")
+        number = f"{placement.plies} {one if placement.plies == 1 else many}"
+        return f"{actuator.id.replace('_', ' ')}, {number}, {low:.2f}–{high:.2f} R, GJ × {host.stiffness:g}"
 
     @property
     def mass(self) -> float:
@@ -290,10 +304,7 @@ def search_sentence(search: PaySearch) -> str:
         return ""
     best = search.candidates[0]
     twist = math.degrees(best.installed.attainable)
-    what = (
-        f"{best.installed.actuator.name}, {best.installed.placement.plies} a side or segment, "
-        f"{best.installed.host.label}: {twist:.1f}° for {best.mass:.0f} kg"
-    )
+    what = f"{best.name}: {twist:.1f}° for {best.mass:.0f} kg"
     count, paying = len(search.candidates), sum(one.earned > 1.0 for one in search.candidates)
     if paying:
         return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost."

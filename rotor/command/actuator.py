@@ -278,10 +278,8 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
 
 def _builds(search: PaySearch) -> list[str]:
     lines = [
-        f"  {one.installed.actuator.id:<13} {one.installed.placement.plies} × "
-        f"{one.installed.placement.span[0]:.2f}…{one.installed.placement.span[1]:.2f} R, {one.installed.host.label}: "
-        f"{math.degrees(one.installed.attainable):.2f}°, {one.mass:.0f} kg, saves {one.saving:.0f} W, "
-        f"net {one.estimate:.0f} W"
+        f"  {one.name}: {math.degrees(one.installed.attainable):.2f}°, {one.mass:.0f} kg, saves {one.saving:.0f} W, "
+        f"{100.0 * one.earned:.0f} % of its cost, net {one.estimate:.0f} W"
         for one in search.candidates[:5]
     ]
     judged = [f"  {verdict.installed.actuator.id}: {verdict_sentence(verdict)}" for verdict in search.verdicts]

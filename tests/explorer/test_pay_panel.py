@@ -43,7 +43,10 @@ def test_the_panel_holds_sentence_charts_and_builds():
     assert 'data-explorer="pay-mass"' in html
     assert 'data-explorer="pay-drive"' in html
     rows = re.findall(r"<tr><td>(.*?)</td><td>", html)
-    assert rows == ["MFC P1, 1 ply, 0.24–0.93 R, GJ × 0.5", "MFC P1, 2 plies, 0.24–0.93 R, GJ × 0.5"]
+    assert [row.replace("\u00a0", " ") for row in rows] == [
+        "MFC P1, 1 ply, 0.24–0.93 R, GJ × 0.5",
+        "MFC P1, 2 plies, 0.24–0.93 R, GJ × 0.5",
+    ]
     assert ">+1.0</td>" in html  # 2000 − 900 − 100 W
     assert ">200</td>" in html  # of its cost
     assert "find again" not in html

@@ -5,7 +5,7 @@ Worked out in the background when asked for, and kept until the design or the fl
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
@@ -16,12 +16,22 @@ from explorer.model.units import number
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.glossary import hint
-from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, Candidate, pay_sentence, search_sentence, what_would_pay
+from rotor.actuator.pay import (
+    BreakEven,
+    Candidate,
+    PaySearch,
+    break_even,
+    pay_sentence,
+    search_sentence,
+    what_would_pay,
+)
 from rotor.line_chart import round_ticks, tick_text
 
+_LIMIT = 300.0
+"""Of a search [s], which takes ten on an idle machine."""
+_KEPT_SPACE = "\u00a0"
 _SHOWN = 5
 """Builds in the table."""
 
@@ -40,12 +50,14 @@ class PayTask:
     """A search for what would pay. It pickles."""
 
     pair: ConditionPair
+    builds: bool = True
+    """Whether builds are ranked too; the line alone comes first."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PayAnswer | str:
         """The answer, or the sentence that says why there is none."""
         del tell, stop
         try:
-            search = what_would_pay(self.pair, judged=0)
+            search = what_would_pay(self.pair, judged=0) if self.builds else PaySearch(break_even(self.pair), (), ())
         except (ValueError, RuntimeError) as error:
             return str(error)
         said = tuple(filter(None, (pay_sentence(search.even), search_sentence(search))))
@@ -56,10 +68,10 @@ class PayPanel:
     """One client's, where the context stands."""
 
     def __init__(self, context: TabContext) -> None:
-        # Behind everything else: it takes tens of seconds on a busy machine.
-        self._answers = PoolAnswers(context.pool, 6, context.wake)
+        # Asked for by hand, so before the verdicts on the other actuators.
+        self._answers = PoolAnswers(context.pool, 4, context.wake, _LIMIT)
         self._asked: PayTask | None = None
-        self._now: PayTask | None = None
+        self._wanted = False
         self._context, self._sent = context, ""
         with context.gui.add_folder("What would pay"):
             self._button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
@@ -68,16 +80,21 @@ class PayPanel:
 
     def show(self, pair: ConditionPair, installed: InstalledActuator, share: float) -> None:
         """Follow the design; `share` of the nominal twist is counted."""
-        self._now = PayTask(pair)
+        now = PayTask(pair)
+        if self._wanted:
+            self._wanted, self._asked = False, now
+            self._answers.ask((replace(now, builds=False), now), 0.0)
         task = self._asked
         if task is None:
             return
-        answer = self._answers.answer(task)
+        answer, line_alone = self._answers.answer(task), self._answers.answer(replace(task, builds=False))
+        if not isinstance(answer, PayAnswer):
+            answer = line_alone or answer
         content = wait_panel()
         if isinstance(answer, str):
             content = f'<div class="rx rx-small" data-explorer="pay" data-kind="problem">{escape(answer)}</div>'
         elif isinstance(answer, PayAnswer):
-            content = pay_panel(answer, installed, share, stale=task != self._now)
+            content = pay_panel(answer, installed, share, stale=task != now)
         if content != self._sent:
             self._sent = content
             self._html.content = content
@@ -87,10 +104,8 @@ class PayPanel:
         self._answers.stop()
 
     def _ask(self) -> None:
-        if self._now is None:
-            return
-        self._asked = self._now
-        self._answers.ask((self._asked,), 0.0)
+        """On a thread of viser's: the question is put when the design is known, by `show`."""
+        self._wanted = True
         self._context.wake()
 
 
@@ -131,20 +146,13 @@ def _table(builds: tuple[Candidate, ...]) -> str:
     rows = ""
     for one in builds:
         cells = (math.degrees(one.installed.attainable), 1), (one.mass, 0), (100.0 * one.earned, 0)
-        rows += f"<tr><td>{escape(_name(one))}</td>"
+        name = one.name.replace(" × ", _KEPT_SPACE.join(("", "×", ""))).replace(" R", f"{_KEPT_SPACE}R")
+        rows += f"<tr><td>{escape(name)}</td>"
         rows += "".join(f"<td>{number(value, places)}</td>" for value, places in cells)
         rows += f'<td class="{"rx-less" if one.estimate > 0.0 else "rxa-bad"}">'
         rows += f"{number(1e-3 * one.estimate, 1, sign=True)}</td></tr>"
-    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>% of cost<br>saved</th><th>net<br>kW</th></tr>"
+    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>earns<br>%</th><th>net<br>kW</th></tr>"
     return f'<table class="rxa-table rxa-pay" data-explorer="pay-builds">{head}{rows}</table>'
-
-
-def _name(one: Candidate) -> str:
-    placement, host = one.installed.placement, one.installed.host
-    low, high = placement.span
-    one_of, many = ("ply", "plies") if isinstance(one.installed.actuator, PiezoPly) else ("tube", "tubes")
-    count = f"{placement.plies} {one_of if placement.plies == 1 else many}"
-    return f"{one.installed.actuator.id.replace('_', ' ')}, {count}, {low:.2f}–{high:.2f} R, GJ × {host.stiffness:g}"
 
 
 _WIDE, _HIGH = 300.0, 190.0
@@ -206,7 +214,8 @@ def mass_chart(even: BreakEven, installed: InstalledActuator, share: float) -> s
     fine = np.linspace(0.0, float(even.twists[-1]), 60)[1:]
     edge = [frame.at(math.degrees(x), even.mass_allowed(x)) for x in fine.tolist()]
     right = frame.at(frame.x_most, largest)
-    half = [frame.at(math.degrees(x), even.mass_allowed(x, 0.5 * even.ideal_saving)) for x in fine.tolist()]
+    driven = [(math.degrees(x), even.mass_allowed(x, 0.5 * even.ideal_saving)) for x in fine.tolist()]
+    half = [frame.at(x, mass_then) for x, mass_then in driven if mass_then >= frame.y_low]
     floor = frame.at(frame.x_most, frame.y_low), frame.at(math.degrees(float(fine[0])), frame.y_low)
     drawn = polygon([*edge, right, *floor], 'fill="#0ca678" fill-opacity=".13"')
     drawn += _path([*edge, right], "") + _path(half, 'stroke-dasharray="4 3"')
@@ -224,9 +233,10 @@ def mass_chart(even: BreakEven, installed: InstalledActuator, share: float) -> s
     )
     said = f"Mass that pays over twist; {name} {'pays' if paid else 'does not pay'}"
     key = (
-        '<div class="rx-dim">Line: no drive power. Dashed: half of what unlimited twist saves goes to the drive.</div>'
+        '<div class="rx-dim">Line: no drive power. Dashed: half of what unlimited twist saves goes to the drive. '
+        "Earns: what its twist saves over what it costs.</div>"
     )
-    return frame.draw("tip twist [°]", "mass, all blades [kg]", drawn, "pay-mass", said) + key
+    return frame.draw("range of tip twist [°]", "mass, all blades [kg]", drawn, "pay-mass", said) + key
 
 
 def drive_chart(even: BreakEven) -> str:
