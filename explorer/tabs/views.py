@@ -103,6 +103,7 @@ class SceneViews:
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
+        self._show()  # Another rotor may carry an actuator, or not.
         if self._view != "disk" or self._actuator.lifted or (view.beside and pinned is not None):
             self._hide_plan()
             return
