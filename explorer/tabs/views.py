@@ -133,6 +133,7 @@ class SceneViews:
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
+        self._show()  # Another rotor may carry an actuator, or not.
         other = self._instead or self._actuator.lifted
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
         if self._view != "disk" or other or ((view.beside or view.wipe) and pinned is not None):

@@ -137,7 +137,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
         assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.WIDER
     assert sum(len(solid.mesh.vertices) for solid in picture.solids.values()) < 9_000
     assert all(np.isfinite(lines).all() for lines in picture.lines.values())
-    assert {"skin", "spar", "web", "shank", "drive_0"} <= set(picture.solids)
+    assert {"skin", "web", "shank", "drive_0"} <= set(picture.solids)
 
 
 def test_plies_stand_outside_the_true_contour_where_they_are_placed():

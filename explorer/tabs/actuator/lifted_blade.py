@@ -88,6 +88,7 @@ def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
         far = LIFT + THICKER * placement.plies * actuator.thickness
         pieces += [_ply(spec, rotor, side, placement.chord, span, far, k) for k, span in driven for side in SIDES]
     elif isinstance(actuator, TorqueTube):
+        del pieces[1]  # The spar would hide what it carries.
         pieces += [_tube(0.5 * actuator.diameter, span, k) for k, span in driven]
     else:
         pieces.append(BladePart("laminate", 0, r, 1.012 * rings))

@@ -43,7 +43,7 @@ SURFACES = {
     "shank": Surface((40, 44, 52)),
     "box": Surface((14, 42, 30)),
     "ply": Surface((70, 40, 22)),
-    "tube": Surface((84, 66, 50)),
+    "tube": Surface((60, 34, 24)),
     "laminate": Surface((90, 84, 60), 0.5),
 }
 EDGE: Rgb = (178, 20, 6)
@@ -52,7 +52,7 @@ GHOST: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
 FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
-ARROW: Rgb = (37, 99, 235)
+ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
 
 
@@ -180,7 +180,7 @@ def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
     """Light of a driven piece at −1…1 of its range: amber, blue for negative voltage; the heat of a tube."""
     strength = min(abs(share), 1.0)
     if role == "tube":
-        return (255, round(40 + 130 * strength), round(10 + 40 * strength**2)), strength
+        return (255, round(30 + 60 * strength), 0), strength
     return ((255, 78, 0) if share >= 0.0 else (0, 66, 255)), strength
 
 
