@@ -62,7 +62,7 @@ def test_the_map_stands_in_the_stage_and_leaves_nothing(watched: Watched):
     watched.section("Map")
     page.get_by_role("button", name="Compute map").click()
     page.wait_for_function("() => RX.state.landscape", timeout=240_000)
-    shown = "() => Object.keys(window.__viserMutable.nodeRefFromName).filter(name => name.startsWith('/landscape'))"
+    shown = "() => Object.keys(window.__viserSceneTree.getState()).filter(name => name.startsWith('/landscape/'))"
     watched.until(lambda: {"/landscape/surface", "/landscape/water"} <= set(page.evaluate(shown)))
     assert "%" in watched.text("landscape")
     labels = page.evaluate("() => RX.state.landscape_labels.map(one => one.text)")
