@@ -15,7 +15,7 @@ from explorer.picture.solids import Mesh
 from explorer.theme.colours import colour_map
 from rotor.arrays import Array
 
-SIZE, HEIGHT = 12.0, 4.6
+SIZE, HEIGHT = 12.0, 3.9
 """Edge of the map and height of its range of power [m]."""
 BASE = -0.7
 """Where the walls end [m]."""
@@ -26,7 +26,7 @@ MOST = 0.4
 _ABOVE = math.radians(33.0)
 _SPARE = 1.05
 """Margin round the map for its ticks and titles."""
-_BLADE_GAP = 2.6
+_BLADE_GAP = 1.6
 """Between the map's corner and the blade beside it [m]."""
 
 
@@ -174,7 +174,7 @@ class Landscape:
         backward = np.array([x / math.sqrt(2.0), y / math.sqrt(2.0), 0.0]) * math.cos(_ABOVE)
         backward[2] = math.sin(_ABOVE)
         edge = 0.5 * _SPARE * SIZE
-        points = [[u * edge, v * edge, z] for u in (-1, 1) for v in (-1, 1) for z in (BASE, 0.6 * HEIGHT)]
+        points = [[u * edge, v * edge, z] for u in (-1, 1) for v in (-1, 1) for z in (BASE, 0.85 * HEIGHT)]
         root, turn = self.blade_place(length)
         tip = root + length * np.array([math.cos(turn), math.sin(turn), 0.0])
         return framed(np.array([*points, root, tip]), backward, aspect)

@@ -65,7 +65,7 @@
       <p class="rxf-dim">${text(next.note)}</p>`;
     buttons();
     // A search that is new here is played once its nodes are there; another label or theme plays nothing.
-    const key = JSON.stringify(next.balls);
+    const key = JSON.stringify(next.balls.map(one => one.powers));  // A finer map moves them a little: no reason to begin again.
     const fresh = key !== shown && next.balls.length;
     shown = key;
     const wait = tries => {

@@ -15,7 +15,7 @@ from explorer.tabs.optimise.landscape_panel import half_widths, paths_on, valley
 from explorer.tabs.optimise.map_panel import Map
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.workers.pool import JobEnded, JobProgress
-from explorer.workers.tasks import MapTask
+from explorer.workers.tasks import MapTask, StartPower
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
@@ -97,6 +97,7 @@ def test_balls_roll_where_the_search_has_been():
     drawn = map_of(design)
     search = Search(design, drawn.task.concept, drawn.task.objective, starts=2)
     run = SearchRun(search)
+    run.on_event(JobProgress(StartPower(9.6e5)))
     for news in (progress(0, -0.3, -0.1, 9e5), progress(0, -0.2, 0.0, 9.5e5), progress(0, -0.25, -0.2, 8.9e5)):
         run.on_event(news)
     assert paths_on(drawn, run) == ()  # It is under way.

@@ -15,6 +15,7 @@ from explorer.charts.plots import Plot
 from explorer.model.inputs import baseline_of
 from explorer.model.units import SI
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.landscape import refined
 from explorer.tabs import sensitivity_panel as sensitivity
 from explorer.tabs.optimise import map_panel as power_map
 from explorer.tabs.optimise import schedule_view
@@ -298,7 +299,7 @@ class TestMap:
     def test_designs_that_do_not_trim_are_left_blank(self):
         powers = np.full((5, 5), 1e6) + np.arange(5.0)
         powers[4, 4] = math.nan
-        values = power_map.refined(powers, 40, 30)
+        values = refined(powers, 40, 30)
         assert np.isnan(values[-1, -1])
         assert np.isfinite(values[:20, :20]).all()
         picture = np.array(Image.open(io.BytesIO(power_map.picture(powers))).convert("RGBA"))

@@ -147,8 +147,11 @@ class TestWidgets:
         self, server: viser.ViserServer, controls_from: Callable[[Inputs], DesignControls]
     ) -> tuple[DesignControls, PerRevControls]:
         controls = controls_from(OPENING)
-        context: Any = SimpleNamespace(gui=server.gui, controls=controls, inputs=controls.inputs)
-        return controls, PerRevControls(context)
+        bridge = SimpleNamespace(set=lambda **_: None, on=lambda *_: None)
+        context: Any = SimpleNamespace(
+            gui=server.gui, controls=controls, inputs=controls.inputs, bridge=bridge, pool=None, wake=lambda: None
+        )
+        return controls, PerRevControls(context, lambda _: None)
 
     def test_a_hand_on_them(self, parts: tuple[DesignControls, PerRevControls]):
         page, panel = parts

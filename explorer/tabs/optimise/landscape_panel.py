@@ -18,7 +18,7 @@ from trimesh.visual.color import ColorVisuals
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
-from explorer.picture.landscape import BASE, HEIGHT, POINTS, SIZE, Landscape, refined
+from explorer.picture.landscape import BASE, POINTS, SIZE, Landscape, refined
 from explorer.picture.scene_theme import scene_theme
 from explorer.picture.solids import Mesh
 from explorer.tabs.context import TabContext
@@ -38,7 +38,7 @@ _BALL, _LIFT = 0.2, 0.19
 """Radius of a ball, and how far its middle is above the surface [m]."""
 _TIMES = 4.0
 """Exaggeration of the blade's twist, as on the rest of the page."""
-_BLADE_SCALE = 1.25
+_BLADE_SCALE = 1.4
 _WATER, _NOW, _PINNED = (38, 110, 235), (214, 40, 24), (104, 64, 220)
 _FLAT = 2.0
 """Half a valley this wide [°/R] is called flat."""
@@ -172,7 +172,7 @@ class LandscapePanel:
             balls = [self._ball(land, path) for path in paths]
             labels = [*_axis_labels(drawn, land), _water_label(drawn, land, units)]
             labels += self._marks(drawn, land, design, pinned, units)
-            blade = self._blade(drawn, land, paths, theme.blade)
+            blade = self._blade(drawn, land, paths, theme.reference_blade)
         labels.append(blade.pop("label"))
         self._context.bridge.set(
             landscape={
@@ -197,11 +197,14 @@ class LandscapePanel:
         api = self._api
         surface, colours = land.surface(), land.colours(COLOURS_END)
         mesh = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
-        mesh.visual = ColorVisuals(mesh, vertex_colors=np.hstack((colours, np.full((len(colours), 1), 255, np.uint8))))
+        # Colours of vertices are linear in the file, those of the map are sRGB.
+        linear = np.round(255.0 * (colours / 255.0) ** 2.2).astype(np.uint8)
+        opaque = np.full((len(colours), 1), 255, dtype=np.uint8)
+        mesh.visual = ColorVisuals(mesh, vertex_colors=np.hstack((linear, opaque)))
         _ = mesh.vertex_normals  # Computed, they go into the file, and the surface is lit smoothly.
         self._handles.append(api.add_mesh_trimesh(f"{ROOT}/surface", mesh, cast_shadow=False, receive_shadow=False))
         self._mesh("walls", land.walls(), wall, 0.55)
-        self._mesh("water", land.water(), _WATER, 0.72)
+        self._mesh("water", land.water(), _WATER, 0.9)
         self._lines("shore", land.shore(), (255, 255, 255), 2.6)
         steps = np.linspace(0.0, 1.0, 13)
         fine = np.linspace(0.0, 1.0, 49)
@@ -254,9 +257,9 @@ class LandscapePanel:
             at = land.place(x, y, lift=_LIFT)
             self._sphere(f"mark_{name}", rgb, at, 1.25 * _BALL)
             more = units.watts(power - land.least, 1, sign=True)
-            nearest = "" if exact else "nearest to "
+            nearest = "" if exact else ", nearest on the map"
             labels.append(
-                {"text": f"{nearest}{title} · {units.watts(power)}, {more}", "node": f"{ROOT}/mark_{name}",
+                {"text": f"{title}{nearest} · {units.watts(power)}, {more}", "node": f"{ROOT}/mark_{name}",
                  "at": [0.0, 0.0, 0.75], "title": "Of the map, against its least power."}
             )  # fmt: skip
         return labels
@@ -339,7 +342,10 @@ def _axis_labels(drawn: Map, land: Landscape) -> list[dict[str, Any]]:
 
 def _water_label(drawn: Map, land: Landscape, units: Units) -> dict[str, Any]:
     (x0, x1), (y0, y1) = land.valley()
-    at = [SIZE * (0.5 * (x0 + x1) - 0.5), SIZE * (0.5 * (y0 + y1) - 0.5), 0.3 * HEIGHT]
+    near_x, near_y = land.near
+    centre = np.array([SIZE * (0.5 * (x0 + x1) - 0.5), SIZE * (0.5 * (y0 + y1) - 0.5), 0.0])
+    # Before the valley, where it covers neither the balls nor their words.
+    at = (centre + 2.2 * np.array([near_x, near_y, 0.0])).tolist()
     title = f"Blue: within {100 * BAND:g} % of the least power of the map."
     return {"text": valley_words(drawn, land, units), "node": ROOT, "at": at, "kind": "water", "title": title}
 

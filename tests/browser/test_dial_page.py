@@ -1,0 +1,74 @@
+"""The dial of twist at n/rev and the landscape of power in a browser."""
+
+import pytest
+from watched import MEDIUM, Watched
+
+from explorer.model.inputs import Inputs
+
+pytestmark = pytest.mark.browser
+START = Inputs(law="builtin", advance_ratio=0.3, bending=True)
+SIZE = MEDIUM
+
+FORESEEN = "() => RX.state.dial_matrix && RX.state.dial?.settled"
+NOW = "() => RX.state.dial.now"
+
+
+def centre(watched: Watched) -> tuple[float, float, float]:
+    """Middle of the dial and its radius [px]."""
+    place = watched.page.locator("[data-dial] .rxd-round").first
+    place.scroll_into_view_if_needed()
+    box = place.bounding_box()
+    assert box is not None
+    return box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"], 0.5 * box["width"] - 22.0
+
+
+def test_a_drag_on_the_dial_is_foreseen_trimmed_and_one_undo(watched: Watched):
+    page = watched.page
+    watched.mode("actuate")
+    page.wait_for_function(FORESEEN, timeout=240_000)
+    x, y, radius = centre(watched)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 0.25 * radius, y - 0.433 * radius, steps=6)
+    watched.until(lambda: "trimmed …" in watched.text("dial-read"))
+    assert "vibration −" in watched.text("dial-read").replace("\n", " ")
+    page.mouse.up()
+    watched.answered()
+    ((order, size, phase),) = page.evaluate(NOW)
+    assert order == 3
+    assert size == pytest.approx(1.0, abs=0.03)
+    assert phase == pytest.approx(60.0, abs=2.0)
+    settled, foreseen = page.evaluate(
+        """() => { const x = [0, 0, 0, 0, 0, 0, 0, 0], [[, a, p]] = RX.state.dial.now;
+        x[2] = a * Math.cos(p * Math.PI / 180); x[3] = a * Math.sin(p * Math.PI / 180);
+        return [RX.state.dial.settled, RX.foresee(RX.state.dial_matrix, x)]; }"""
+    )
+    assert foreseen[0] == pytest.approx(settled[0], abs=0.3)
+    assert foreseen[1] == pytest.approx(settled[1], abs=6.0)
+    page.evaluate("RX.send('undo')")
+    watched.until(lambda: page.evaluate(NOW) == [])
+    dot = page.locator("[data-dial] [data-dot]").first
+    dot.focus()
+    page.keyboard.press("Shift+ArrowUp")
+    watched.until(lambda: page.evaluate(NOW) and page.evaluate(NOW)[0][1] == 0.25)
+    page.wait_for_function("() => RX.state.dial_front?.dots?.length > 3", timeout=240_000)
+    page.locator("[data-front]").nth(2).press("Enter")
+    watched.until(lambda: page.evaluate(NOW)[0][:2] == [2, 1])
+
+
+def test_the_map_stands_in_the_stage_and_leaves_nothing(watched: Watched):
+    page = watched.page
+    watched.mode("optimise")
+    watched.section("Map")
+    page.get_by_role("button", name="Compute map").click()
+    page.wait_for_function("() => RX.state.landscape", timeout=240_000)
+    shown = "() => Object.keys(window.__viserSceneTree.getState()).filter(name => name.startsWith('/landscape/'))"
+    watched.until(lambda: {"/landscape/surface", "/landscape/water"} <= set(page.evaluate(shown)))
+    assert "%" in watched.text("landscape")
+    labels = page.evaluate("() => RX.state.landscape_labels.map(one => one.text)")
+    assert any(text.startswith("±") for text in labels)
+    watched.mode("explore")
+    page.wait_for_function("() => !RX.state.landscape && !RX.state.landscape_labels.length")
+    watched.until(lambda: page.evaluate(shown) == [])
+    blade = "() => window.__viserMutable.nodeRefFromName['/rotor'].visible"
+    watched.until(lambda: page.evaluate(blade))
