@@ -193,7 +193,7 @@ def page_with_a_chart(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "in").mkdir()
     (folder / "in" / "index.md").write_text(CHART, encoding="utf-8")
     command = (
-        sys.executable, "-m", "sphinx", "-q", "-b", "html", "-c", str(DOCS), "-D", "extensions=myst_parser",
+        sys.executable, "-m", "sphinx", "-q", "-b", "html", "-c", str(DOCS), "-D", "extensions=myst_parser,sphinx.ext.autodoc",
         str(folder / "in"), str(folder / "out"),
     )  # fmt: skip
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)

@@ -52,7 +52,8 @@ class Proxy:
             head = await reader.readuntil(b"\r\n\r\n")
             if b"Upgrade: websocket" in head:
                 self.handshakes += 1
-                await asyncio.sleep(self.delay)
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(self._ended.wait(), self.delay)
             server.write(head)
             await asyncio.gather(self._copy(reader, server, sent=True), self._copy(server_reader, writer))
         for one in (writer, server):
@@ -189,6 +190,28 @@ def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", pro
     assert "-7.9" in page.evaluate("() => location.search")
     Watched(page).type("Δ inboard", -7.3)
     page.wait_for_function("() => location.search.includes('-7.3')")
+
+
+FAST = "const now = performance.now.bind(performance); performance.now = () => 12 * now();"
+"""Time passes twelve times as fast for what waits in the page."""
+
+
+def test_a_page_that_gets_no_connection_says_so_and_stays_covered(page: "Page", proxy: Proxy):
+    """As behind a proxy that passes no WebSockets."""
+    page.add_init_script(FAST)
+    proxy.delay = 1e4
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function("() => performance.now() > 40000")
+    assert "cannot be reached" in page.inner_text("#rx-veil")
+    assert page.is_visible("#rx-veil")
+
+
+def test_a_page_whose_messages_are_lost_does_not_go_on_solving(page: "Page", proxy: Proxy):
+    page.add_init_script(FAST)
+    proxy.deaf = True
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function("() => performance.now() > 40000")
+    page.wait_for_function("() => !document.body.innerText.includes('Solving the first trim')")
 
 
 def test_a_clock_set_back_by_a_day_stops_nothing(page: "Page", proxy: Proxy, monkeypatch: pytest.MonkeyPatch):
