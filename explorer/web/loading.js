@@ -39,7 +39,7 @@
     const now = performance.now(), answered = document.querySelector(sign) && !document.querySelector(unanswered);
     if (!answered && now < held) { begun = now; calm = 0; }
     const took = now - begun;
-    if (calm >= 3 || (took > ENOUGH && document.querySelector(`.rxf-opening, ${sign}`))) return lift();
+    if (calm >= 3 || took > ENOUGH) return lift();
     if (took > SLOW) words.textContent = 'This takes longer than it should: the server is busy, or cannot be reached. '
       + 'The page goes on trying.';
     requestAnimationFrame(look);
