@@ -52,7 +52,10 @@ class Proxy:
             head = await reader.readuntil(b"\r\n\r\n")
             if b"Upgrade: websocket" in head:
                 self.handshakes += 1
-                await asyncio.sleep(self.delay)
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(self._ended.wait(), self.delay)
+                if self._ended.is_set():
+                    raise ConnectionError("the test is over")
             server.write(head)
             await asyncio.gather(self._copy(reader, server, sent=True), self._copy(server_reader, writer))
         for one in (writer, server):
@@ -189,6 +192,22 @@ def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", pro
     assert "-7.9" in page.evaluate("() => location.search")
     Watched(page).type("Δ inboard", -7.3)
     page.wait_for_function("() => location.search.includes('-7.3')")
+
+
+FAST = "const now = performance.now.bind(performance); performance.now = () => 12 * now();"
+"""Time passes twelve times as fast for what waits in the page."""
+
+
+@pytest.mark.parametrize("way", ["no WebSocket", "messages lost"])
+def test_a_page_without_a_connection_does_not_go_on_solving(page: "Page", proxy: Proxy, way: str):
+    """As behind a proxy that passes no WebSockets: the frame is served with the page, the first trim comes after it."""
+    page.add_init_script(FAST)
+    proxy.delay, proxy.deaf = (1e4, False) if way == "no WebSocket" else (0.0, True)
+    page.goto(proxy.address + COARSE)
+    card = "document.querySelector('[data-explorer=power-card]')?.textContent ?? ''"
+    page.wait_for_function(f"() => {{ const said = {card}; return said && !said.includes('Solving the first trim'); }}")
+    if way == "no WebSocket":
+        assert "The server does not answer" in page.inner_text("[data-explorer=power-card]")
 
 
 def test_a_clock_set_back_by_a_day_stops_nothing(page: "Page", proxy: Proxy, monkeypatch: pytest.MonkeyPatch):

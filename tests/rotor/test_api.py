@@ -285,14 +285,15 @@ class TestSweep:
 
     def test_over_speed_mass_and_altitude(self, design: rotor.Design):
         """Each is the same trim as that of `Design.at`, and the chart is drawn over what varies."""
-        for name, values in {"speed_kt": [60, 90], "mass_kg": [7000, 9000], "altitude_m": [0, 2000]}.items():
+        axes: dict[str, Any] = {"speed_kt": [60, 90], "mass_kg": [7000, 9000], "altitude_m": [0, 2000]}
+        for name, values in axes.items():
             table = rotor.sweep(design, **{name: values})
             assert [row[table.columns.index(name)] for row in table.rows] == pytest.approx(values)
             for one, value in zip(table, values, strict=True):
                 assert one.design == design.at(**{name: value})
-        axes = rotor.plot_power(rotor.sweep(design, mass_kg=[7000, 9000]))
-        assert axes.get_xlabel() == "Mass [kg]"
-        assert_allclose(axes.lines[0].get_xdata(), [7000, 9000])
+        drawn = rotor.plot_power(rotor.sweep(design, mass_kg=[7000, 9000]))
+        assert drawn.get_xlabel() == "Mass [kg]"
+        assert_allclose(drawn.lines[0].get_xdata(), [7000, 9000])
         pyplot.close("all")
 
     def test_a_csv_file_holds_the_table(self, design: rotor.Design, tmp_path: Path):
