@@ -1,5 +1,6 @@
 """What is shown: views and colour range by the buttons over the scene; units, theme and size of type."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -9,7 +10,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
-from explorer.picture.camera_views import View
+from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
@@ -76,6 +77,8 @@ class SceneViews:
         """`cut`: whether the blade is shown cut open."""
         self._context, self._scene, self._probe, self._cut = context, scene, probe, cut
         self._view: View = "3d"
+        self._on_cut: Callable[[float], Camera] | None = None
+        """The camera's subject while the blade is cut open."""
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
         cut.on_update(lambda _: self._cut_switched())
@@ -141,8 +144,9 @@ class SceneViews:
         self._probe.set_seen(not cut)
         if camera is not None:
             if cut:
-                camera.aim_with(partial(fit_cut, camera.radius))
-            else:
+                self._on_cut = partial(fit_cut, camera.radius)
+                camera.aim_with(self._on_cut)
+            elif camera.subject is self._on_cut:  # Else a step of the lecture has aimed it elsewhere already.
                 camera.aim(self._view)
         self._show()
 
