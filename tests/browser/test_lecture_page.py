@@ -106,7 +106,7 @@ def test_a_scroll_of_the_column_is_a_step(visit: Visit):
         "() => { const list = document.querySelector('.rxs-list'); list.scrollTop = list.children[2].offsetTop; }"
     )
     page.wait_for_selector('[data-explorer="lecture"][data-step="3"]')
-    design_in_address(watched, "linear:-12;inflow=pitt-peters")
+    design_in_address(watched, "inflow=pitt-peters")
 
 
 @pytest.mark.slow
