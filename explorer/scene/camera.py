@@ -32,6 +32,8 @@ class FittedCamera:
         self._client = client
         self.radius = radius
         """Of the rotor that is shown [m]."""
+        self.subject: Callable[[float], Camera] | None = None
+        """What `aim_with` was given; None while the rotor is looked at."""
         self._view: View | None = "3d"
         """None while something else than the rotor is looked at."""
         self._azimuth = 0.0
@@ -53,7 +55,7 @@ class FittedCamera:
 
     def aim(self, view: View, eased: bool = False) -> None:
         """Show the rotor, and go on doing so when the canvas changes."""
-        self._view = view
+        self._view, self.subject = view, None
         self._aim(partial(self._fitted, view), eased)
 
     def _fitted(self, view: View, aspect: float) -> Camera:
@@ -108,7 +110,7 @@ class FittedCamera:
 
     def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         """The same for any other subject: `fitted` finds the camera for a width over height without cards."""
-        self._view = None
+        self._view, self.subject = None, fitted
         self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased)
 
     def _aim(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:

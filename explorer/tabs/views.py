@@ -74,6 +74,8 @@ class SceneViews:
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
         self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
+        self._on_blade: Callable[[float], Camera] | None = None
+        """The camera's subject while the blade is lifted out."""
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
         self._instead = False
@@ -172,8 +174,10 @@ class SceneViews:
         self._scene.set_behind(out)
         self._probe.set_seen(not out)
         if camera is not None and out:
-            camera.aim_with(partial(fit_lifted, camera.radius))
-        elif camera is not None and towards is None:
+            self._on_blade = partial(fit_lifted, camera.radius)
+            camera.aim_with(self._on_blade)
+        elif camera is not None and towards is None and camera.subject is self._on_blade:
+            # Else a step of the lecture has aimed it elsewhere already.
             camera.aim(self._view)
         self._show()
 
