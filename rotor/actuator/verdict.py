@@ -205,9 +205,10 @@ def try_actuator(
     """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
 
     name: an actuator of `actuators()`, for example `MFC_P1`. share: fraction of time at the second advance ratio.
-    new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit. against: the blade that
-    savings are counted from, the concept's best fixed one or `as-built`. Raises ValueError with
-    one sentence for what cannot be used, RuntimeError where nothing trims.
+    new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit.
+    against: savings count from the concept's best fixed blade, or from the blade `as-built`.
+
+    ValueError with one sentence for what cannot be used, RuntimeError where nothing trims.
     """
     host = Host("new", 0.5) if new_blade else Host()
     pair = ConditionPair(design, mu, share)
