@@ -33,6 +33,8 @@ window.stillRotor = data => {
     node(name)?.traverse?.(part => {
       const geometry = part.geometry, place = geometry?.attributes?.position;
       if (!part.isMesh || !place) return;
+      // Equal vertices are one array in the file, for all meshes that have them.
+      if (!geometry.userData.own) { place.array = place.array.slice(); geometry.userData.own = true; }
       if (place.array.length === vertices.length) place.array.set(vertices);
       else if (place.array.length === 3 * faces.length)
         faces.forEach((corner, n) => { for (let i = 0; i < 3; i++) place.array[3 * n + i] = vertices[3 * corner + i]; });

@@ -214,6 +214,17 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
     page.keyboard.press("PageDown")
     page.wait_for_selector('.rxs-column[data-step="2"]')
     page.wait_for_selector(".rxs-wipe", state="visible")
+    tip = """name => { let found; window.__viserMutable.nodeRefFromName[name].traverse(part => {
+        if (part.isMesh) found ??= Array.from(part.geometry.attributes.position.array); }); return found; }"""
+
+    def apart(*names: str) -> float:
+        one, other = (page.evaluate(tip, name) for name in names)
+        return float(np.max(np.abs(np.subtract(one, other))))
+
+    # A has no twist, B has 16 degrees per radius; drawn, their tips are decimetres apart [m].
+    Watched(page).until(lambda: apart("/compared/blade_1", "/rotor/blade_1") > 0.05)
+    # Elastic twist follows the azimuth: blades of one rotor differ too.
+    Watched(page).until(lambda: apart("/rotor/blade_0", "/rotor/blade_1") > 1e-3)
     page.get_by_role("slider", name="Between A, left, and B, right").press("ArrowLeft")
     assert page.evaluate("() => rotorWipe.at") == pytest.approx(0.45)
     assert wrong == []
