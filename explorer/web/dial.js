@@ -38,7 +38,7 @@
     const key = JSON.stringify([chosen, dial.reach, x]);
     if (field?.key === key && field.matrix === matrix) return field;
     const power = [], index = [];
-    let least = [null, null];
+    const least = [null, null];
     for (let row = 0; row < GRID; row++) for (let column = 0; column < GRID; column++) {
       const a = dial.reach * (2 * column / (GRID - 1) - 1), b = dial.reach * (1 - 2 * row / (GRID - 1));
       x[2 * at] = a; x[2 * at + 1] = b;
@@ -109,7 +109,7 @@
   // Less vibration green, more red.
   function shade(canvas, size) {
     canvas.width = canvas.height = GRID * 4;
-    const radius = size / 2 - 22, {index} = fieldOf(), style = getComputedStyle(page), draw = canvas.getContext('2d');
+    const radius = size / 2 - 22, {index} = fieldOf(), style = getComputedStyle(page), pen = canvas.getContext('2d');
     Object.assign(canvas.style, {left: '22px', top: '22px', width: `${2 * radius}px`, height: `${2 * radius}px`});
     const tones = ['--rx-good', '--rx-bad'].map(name => style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/gi).map(v => parseInt(v, 16)));
     const one = document.createElement('canvas');
@@ -120,8 +120,8 @@
       pixels.data.set([...tone, Math.round(190 * strength ** .8)], 4 * k);
     });
     one.getContext('2d').putImageData(pixels, 0, 0);
-    draw.imageSmoothingQuality = 'high';
-    draw.drawImage(one, 0, 0, canvas.width, canvas.height);
+    pen.imageSmoothingQuality = 'high';
+    pen.drawImage(one, 0, 0, canvas.width, canvas.height);
   }
 
   function frontSvg(width, height) {
@@ -136,15 +136,15 @@
     for (let v = Math.ceil(x0 / 2) * 2; v <= x1; v += 2) out += `<path d="M${X(v).toFixed(1)} ${top}V${base}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${X(v).toFixed(1)}" y="${base + 14}" text-anchor="middle">${v > 0 ? '+' : v < 0 ? '−' : ''}${Math.abs(v)}</text>`;
     out += `<text x="2" y="12">vibration change [%]</text><text x="${(left + right) / 2}" y="${height - 6}" text-anchor="middle">power change [%]</text>`;
     if (alone.length) out += `<path d="M${right + 5} ${top}V${base}" stroke="var(--rx-faint)"/><text x="${width - 4}" y="${base + 14}" text-anchor="end">vibration</text><text x="${width - 4}" y="${height - 6}" text-anchor="end">alone</text>`;
-    const fill = one => one.kind === 'computed' ? 'var(--rx-paper)' : 'var(--rx-dim)';
+    const tint = one => one.kind === 'computed' ? 'var(--rx-paper)' : 'var(--rx-dim)';
     alone.forEach((one, k) => {
       const x = right + 17 + 17 * k, [low, high] = one.vibration;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${x - 8}" y="${Y(high) - 46}" width="16" height="${Y(low) - Y(high) + 54}" fill="transparent"/>${low < high ? `<path d="M${x} ${Y(low).toFixed(1)}V${Y(high).toFixed(1)}" stroke="var(--rx-dim)" stroke-width="5" stroke-linecap="round"/>` : `<rect x="${x - 4}" y="${(Y(low) - 4).toFixed(1)}" width="8" height="8" fill="${fill(one)}" stroke="var(--rx-dim)" stroke-width="1.4"/>`}
+      out += `<g data-published><title>${text(one.words)}</title><rect x="${x - 8}" y="${Y(high) - 46}" width="16" height="${Y(low) - Y(high) + 54}" fill="transparent"/>${low < high ? `<path d="M${x} ${Y(low).toFixed(1)}V${Y(high).toFixed(1)}" stroke="var(--rx-dim)" stroke-width="5" stroke-linecap="round"/>` : `<rect x="${x - 4}" y="${(Y(low) - 4).toFixed(1)}" width="8" height="8" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.4"/>`}
         <text transform="translate(${x + 4} ${(Y(high) - 9).toFixed(1)}) rotate(-90)">${text(one.name)}</text></g>`;
     });
     paired.forEach((one, k) => {
       const x = X(one.power), y = Y(one.vibration[0]), before = x > right - 96;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${fill(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 420 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
+      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 420 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
     });
     if (dots.length) {
       out += `<path d="M${dots.map(one => `${X(one.power).toFixed(1)} ${Y(one.index).toFixed(1)}`).join('L')}" fill="none" stroke="var(--rx-accent)" stroke-width="1.4" opacity=".6"/>`;

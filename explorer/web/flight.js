@@ -126,7 +126,7 @@
     if (!now || !slider || !scale) return;
     if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
     slider.style.setProperty('--at', `${100 * at / last()}%`);
-    const {X, Y, width, height} = scale, x = X(at), near = now.legs[Math.round(at)];
+    const {X, Y, height} = scale, x = X(at), near = now.legs[Math.round(at)];
     card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', k === Math.round(at)));
     let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
     if (now.wanted) {

@@ -7,7 +7,7 @@
   let now = null, at = 1, begun = 0, running = false, shown = '';
 
   const rounds = () => Math.max(1, ...now.balls.map(one => one.points.length - 1));
-  function place(t) {
+  function roll(t) {
     at = t;
     const nodes = viewer()?.nodePoseData, step = t * rounds();
     for (const ball of now.balls) {
@@ -39,11 +39,11 @@
   function tick(time) {
     if (!running || !now) return;
     const t = Math.min((time - begun) / LASTS, 1);
-    place(t);
+    roll(t);
     if (t < 1) requestAnimationFrame(tick); else { running = false; buttons(); }
   }
   function play() {
-    if (calm.matches) return place(1);
+    if (calm.matches) return roll(1);
     running = true;
     begun = performance.now() - (at < .999 ? at * LASTS : 0);
     buttons();
@@ -72,7 +72,7 @@
       if (now !== next) return;
       const nodes = viewer()?.nodeRefFromName ?? {};
       if (tries && ![...next.balls, next.blade].every(one => nodes[one.node])) return requestAnimationFrame(() => wait(tries - 1));
-      if (fresh) { at = 1; play(); } else place(at);
+      if (fresh) { at = 1; play(); } else roll(at);
     };
     if (fresh) running = false;
     wait(600);
@@ -80,7 +80,7 @@
   document.addEventListener('input', event => {
     if (!event.target.matches?.('.rxl-card input')) return;
     running = false;
-    place(Number(event.target.value));
+    roll(Number(event.target.value));
     buttons();
   });
   document.addEventListener('click', event => {
@@ -101,9 +101,9 @@
     place.innerHTML = '';
     if (!open || !source()) return;
     const copy = () => {
-      const now = source();
-      if (!now) return large(false);
-      place.innerHTML = `<div class="rxl-map">${now.outerHTML}</div><button class="rxl-close" data-map-close aria-label="Close" title="Close (Esc)">×</button>`;
+      const map = source();
+      if (!map) return large(false);
+      place.innerHTML = `<div class="rxl-map">${map.outerHTML}</div><button class="rxl-close" data-map-close aria-label="Close" title="Close (Esc)">×</button>`;
     };
     copy();
     watcher = new MutationObserver(copy);

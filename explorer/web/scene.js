@@ -139,13 +139,13 @@
       const vector = () => client.camera.position.clone(), get = () => ({p: control.getPosition(vector()), t: control.getTarget(vector())});
       const start = get();
       let last = start, goal = null;
-      const pose = () => {
+      const onRotor = () => {
         const root = client.nodeRefFromName[name]?.parent, blade = client.nodeRefFromName[`/rotor/blade_0`];
         if (!root || !blade) return null;
         blade.updateWorldMatrix(true, false);
-        const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), place = vector();
-        at.decompose(place, turn, vector());
-        return {place: place.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
+        const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), origin = vector();
+        at.decompose(origin, turn, vector());
+        return {place: origin.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
       };
       const frame = now => {
         if (own !== flight) return;
@@ -154,11 +154,11 @@
         const p = start.p.clone().lerp(goal.p, e), t = start.t.clone().lerp(goal.t, e);
         control.setLookAt(p.x, p.y, p.z, t.x, t.y, t.z, false);
         last = get();
-        const blade = pose();
+        const blade = onRotor();
         if (blade) {
           const share = out ? e : 1 - e, [w, x, y, z] = held.wxyz;
-          const place = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
-          client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: place.toArray(), poseUpdateState: 'needsUpdate'};
+          const position = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
+          client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: position.toArray(), poseUpdateState: 'needsUpdate'};
         }
         client.requestRender?.();
         if (e < 1) requestAnimationFrame(frame);

@@ -196,7 +196,9 @@ class PoolAnswers:
             if self._running or self._stopped or task is None:
                 return
             self._running = True
-            self._job = self._pool.submit(task, lambda news: self._on_event(task, news), self._limit, self._urgency)
+            self._job = self._pool.submit(
+                task, lambda news: self._on_event(task, news), limit=self._limit, urgency=self._urgency
+            )
 
     def _on_event(self, task: PoolTask, news: JobEvent) -> None:
         match news:
