@@ -247,7 +247,7 @@
     if (near && near.matches('[data-front]') && (event.key === 'Enter' || event.key === ' ')) { event.preventDefault(); event.stopPropagation(); near.dispatchEvent(new MouseEvent('click', {bubbles: true})); return; }
     if (event.key === 'Escape' && page.dataset.enlarged) { event.stopPropagation(); enlarge(false); return; }
     const dot = near && near.closest('[data-dot]'), many = event.shiftKey ? 5 : 1;
-    const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
+    const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], PageUp: [.25, 0], PageDown: [-.25, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();
