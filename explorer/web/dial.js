@@ -195,7 +195,13 @@
   function draw() {
     frame ||= requestAnimationFrame(() => { frame = 0; for (const place of document.querySelectorAll('[data-dial]')) fill(place); });
   }
-  for (const name of ['dial', 'dial_matrix', 'dial_front', 'dial_published']) RX.paint(name, draw);
+  // What was pressed holds until the sliders have it; from then on they tell, or an undo would not be seen.
+  RX.paint('dial', now => {
+    const [, a, p] = now && pressed ? now.now.find(([order]) => order === pressed.n) ?? [0, 0, 0] : [];
+    if (pressed && Math.abs(a - pressed.amplitude) < .006 && (!a || Math.abs(p - pressed.phase) < .6)) pressed = null;
+    draw();
+  });
+  for (const name of ['dial_matrix', 'dial_front', 'dial_published']) RX.paint(name, draw);
   new ResizeObserver(draw).observe(document.querySelector('.rxf-stage'));
   new MutationObserver(() => { for (const place of document.querySelectorAll('[data-dial]')) if (!place.childElementCount) draw(); }).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 
@@ -241,7 +247,7 @@
     if (near && near.matches('[data-front]') && (event.key === 'Enter' || event.key === ' ')) { event.preventDefault(); event.stopPropagation(); near.dispatchEvent(new MouseEvent('click', {bubbles: true})); return; }
     if (event.key === 'Escape' && page.dataset.enlarged) { event.stopPropagation(); enlarge(false); return; }
     const dot = near && near.closest('[data-dot]'), many = event.shiftKey ? 5 : 1;
-    const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
+    const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], PageUp: [.25, 0], PageDown: [-.25, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();

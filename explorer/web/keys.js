@@ -10,7 +10,8 @@
     if (!event.isTrusted || event.ctrlKey || event.metaKey || event.altKey) return;
     const key = pages[event.key] ?? (event.shiftKey && arrows.has(event.key) ? event.key : null);
     const field = number(event.target);
-    if (!key || !(on(event.target, '[role=slider]') || field)) return;
+    // The dial's dot has coarse steps of its own: each step draws it anew, so a second event would not reach it.
+    if (!key || !(on(event.target, '[role=slider]:not([data-dot])') || field)) return;
     if (field && (key === 'ArrowLeft' || key === 'ArrowRight')) return;  // There they select text.
     event.preventDefault();
     event.stopPropagation();

@@ -13,8 +13,11 @@ _FAULTS = """() => {
   const faults = new Set();
   const shown = e => { const r = e.getBoundingClientRect();
     return r.width > 0 && r.height > 0 && e.checkVisibility({visibilityProperty: true}); };
-  const pieces = e => { const range = document.createRange(); range.selectNodeContents(e);
-    return [...range.getClientRects()].filter(r => r.width > 1 && r.height > 4); };
+  // Of its words alone: a picture above them is no second line.
+  const pieces = e => { const range = document.createRange(), found = [];
+    const words = document.createTreeWalker(e, NodeFilter.SHOW_TEXT);
+    while (words.nextNode()) { range.selectNodeContents(words.currentNode); found.push(...range.getClientRects()); }
+    return found.filter(r => r.width > 1 && r.height > 4); };
   const name = e => e.innerText.trim().replace(/\\s+/g, ' ').slice(0, 50);
   // What is one line by intention: a widget's label, a button, a tab, a row of a read-out.
   for (const e of document.querySelectorAll('label, button, .rxf-chip small, [role=tab], .rx-line > span, .rx td')) {
