@@ -206,7 +206,7 @@ class Candidate:
 
     @property
     def estimate(self) -> float:
-        """Net saving by the break-even line, before it is judged by trims [W]."""
+        """Net saving by the break-even line [W], an upper bound: a ply over part of the span saves less than it."""
         return self.saving - self.mass_cost - self.hold - self.stiffness_cost
 
     @property
@@ -308,7 +308,7 @@ def search_sentence(search: PaySearch) -> str:
     count, paying = len(search.candidates), sum(one.earned > 1.0 for one in search.candidates)
     if paying:
         return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost."
-    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost."
+    return f"None of {count} builds pays; nearest: {what}, saves at most {100.0 * best.earned:.0f} % of its cost."
 
 
 def pay_sentence(even: BreakEven) -> str:

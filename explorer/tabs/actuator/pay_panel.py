@@ -151,7 +151,7 @@ def _table(builds: tuple[Candidate, ...]) -> str:
         rows += "".join(f"<td>{number(value, places)}</td>" for value, places in cells)
         rows += f'<td class="{"rx-less" if one.estimate > 0.0 else "rxa-bad"}">'
         rows += f"{number(1e-3 * one.estimate, 1, sign=True)}</td></tr>"
-    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>earns<br>%</th><th>net<br>kW</th></tr>"
+    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>earns<br>≤ %</th><th>net<br>≤ kW</th></tr>"
     return f'<table class="rxa-table rxa-pay" data-explorer="pay-builds">{head}{rows}</table>'
 
 

@@ -500,7 +500,11 @@ def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
 
 
 @pytest.mark.slow
-def test_a_billion_points_are_counted_not_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_a_billion_points_are_counted_not_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("rotor.command.study._PLACES", 2)
+    monkeypatch.setattr("rotor.command.study._RUN", 1)
     axes = '[axes]\nmu = "0.0001:0.4:0.0001"\naltitude_m = "0:4000:2"\nmass_kg = "6000:9000:20"\n'
     (tmp_path / "big.toml").write_text(f'title = "big"\n{axes}[fixed]\ntwist = "linear:-8"\n', encoding="utf-8")
     tracemalloc.start()
@@ -513,7 +517,7 @@ def test_a_billion_points_are_counted_not_made(tmp_path: Path, capsys: pytest.Ca
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["two_segment.toml", "hover_cruise.toml"])
+@pytest.mark.parametrize("name", [pytest.param("two_segment.toml", marks=pytest.mark.nightly), "hover_cruise.toml"])
 def test_a_dry_run_tells_the_time_within_a_factor_of_one_and_a_half(name: str):
     """Searches too, of which the last thirtieth takes a third of the time; chunks evenly spread stand for the whole."""
     study = read_study(asset_path(f"studies/{name}")).study
