@@ -47,9 +47,8 @@ def test_a_drag_on_the_dial_is_foreseen_trimmed_and_one_undo(watched: Watched):
     assert foreseen[1] == pytest.approx(settled[1], abs=6.0)
     page.evaluate("RX.send('undo')")
     watched.until(lambda: page.evaluate(NOW) == [])
-    dot = page.locator("[data-dial] [data-dot]").first
-    dot.focus()
-    page.keyboard.press("Shift+ArrowUp")
+    watched.answered(wholly=True)  # An answer draws the dot anew.
+    page.locator("[data-dial] [data-dot]").first.press("Shift+ArrowUp")
     watched.until(lambda: page.evaluate(NOW) and page.evaluate(NOW)[0][1] == 0.25)
     page.wait_for_function("() => RX.state.dial_front?.dots?.length > 3", timeout=240_000)
     page.locator("[data-front]").nth(2).press("Enter")
