@@ -221,7 +221,7 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
         one, other = (page.evaluate(tip, name) for name in names)
         return float(np.max(np.abs(np.subtract(one, other))))
 
-    # A has no twist, B has 16 degrees per radius; drawn, their tips are decimetres apart [m].
+    # A has no twist, B has twist: drawn, the edges of their tips are apart [m].
     Watched(page).until(lambda: apart("/compared/blade_1", "/rotor/blade_1") > 0.05)
     # Elastic twist follows the azimuth: blades of one rotor differ too.
     Watched(page).until(lambda: apart("/rotor/blade_0", "/rotor/blade_1") > 1e-3)
