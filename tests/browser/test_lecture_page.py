@@ -137,6 +137,7 @@ def test_a_and_b_are_wiped_at_one_place(browser: "Browser", app: App):
     assert np.abs(half[:, left] - a[:, left]).mean() < 0.1
     assert np.abs(half[:, right] - b[:, right]).mean() < 0.1
     handle = page.get_by_role("slider", name="Between A, left, and B, right")
+    page.evaluate("rotorWipe.set(true, 0.5)")
     handle.press("ArrowRight")
     assert float(handle.get_attribute("aria-valuenow") or 0) == 55
     watched.close()

@@ -81,13 +81,13 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         second.goto(app.address)
         second.wait_for_selector("[data-explorer=lobby]")
         assert "You are next" in second.locator("[data-explorer=lobby]").inner_text()
-        assert second.locator("[role=slider]").count() == 0
+        assert second.locator("[role=slider]:visible").count() == 0
         second.wait_for_timeout(400)
         second.screenshot(path=artefacts / "full-house.png")
         first.close()
         second.wait_for_function(OPEN)
         assert second.locator("[data-explorer=lobby]").count() == 0
-        assert second.locator("[role=slider]").first.is_visible()
+        second.locator("[role=slider]:visible").first.wait_for()
     finally:
         app.stop()
 
