@@ -13,7 +13,6 @@ from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
 from tests.tools import airframe as script
-from tests.tools.airframe import Hull, surface
 
 
 def rotor_named(name: str) -> Rotor:
@@ -45,24 +44,6 @@ class TestPrimitives:
         made = solid(revolved([[0, 0], [1, 0], [0.5, 2], [0, 2]], 200))
         assert made.is_watertight
         assert made.volume == pytest.approx(math.pi * 2 / 3 * (1 + 0.5 + 0.25), rel=1e-3)
-
-    def test_an_elliptic_hull_has_the_area_of_an_ellipse(self):
-        hull = Hull([(0.0, 1.0, -0.5, 0.5, 2.0), (2.0, 1.0, -0.5, 0.5, 2.0), (4.0, 1.0, -0.5, 0.5, 2.0)])
-        made = solid(hull.mesh(400))
-        assert made.is_watertight
-        assert made.volume == pytest.approx(4.0 * math.pi * 1.0 * 0.5, rel=1e-3)
-
-    def test_side_angle_finds_the_height_asked_for(self):
-        hull = Hull([(0.0, 1.0, -1.0, 0.5, 3.0), (1.0, 1.2, -1.0, 0.6, 3.5), (2.0, 1.0, -1.0, 0.5, 3.0)])
-        x, z = np.array([[0.5, 1.0]]), np.array([[-0.7, 0.3]])
-        patch = hull.patch(np.repeat(x, 2, axis=0), np.repeat(hull.side_angle(x, z), 2, axis=0), 0.0)
-        assert patch.vertices[:2, 2] == pytest.approx(z[0], abs=1e-9)
-
-    def test_surface_spans_its_chords(self):
-        made = solid(surface((1, 0, 0), (1.5, 2, 0), (1.0, 0.6), 0.12, upright=False))
-        assert made.is_watertight
-        assert made.bounds[:, 1] == pytest.approx([0.0, 2.0])
-        assert made.bounds[:, 0] == pytest.approx([1.0, 2.1])
 
     def test_rings_in_either_order_face_outward(self):
         angle = np.linspace(0, 2 * math.pi, 12, endpoint=False)

@@ -17,7 +17,6 @@ from explorer.export.blade import (
     POINTS,
     blade_mesh,
     blade_stl,
-    flown_design,
     kinks,
     rotor_glb,
     section_curves,
@@ -176,11 +175,6 @@ def test_the_files_of_the_page_are_the_jig_and_the_flown_blade():
     assert angles[1] - angles[0] == pytest.approx(expected, abs=2e-3)
 
 
-def test_blades_of_an_active_twist_each_have_their_own_mesh():
-    scene = scene_of(replace(Inputs().design(), active_twist=ActiveTwist((Harmonic(1, 0.03),))))
-    assert len(scene.geometry) == 2 + DESIGN.rotor.blades
-
-
 def test_kinks_are_those_of_every_part_of_a_law():
     assert kinks(SumTwist(PiecewiseLinearTwist((-0.2, 0.1), (0.5,)), PiecewiseLinearTwist((0.1, 0.2), (0.7,)))) == (
         0.5,
@@ -222,21 +216,6 @@ def test_section_curves_lie_on_the_blade_of_the_mesh():
     for low, high in list(pairwise(stations))[20::25]:
         middle = 0.5 * (curves[low] + curves[high])[:, 1:]
         assert_allclose(reach(cut(mesh, 0.5 * (low + high))), reach(middle), atol=2e-4)
-
-
-def test_the_flown_shape_is_the_jig_shape_turned_by_the_elastic_twist():
-    """At two azimuths, against the twist in the solution, both counted from 0.75 R."""
-    jig = replace(DESIGN, models=replace(DESIGN.models, elastic_twist=True))
-    solution = solve(jig)
-    elastic, disk = solution.disk.elastic_twist, solution.disk
-    assert elastic is not None
-    straight = cut(blade_mesh(replace(jig, twist=PLAIN)), 0.9)
-    for column in (25, 70):
-        psi = float(disk.psi[column])
-        change = np.interp((0.9, 0.75), disk.r, elastic[:, column])
-        angle = float(jig.twist(0.9)) + change[0] - change[1]
-        assert abs(change[0] - change[1]) > math.radians(0.05)
-        assert_allclose(reach(cut(blade_mesh(flown_design(solution, psi)), 0.9)), reach(straight, angle), atol=3e-4)
 
 
 def test_the_command_writes_both_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[str]):

@@ -37,7 +37,7 @@ GAZELLE = with_rotor(OPENING, "gazelle")
 FC1 = at_test("gazelle", "FC1")
 
 
-@pytest.mark.parametrize("name", NEW)
+@pytest.mark.parametrize("name", [*NEW, "xv15"])
 def test_every_flight_and_test_survives_a_link_exactly(name: str):
     conditions = measured_conditions(name)
     assert conditions

@@ -4,12 +4,9 @@ import gc
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PAUSE, STEPS, History, Pauses
-from explorer.sharing.address import parameter, with_parameter
 from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
 from explorer.sharing.stored_history import StoredHistory, read_history
 from rotor.design.aircraft import RotorFiles
@@ -114,26 +111,6 @@ class TestHistory:
         assert went.mass_t == 8.0
 
 
-@st.composite
-def positions(draw: st.DrawFn) -> Inputs:
-    rate = st.integers(-300, 100).map(lambda n: n / 10.0)
-    preset = draw(st.sampled_from(("flight", "thesis")))
-    return Inputs(
-        preset=preset,
-        law=draw(st.sampled_from(("builtin", "linear", "quadratic", "two", "three", "ideal"))),
-        linear=draw(rate),
-        two_inner=draw(rate),
-        two_division=draw(st.integers(20, 95)) / 100.0,
-        three_outer=draw(rate),
-        quadratic_difference=draw(rate),
-        advance_ratio=draw(st.integers(0, 90)) / 200.0,
-        mass_t=draw(st.integers(100, 220)) / 20.0,
-        altitude_m=draw(st.integers(0, 80)) * 50.0,
-        climb_m_s=draw(st.integers(-200, 200)) / 10.0 if preset == "flight" else 0.0,
-        inflow=draw(st.sampled_from(("uniform", "drees", "pitt-peters-15pi/23", "lifting-line"))),
-    )
-
-
 class TestStoredHistory:
     STEPS = tuple(replace(START, two_inner=-12.0 - k) for k in range(4))
     TEXT = StoredHistory(STEPS[:2], STEPS[2], STEPS[3:], (STEPS[1],)).text()
@@ -172,19 +149,6 @@ class TestStoredHistory:
 
 
 class TestShare:
-    @given(positions())
-    def test_address_and_back(self, inputs: Inputs):
-        design = inputs.design()
-        code = parameter(with_parameter("?fixedDpr=0.5", "d", code_of(design)), "d")
-        assert code is not None
-        assert code_of(design_from(code)) == code
-        again = inputs_from(code).design()
-        assert (again.twist.spec(), again.models, again.preset) == (design.twist.spec(), design.models, design.preset)
-        assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
-
-    def test_short_and_readable(self):
-        assert code_of(Inputs(advance_ratio=0.25).design()) == "1;segments:-14,-8@0.5;mu=0.25;mass=8320"
-
     def test_a_table_travels_with_its_numbers(self):
         table = TableTwist((0.2, 0.6, 1.0), (0.1, 0.02, -0.05), "table:/home/me/mine.txt")
         code = code_of(replace(make_design(), twist=table))

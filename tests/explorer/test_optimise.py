@@ -22,7 +22,7 @@ from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun, StartTrace
 from explorer.tabs.optimise.search_words import concept_picture, starts_chart
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
@@ -30,10 +30,8 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.schedule import Cell, Plan
+from rotor.optimisation.search import Progress, run_search
 from rotor.optimisation.search import SearchStatus as Status
-from rotor.optimisation.search import run_search
-from rotor.trim.adjoint import Adjoint
-from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -390,16 +388,90 @@ class TestSchedule:
         assert len(schedule.cells) == 1
 
 
-def test_a_limit_on_vibration_needs_bending_and_is_kept():
-    """Without the limit the optimum has more; the notes name what it has."""
-    design = make_design(mu=0.3, bending=True)
-    request = SearchRequest(concept="linear", starts=1)
-    free = run_search(request.search(design, mission.legs)).best
-    assert free is not None
-    index = hub_index(Adjoint(solve(design.with_twist(free.twist)).require()))
-    held = run_search(replace(request, index=round(0.7 * index, 1)).search(design, mission.legs)).best
-    assert held is not None
-    assert held.index == pytest.approx(round(0.7 * index, 1), abs=0.02)
-    assert held.power > free.power
+def test_a_limit_on_vibration_reaches_the_search_and_needs_bending():
+    request = SearchRequest(concept="linear", starts=1, index=3.0)
+    assert request.search(make_design(mu=0.3, bending=True), mission.legs).limits.index == 3.0
     with pytest.raises(ValueError, match="switch Blade bending on"):
-        replace(request, index=3.0).search(make_design(mu=0.3), mission.legs)
+        request.search(make_design(mu=0.3), mission.legs)
+
+
+@pytest.fixture(scope="module")
+def begun_search() -> tuple[SearchRun, tuple[StartTrace, ...]]:
+    """A finished search, and its starts when the second had just begun."""
+    run = SearchRun(SearchRequest(concept="two-segment", starts=3).search(quick(), mission.legs))
+    run.state = "running"
+    run.start_power = solve(quick()).power.total
+    run._add(0, run.start_power, quick())
+    halfway: list[tuple[StartTrace, ...]] = []
+
+    def follow(progress: Any) -> None:
+        run._step(progress)
+        if progress.phase == "search" and progress.start == 1 and not halfway:
+            halfway.append(run.starts())
+
+    run.optimum = run_search(run.search, follow)
+    run.state = "done"
+    return run, halfway[0]
+
+
+def test_each_start_has_its_trace_and_running_best(run: SearchRun):
+    starts = run.starts()
+    assert len(starts) == 3
+    for one in starts:
+        assert len(one.best) == len(one.powers)
+        assert list(one.best) == sorted(one.best, reverse=True)
+        assert one.best[-1] == min(one.powers)
+        assert one.state == "finished"
+
+
+def test_the_best_start_has_the_power_of_the_optimum(begun_search: tuple[SearchRun, tuple[StartTrace, ...]]):
+    run = begun_search[0]
+    (best,) = (one for one in run.starts() if one.is_best)
+    assert run.optimum is not None
+    assert run.optimum.best is not None
+    assert best.best[-1] == pytest.approx(run.optimum.best.power, rel=1e-6)
+    assert SI.watts(run.optimum.best.power, 1) in search_text.headline(run)
+    equal = [one.number for one in run.starts() if one.gap is not None and one.gap < 50.0]
+    one, several, every = f"start {best.number} is best", f"{len(equal)} of 3 starts are best", "all 3 starts agree"
+    assert starts_chart(run, SI)["value"] == (one, several, every)[len(equal) - 1]
+
+
+def test_half_way_the_second_start_runs_and_the_third_waits(begun_search: tuple[SearchRun, tuple[StartTrace, ...]]):
+    starts = begun_search[1]
+    assert [one.state for one in starts] == ["finished", "running", "waiting"]
+    assert starts[2].gap is None
+    assert starts[2].legend() == "Start 3: waiting"
+
+
+def test_the_legend_names_the_best_start_and_the_gaps():
+    """Behind by less than the last digit is equal: neither "+0.0 kW" nor a zero that looks like the best."""
+    gaps = {400.0: "Start 2: +0.4 kW", 0.3: "Start 2: equal", 49.0: "Start 2: equal", 0.0: "Start 2: best"}
+    for gap, words in gaps.items():
+        assert StartTrace(2, (844.6e3,), (844.6e3,), "finished", gap).legend() == words
+    assert StartTrace(3, (), (), "finished", None).legend() == "Start 3: no trim"
+
+
+def test_the_axis_shows_the_ends_and_counts_what_it_clips(monkeypatch: pytest.MonkeyPatch):
+    spike = StartTrace(1, (850e3, 2e6, 845e3), (850e3, 850e3, 845e3), "finished", 0.0)
+    low, high = search_text.power_axis((spike,), 853e3)
+    assert low < 845e3
+    assert 853e3 < high < 1e6
+    run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
+    monkeypatch.setattr(run, "starts", lambda: (spike,))
+    assert starts_chart(run, SI)["note"] == "1 designs lie above the axis."
+
+
+def test_a_design_beyond_a_limit_is_not_the_best():
+    run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
+    step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+    run._add(0, 860e3, quick())
+    run._step(step)
+    run._step(replace(step, evaluation=2, power=800e3, feasible=False))
+    assert run.starts()[0].powers == (850e3, 850e3)
+
+
+def test_before_the_first_design():
+    run = SearchRun(SearchRequest(starts=2).search(quick(), mission.legs))
+    assert search_text.headline(run) == ""
+    assert [one.state for one in run.starts()] == ["waiting", "waiting"]
+    assert search_text.power_axis(run.starts(), None) == (0.0, 1.0)

@@ -70,8 +70,3 @@ def test_the_page_is_packed_for_those_who_unpack(address: str):
     _, body, headers = fetch(address, Accept_Encoding="gzip, br")
     assert headers["Content-Encoding"] == "gzip"
     assert body == with_loading_screen(CLIENT).packed
-
-
-def test_nothing_else_is_there(address: str):
-    assert fetch(address + "/nothing.js")[0] == 404
-    assert fetch(address + "/%2e%2e/%2e%2e/setup.py")[0] == 404

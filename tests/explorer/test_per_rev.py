@@ -15,7 +15,6 @@ from explorer.export.demo import flown_pitch
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
 from explorer.model.pinned import Pinned
-from explorer.model.undo import History
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.poses import blade_pose, pitch_series
 from explorer.scene.page_scene import motion_of
@@ -60,14 +59,6 @@ def test_designs_come_back_from_sliders_links_and_history():
 def test_another_rotor_and_the_baseline_have_none():
     assert with_rotor(MOVED, "s61").design().pitch_waves == ()
     assert baseline_of(MOVED.design()).pitch_waves == ()
-
-
-def test_a_drag_is_one_step_of_undo():
-    history = History(OPENING)
-    for k in range(3):
-        waves = (Harmonic(3, math.radians(1.0 + k)),)
-        history.note(replace(OPENING, pitch_per_rev=waves), 2.0 if k == 0 else 0.1)
-    assert history.undo() == OPENING
 
 
 def test_the_actuators_harmonic_and_the_twist_are_not_both():

@@ -218,12 +218,14 @@ class TestBeside:
         page.controller.draw(changed, view, None, built)
         page.controller.draw_finely()
         assert page["/compared"].visible
+        assert not page["/airframe"].visible
         assert np.allclose(page["/rotor"].position, apart(ROTOR.radius))
         assert np.allclose(page["/compared"].position, -apart(ROTOR.radius))
         assert not np.array_equal(page["/compared/blade_0"].vertices, page["/rotor/blade_0"].vertices)
         page.controller.draw(changed, VIEW, None)
         page.controller.draw_finely()
         assert not page["/compared"].visible
+        assert page["/airframe"].visible
         assert np.allclose(page["/rotor"].position, 0.0)
 
     def test_two_disks_do_not_touch(self):

@@ -163,12 +163,3 @@ def test_the_nearest_design_that_trims_lies_a_step_before_the_end():
     assert len(asked) <= 6
     other = replace(good, rotor="r22", mass_t=0.6)
     assert nearest_trim(good, other, lambda _: True) == good
-
-
-def test_the_nearest_design_that_trims_trims():
-    good = Inputs(advance_ratio=0.3, mass_t=8.0)
-    wanted = replace(good, advance_ratio=0.5, mass_t=14.0)
-    assert not solve(wanted.design()).converged
-    nearest = nearest_trim(good, wanted, lambda inputs: solve(inputs.design()).converged)
-    assert solve(nearest.design()).converged
-    assert nearest.mass_t > 9.0

@@ -9,7 +9,6 @@ from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.pinned import Pinned
 from explorer.model.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
-from explorer.model.undo import History
 from explorer.sharing.share import code_of, inputs_from
 from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
@@ -30,12 +29,6 @@ def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: 
                for one in measured_conditions(name))  # fmt: skip
     assert inputs_from(code_of(inputs.design())) == inputs
     assert with_rotor(inputs, "uh60a").stand is None
-
-
-def test_every_measured_condition_survives_a_link_exactly():
-    for condition in measured_conditions("xv15")[::9]:
-        inputs = replace(FORWARD, advance_ratio=condition.advance_ratio, stand=condition.stand)
-        assert inputs_from(code_of(inputs.design())).design() == inputs.design()
 
 
 def test_a_link_from_before_the_test_stand_is_in_flight():
@@ -75,13 +68,6 @@ def test_given_controls_need_a_collective_and_free_blades():
     stand = StandInputs().with_trim("controls", 7.5)
     assert (stand.load, stand.value, stand.flapping) == ("collective_deg", 7.5, "free")
     assert Inputs(stand=stand).design().models.trim == "controls"
-
-
-def test_a_change_of_the_test_is_one_step_of_undo():
-    history = History(FORWARD)
-    assert FORWARD.stand is not None
-    history.note(replace(FORWARD, stand=replace(FORWARD.stand, shaft_tilt_deg=10.0)), 2.0)
-    assert history.undo() == FORWARD
 
 
 def test_a_flies_along_into_a_test_and_back():

@@ -12,14 +12,13 @@ from numpy.testing import assert_allclose
 from explorer.charts import plots
 from explorer.charts.power_curve import PowerCurves
 from explorer.charts.strip import autorotation_words
-from explorer.model.inputs import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
+from explorer.model.inputs import Inputs, baseline_of, baseline_title, inputs_of
 from explorer.model.units import number
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
 from explorer.text.why import why
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.design.design import PRESETS, Design
-from rotor.design.twist import TableTwist
+from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
@@ -31,16 +30,6 @@ def forward() -> Solution:
 
 
 class TestInputs:
-    @pytest.mark.parametrize("law", [law for law in LAWS if law != "given"])
-    @pytest.mark.parametrize("preset", PRESETS)
-    def test_every_law_makes_a_design_and_comes_back(self, law: str, preset: str):
-        inputs = Inputs(preset=preset, law=law, **preset_inflow(preset))
-        design = inputs.design()
-        again = inputs_of(design).design()
-        assert again.twist.spec() == design.twist.spec()
-        assert again.condition == design.condition
-        assert again.models == design.models
-
     def test_degrees_and_tonnes_end_here(self):
         design = Inputs(law="linear", linear=-9.0, mass_t=7.5, altitude_m=1200.0, advance_ratio=0.25).design()
         r = np.array([0.25, 0.75])
@@ -58,12 +47,6 @@ class TestInputs:
         with pytest.raises(ValueError, match=r"break points at 0\.8 and 0\.4 R are out of order") as caught:
             Inputs(law="three", three_first=0.8, three_second=0.4).design()
         assert "\n" not in str(caught.value)
-
-    def test_a_twist_from_a_file_stays_what_it_is(self):
-        table = TableTwist((0.2, 1.0), (0.1, -0.05), "table:mine.txt")
-        inputs = inputs_of(replace(make_design(), twist=table))
-        assert inputs.law == "given"
-        assert inputs.design().twist == table
 
     def test_baselines(self):
         assert baseline_of(Inputs(law="linear").design()).twist.spec() == "uh60a"

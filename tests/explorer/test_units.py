@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from explorer.charts import plots
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import Inputs
 from explorer.model.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.model.undo import History, KeptDesign
 from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
@@ -22,10 +22,6 @@ from rotor.trim.solve import solve
 @pytest.fixture(scope="module")
 def solution() -> Solution:
     return solve(make_design(mu=0.2)).require()
-
-
-def test_page_opens_in_one_of_the_units():
-    assert ViewState().units in UNITS
 
 
 def test_factors_by_definition():

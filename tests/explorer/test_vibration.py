@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
 from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart
-from explorer.model.inputs import Inputs, ViewState, inputs_of, with_rotor
+from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
 from explorer.picture.hub_drawing import hub_lines, hub_words, load_scale
@@ -22,14 +22,13 @@ from explorer.picture.picture import flown_vertices, make_picture, turned_blades
 from explorer.picture.poses import BENDING_SHOWN, blade_pose, drawn_bending, follows_azimuth, rotate
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.overlays import HubLoadLines
-from explorer.sharing.share import code_of, inputs_from
+from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.text.design_words import flight_name
 from explorer.text.why import why
 from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
-from rotor.files.design_file import parse_design
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import deflections, displacements, hub_loads
@@ -58,17 +57,6 @@ def loads(bent: Solution) -> HubLoads:
 
 
 class TestInputs:
-    def test_links_and_files_hold_it_and_older_ones_open_without(self):
-        design = FAST.design()
-        assert design.models.bending
-        assert inputs_of(design) == FAST
-        assert inputs_from(code_of(design)) == FAST
-        assert not inputs_from("1;uh60a;mu=0.3").bending
-        assert inputs_from("1;uh60a;mu=0.3;bending=true") == inputs_from(code_of(make_design(mu=0.3, bending=True)))
-        without = '{"format": "rotor-explorer design", "version": 1, "twist": "linear:-8"}'
-        assert not inputs_of(parse_design(without.encode(), "of the test")).bending
-        assert "bending" not in code_of(replace(FAST, bending=False).design())
-
     def test_names_and_reasons_say_it(self, bent: Solution, straight: Solution):
         assert flight_name(FAST).endswith(", blades bend")
         assert why(straight, bent).startswith("With blade bending")

@@ -3,7 +3,6 @@
 import asyncio
 import json
 import socket
-import threading
 import time
 import urllib.error
 import urllib.request
@@ -134,21 +133,6 @@ class TestAllowedHosts:
 
 @pytest.mark.slow
 class TestStrangers:
-    def test_a_request_for_a_public_tunnel_is_ignored(self, app: App, monkeypatch: pytest.MonkeyPatch):
-        asked = threading.Event()
-        monkeypatch.setattr(app.server, "request_share_url", lambda *_: asked.set())
-        monkeypatch.setattr(app.server, "disconnect_share_url", asked.set)
-
-        async def work() -> None:
-            visitor = await arrive(app)
-            await visitor.send("ShareUrlRequest")
-            await visitor.send("ShareUrlDisconnect")
-            await still_served(visitor)
-            await visitor.close()
-
-        alone(work)
-        assert not asked.is_set()
-
     def test_a_flood_and_an_invalid_message_end_only_their_own_connection(
         self, app: App, monkeypatch: pytest.MonkeyPatch
     ):
