@@ -15,12 +15,10 @@ import pyarrow
 import pytest
 from matplotlib import pyplot
 from numpy.testing import assert_allclose
-from threadpoolctl import threadpool_info, threadpool_limits
 
 import explorer
 import rotor
 from rotor.assets import asset_path
-from rotor.blas_threads import one_blas_thread
 from rotor.design.twist import LinearTwist
 from rotor.units import KNOT
 
@@ -431,16 +429,3 @@ def test_import_does_not_change_blas_threads_and_solve_restores_them():
     """
     done = subprocess.run([sys.executable, "-c", IMPORT], cwd=ROOT, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout) == [[], True, []]
-
-
-def test_concurrent_solves_restore_the_setting():
-    """The limit belongs to the process: the last computation to end restores it, whatever their order."""
-    with threadpool_limits(limits=2, user_api="blas"):
-        before = [one["num_threads"] for one in threadpool_info()]
-        first, second = one_blas_thread(), one_blas_thread()
-        first.__enter__()
-        second.__enter__()
-        first.__exit__(None, None, None)
-        assert {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"} == {1}
-        second.__exit__(None, None, None)
-        assert [one["num_threads"] for one in threadpool_info()] == before

@@ -208,10 +208,6 @@ def test_help_lists_the_values_of_flags(capsys: pytest.CaptureFixture[str]):
         assert name in words
 
 
-def test_a_range_may_fall():
-    assert parse_range("0.4:0.1:-0.1") == parse_range("0.1:0.4:0.1")[::-1]
-
-
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
@@ -286,6 +282,7 @@ def test_python_m_rotor():
 
 
 def test_ranges():
+    assert parse_range("0.4:0.1:-0.1") == parse_range("0.1:0.4:0.1")[::-1]
     assert parse_range("0.05:0.40:0.05") == [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]
     assert parse_range("0:0.1:0.03") == [0.0, 0.03, 0.06, 0.09]
     assert parse_range("0.2") == [0.2]

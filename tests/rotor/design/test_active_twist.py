@@ -1,15 +1,12 @@
 """Twist that follows the azimuth: limits, identity, and what it does to power."""
 
-import json
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.__main__ import main
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import dynamic_twist, phase_sweep, power_map, tip_response, with_harmonic
 from rotor.actuator.installation import install
@@ -18,7 +15,7 @@ from rotor.aero.problem import build_problem
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.design.stand import Stand
-from rotor.files.design_file import design_from_record, load_design
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
@@ -183,25 +180,6 @@ def test_the_saving_grows_with_speed():
 def test_bad_input(make: object):
     with pytest.raises(ValueError, match=r"give|choose|move"):
         make()  # type: ignore[operator]
-
-
-def test_design_file_keeps_active_twist(tmp_path: Path):
-    design = turning(make_design(mu=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
-    design.save(tmp_path / "case.json")
-    again = load_design(tmp_path / "case.json").active_twist
-    assert again is not None
-    assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
-    assert again.stations == (0.2, 0.9)
-
-
-def test_solve_reports_active_twist(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-    """A power that active twist has changed is not printed as that of the bare twist law."""
-    file = str(tmp_path / "case.json")
-    turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)).save(file)
-    assert main(["solve", "--case", file]) == 0
-    assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
-    assert main(["solve", "--case", file, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["active_twist"]["harmonics"][0]["per_rev"] == 2
 
 
 def test_bad_active_twist_in_a_design_file_is_one_sentence():

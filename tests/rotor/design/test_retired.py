@@ -95,14 +95,6 @@ class TestCommand:
         assert (code, told.err, plain.err) == (0, f"rotor: {SENTENCE}\n", "")
         assert told.out == plain.out
 
-    def test_a_design_file(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-        path = tmp_path / "old.json"
-        path.write_text('{"advance_ratio": 0, "hover_inflow": "free-wake"}', encoding="utf-8")
-        assert main(["solve", "--case", str(path), *QUICK, "--json"]) == 0
-        told = capsys.readouterr()
-        assert told.err == f"rotor: {SENTENCE}\n"
-        assert json.loads(told.out)["inflow"] == "annulus"
-
     def test_a_model_of_forward_flight(self, old_inflow: str, capsys: pytest.CaptureFixture[str]):
         assert main(["solve", "--mu", "0.2", *QUICK, "--inflow", old_inflow, "--json"]) == 0
         told = capsys.readouterr()
@@ -121,12 +113,6 @@ class TestCommand:
         with pytest.warns(Notice, match="stands in"):
             found = compare(load_set("xv15-forward-15deg"), old_inflow)
         assert found.inflow == "lifting-line"
-
-    def test_measured_points(self):
-        measured = load_set("knight-hefner-3")
-        with pytest.warns(Notice, match=SENTENCE):
-            found = compare(measured, "free-wake")
-        assert found.inflow == "annulus"
 
 
 def test_python_takes_a_retired_name(old_inflow: str):

@@ -180,12 +180,6 @@ def test_a_rotor_with_one_drag_area_has_no_band():
     assert between_drag_areas(solve(make_design(mu=0.2)).require()) is None
 
 
-def test_hart2_names_its_sources():
-    for line in asset_path("rotors/hart2.toml").read_text(encoding="utf-8").splitlines():
-        if re.match(r"^\w+ = ", line) and not line.startswith(("name", "r_m", "mass_kg_m")):
-            assert re.search(r"#\s+[PSDXRA]\s*", line), line
-
-
 @pytest.mark.parametrize(
     ("rotor", "stand", "said"),
     [

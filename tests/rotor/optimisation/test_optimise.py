@@ -59,34 +59,6 @@ def grid_powers(design: Design, concept_name: str, *axes: np.ndarray) -> np.ndar
     return out
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("mu", [0.0, 0.2, 0.35])
-def test_no_grid_point_is_better_in_one_variable(mu: float):
-    design = small(mu)
-    rates = np.radians(np.arange(-30.0, 10.1, 2.0))
-    powers = grid_powers(design, "linear", rates)
-    found = run_search(Search(design, CONCEPTS["linear"], band=False))
-    assert found.status is SearchStatus.CONVERGED
-    assert found.best is not None
-    assert found.best.power <= powers.min() * (1.0 + 1e-6)
-    assert abs(found.best.parameters[0] - rates[powers.argmin()]) < 2.0 * DEGREE
-    # And it is no better than the grid can explain: a parabola through the three lowest points.
-    k = int(np.clip(powers.argmin(), 1, len(rates) - 2))
-    a, b, c = np.polyfit(rates[k - 1 : k + 2], powers[k - 1 : k + 2], 2)
-    assert_allclose(found.best.power, c - b * b / (4.0 * a), rtol=2e-4)
-
-
-@pytest.mark.slow
-def test_no_grid_point_is_better_in_two_variables():
-    design = small(0.25)
-    axis = np.radians(np.arange(-30.0, 10.1, 4.0))
-    powers = grid_powers(design, "two-segment", axis, axis)
-    found = run_search(Search(design, CONCEPTS["two-segment"], band=False))
-    assert found.best is not None
-    assert found.best.power <= powers.min() * (1.0 + 1e-6)
-    assert_allclose(found.best.power, powers.min(), rtol=2e-3)
-
-
 def test_second_derivatives_of_a_quadratic_are_found_from_its_gradients():
     """H·step is known on three steps in five dimensions: there it is H, and across them the mean curvature."""
     rng = np.random.default_rng(3)
@@ -152,23 +124,6 @@ def test_band_in_one_variable_is_where_the_power_is_a_thousandth_higher():
     for rate in (band.low, band.high):
         power = solve(replace(design, twist=LinearTwist(rate))).power.total
         assert_allclose(power / found.best.power - 1.0, 1e-3, atol=5e-5)
-
-
-@pytest.mark.slow
-def test_band_in_two_variables_on_a_grid():
-    """The other parameter is free: grid points inside the band extend as far, to a grid step."""
-    design = small(0.3)
-    found = run_search(Search(design, CONCEPTS["two-segment"], starts=2))
-    assert found.best is not None
-    inner, outer = np.radians(np.arange(-14.0, 10.1, 2.0)), np.radians(np.arange(-18.0, -10.9, 1.0))
-    inside = grid_powers(design, "two-segment", inner, outer) <= 1.001 * found.best.power
-    for axis, hits, band, step in (
-        (inner, inside.any(1), found.band[0], 2.0),
-        (outer, inside.any(0), found.band[1], 1),
-    ):
-        reached = axis[hits]
-        assert band.low - 0.1 * DEGREE <= reached.min() <= band.low + (step + 0.5) * DEGREE
-        assert band.high - (step + 0.5) * DEGREE <= reached.max() <= band.high + 0.1 * DEGREE
 
 
 def same(a: Optimum, b: Optimum) -> bool:

@@ -13,7 +13,6 @@ from rotor.reproduce.report import Agreement, Report, ReportTable
 from rotor.reproduce.twist_effect import crossings
 
 Make = Callable[[str], Report]
-FIVE = {0.0, -4.0, -8.0, -12.0, -16.0}
 
 
 def column(table: ReportTable, name: str) -> np.ndarray:
