@@ -36,8 +36,8 @@ from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import demo  # noqa: E402
 from explorer.export.report import document  # noqa: E402
 from explorer.story import story_file  # noqa: E402
+from rotor.__main__ import build_parser  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
-from rotor.command.parser import build_parser  # noqa: E402
 
 project = "rotor-explorer"
 author = "rotor-explorer contributors"

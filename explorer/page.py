@@ -19,12 +19,11 @@ from explorer.model.session_state import Failure, Frame, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
-from explorer.scene.grab import BladeGrab
 from explorer.scene.overlays import Strip, ghost_of
-from explorer.sharing import share, stored_history
+from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.presentation import PRESENT
-from explorer.sharing.view_code import VIEW, view_from
+from explorer.sharing.share import VIEW, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.actuator.per_rev import PerRevControls
 from explorer.tabs.context import SharedServices, Tab, TabContext
@@ -124,7 +123,7 @@ class Page:
             with opened["Files"]:
                 RotorUpload(context)
             with opened["History"]:
-                self.history = HistoryPanel(context, start, facts.kept.get(stored_history.NAME))
+                self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             export = ExportPanel(context, self.scene, self.history)
@@ -138,7 +137,7 @@ class Page:
             self.lecture, self._presence,
         )  # fmt: skip
         """Everything that only follows."""
-        BladeGrab(self.scene.scene.rotor.reference_blade, lambda: self.camera.radius, self._curve.take)
+        self.scene.on_press(lambda metres: self._curve.take(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())

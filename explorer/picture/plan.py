@@ -1,28 +1,141 @@
-"""The disk as a plan for the page: picture, outlines, shares and the values under the pointer, ready for JSON."""
+"""The disk as a plan for the page: picture, outlines of regions, shares and values under the pointer, as JSON."""
 
 import base64
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from explorer.model.inputs import ViewState
 from explorer.model.units import number
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.outlines import (
-    drag_divergence_segments,
-    joined,
-    negative_stall_segments,
-    positive_stall_segments,
-    reverse_flow_segments,
-)
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import Single, polar_grid, refined
-from explorer.picture.regions import region_masks
+from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
+from explorer.picture.regions import divergence_margin, region_masks
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
+
+_OUTLINED = 80, 240
+"""Radii and azimuths between which an outline is looked for."""
+
+
+def to_plane(r: Array, psi: Array) -> Array:
+    """Points (x aft, y starboard) in radii, shape (..., 2)."""
+    return np.stack((r * np.cos(psi), r * np.sin(psi)), axis=-1)
+
+
+def reverse_flow_segments(solution: Solution) -> Array:
+    """r = −µ sin ψ outside the root cut-out, with µ along the disk; shape (n, 2, 2), in radii."""
+    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
+    if mu <= 0.0:
+        return np.zeros((0, 2, 2))
+    psi = np.linspace(math.pi, 2.0 * math.pi, 181)
+    r = -mu * np.sin(psi)
+    points = to_plane(r, psi)
+    cutout = solution.design.rotor.blade.root_cutout
+    keep = (r[:-1] >= cutout) & (r[1:] >= cutout)
+    return np.stack((points[:-1], points[1:]), axis=1)[keep]
+
+
+def positive_stall_segments(solution: Solution) -> Array:
+    """Where stall begins at positive angles of attack, the reverse-flow region left out; (n, 2, 2), in radii.
+
+    That is the stall angle, or with dynamic stall the separation point of static stall.
+    """
+    return _stall_segments(solution, positive=True)
+
+
+def negative_stall_segments(solution: Solution) -> Array:
+    """The same at negative angles."""
+    return _stall_segments(solution, positive=False)
+
+
+def _stall_segments(solution: Solution, *, positive: bool) -> Array:
+    grid = polar_grid(solution.disk, *_OUTLINED)
+    flow = refined(solution, grid)
+    left = flow.upper - flow.alpha if positive else flow.alpha - flow.lower
+    if flow.separation is not None:
+        up = flow.alpha > 0.5 * (flow.upper + flow.lower)
+        left = np.where(up == positive, flow.attached, np.float32(0.3))
+    return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
+
+
+def drag_divergence_segments(solution: Solution) -> Array:
+    """Where drag diverges, the reverse-flow region left out; shape (n, 2, 2), in radii."""
+    disk = solution.disk
+    grid = polar_grid(disk, *_OUTLINED)
+    slope = divergence_margin(solution, grid).astype(np.float64)
+    # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
+    return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5)
+
+
+def _outside_reverse_flow(segments: Array, solution: Solution, elements: float) -> Array:
+    """Segments that are some elements' widths clear of the reverse-flow circle."""
+    middle = segments.mean(axis=1)
+    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
+    r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
+    clearance = elements * np.interp(r, solution.disk.r, solution.disk.dr)
+    return segments[r + mu * np.sin(psi) > clearance] if mu > 0.0 else segments
+
+
+def contour(grid: PolarGrid, values: Array, level: float) -> Array:
+    """Where polar `values` cross `level`: marching squares round the turn; segments of shape (n, 2, 2), in radii."""
+    above = np.concatenate((values, values[:, :1]), axis=1) - level
+    psi = np.concatenate((grid.psi, [2.0 * math.pi + grid.psi[0]]))
+    corners = (above[:-1, :-1], above[1:, :-1], above[1:, 1:], above[:-1, 1:])
+    crossed = np.zeros(corners[0].shape, dtype=bool)
+    for corner in corners[1:]:
+        crossed |= (corner > 0.0) != (corners[0] > 0.0)
+    row, column = np.nonzero(crossed)
+    value = [corner[row, column] for corner in corners]
+    place = partial(_corner, grid.r, psi, row, column)
+    # The point at which each of a cell's four sides is crossed; a cell has two such sides, a saddle four.
+    sides = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    points = np.full((len(row), 4, 2), np.nan)
+    for side, (a, b) in enumerate(sides):
+        cut = (value[a] > 0.0) != (value[b] > 0.0)
+        t = (value[a][cut] / (value[a][cut] - value[b][cut]))[:, None]
+        points[cut, side] = (1.0 - t) * place(a)[cut] + t * place(b)[cut]
+    is_cut = ~np.isnan(points[:, :, 0])
+    order = np.argsort(~is_cut, axis=1, kind="stable")
+    ordered = np.take_along_axis(points, order[:, :, None], axis=1)
+    saddle = is_cut.sum(axis=1) == 4
+    polar = np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
+    return to_plane(polar[:, :, 0], polar[:, :, 1])
+
+
+def _corner(r: Array, psi: Array, row: NDArray[np.intp], column: NDArray[np.intp], corner: int) -> Array:
+    outer, later = corner in (1, 2), corner in (2, 3)
+    return np.stack((r[row + outer], psi[column + later]), axis=-1)
+
+
+def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
+    """Segments (n, 2, 2) joined to lines where they share an end."""
+    keys = [tuple(map(tuple, np.rint(segment / tolerance).astype(int))) for segment in segments]
+    at: dict[tuple[int, ...], list[int]] = {}
+    for k, ends in enumerate(keys):
+        for end in ends:
+            at.setdefault(end, []).append(k)
+    left, lines = set(range(len(keys))), []
+    for first in range(len(keys)):
+        if first not in left:
+            continue
+        left.discard(first)
+        line = [segments[first][0], segments[first][1]]
+        for forward in (True, False):
+            end = keys[first][1 if forward else 0]
+            while (k := next((k for k in at[end] if k in left), None)) is not None:
+                left.discard(k)
+                ahead = 1 if keys[k][0] == end else 0
+                end = keys[k][ahead]
+                line.insert(len(line) if forward else 0, segments[k][ahead])
+        lines.append(np.array(line))
+    return lines
+
 
 _RADII, _AZIMUTHS = 40, 120
 """Points of the values under the pointer."""

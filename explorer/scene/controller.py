@@ -3,8 +3,9 @@
 While something moves, the disk is small and only the reference blade is bent. `draw_finely` draws the rest.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import viser
@@ -79,6 +80,15 @@ class SceneController:
         """Titles whose range the user asked for: it stays."""
         self._order: str | None = None
         """Another range that was asked for."""
+
+    def on_press(self, take: Callable[[float], None]) -> None:
+        """Call `take` with the distance from the hub [m] at which the reference blade is pressed."""
+
+        async def dragged(event: viser.SceneNodeDragEvent[Any]) -> None:
+            if event.phase == "start":
+                take(float(np.linalg.norm(event.start_position)))
+
+        self.scene.rotor.reference_blade.on_drag("left")(dragged)
 
     def draw(
         self, solution: Solution, view: ViewState, ghost: OtherBlade | None, pinned: Solution | None = None

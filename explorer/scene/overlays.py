@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from explorer.model.inputs import ViewState
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.hub_drawing import HubLines, hub_lines
 from explorer.picture.poses import drawn_bending, flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
-from explorer.picture.wake import inflow_arrows, tip_vortices
+from explorer.picture.wake import HubLines, hub_lines, inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from explorer.theme import colours
 from rotor.arrays import Array

@@ -10,11 +10,11 @@ from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.camera_views import LETTER_SIZE, letter_place
-from explorer.picture.disk_image import half_width
-from explorer.picture.lettering import (
+from explorer.picture.disk_image import (
     REACH,
     SHADOW_CENTRE,
     SHADOW_HALF,
+    half_width,
     letter_mask,
     ring_mask,
     shadow_mask,

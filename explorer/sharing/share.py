@@ -1,19 +1,25 @@
-"""A design as a short text for the page's address, and back. It holds the record of a design file.
+"""What the page writes into its address and keeps in the browser, as text: designs, views and steps.
 
-`1;segments:-14,-8@0.5;mu=0.25;mass=9000`: version, twist, and what differs from the preset's own design.
+A design holds the record of a design file, `1;segments:-14,-8@0.5;mu=0.25;mass=9000`: version, twist, and what differs
+from the preset's own design. A plus sign is written `~`, as in `1;uh60a~segments:-2,1@0.5`: viser's client writes the
+query of the address anew without its escapes, after which a plus sign reads as a space.
 
-A plus sign is written `~`, as in `1;uh60a~segments:-2,1@0.5`: viser's client writes the query of the address anew
-without its escapes, after which a plus sign reads as a space.
+A view, `1;field=mach;stall=off`, holds what differs from how a page begins, but for azimuth and dark page. Steps to
+undo are kept as codes of designs; one of a rotor of one's own, which no address holds, is left out.
 """
 
 import json
 import re
-from dataclasses import replace
+import unicodedata
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any
 
-from explorer.model.inputs import LAWS, Inputs, inputs_of
+from explorer.model.inputs import LAWS, TWIST_SHOWN, Inputs, ViewState, inputs_of
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.units import SI
+from explorer.model.units import SI, UNITS
+from explorer.picture.fields import FIELDS
 from rotor.design.design import Design
 from rotor.design.retired import Tell, warn
 from rotor.files.design_file import design_from_record, parse_design
@@ -44,6 +50,16 @@ _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
 _NEVER = ("format", "version", "twist")
+STEPS_KEPT = "steps"
+"""Under which the page keeps the steps to undo."""
+MOST_STEPS = 50
+"""Most steps before the present that are kept, and most after it."""
+VIEW = "v"
+"""Name of the view in the address."""
+
+_PLAIN_VIEW = ViewState()
+_NAMES = tuple(item.name for item in fields(ViewState) if item.name not in ("azimuth_deg", "dark"))
+_SWITCHED = {"on": True, "off": False}
 
 
 def code_of(design: Design) -> str:
@@ -154,3 +170,122 @@ def _value(word: str) -> object:
 def cut(text: str) -> str:
     """A text of the address, shortened for a sentence."""
     return text if len(text) <= 40 else text[:39] + "…"
+
+
+@dataclass(frozen=True)
+class StoredHistory:
+    """Steps before and after the present, and designs that the user set aside; each oldest first."""
+
+    past: tuple[Inputs, ...] = ()
+    present: Inputs | None = None
+    future: tuple[Inputs, ...] = ()
+    bookmarks: tuple[Inputs, ...] = ()
+
+    def text(self) -> str:
+        """As the page keeps it."""
+        past, future = _codes(self.past[-MOST_STEPS:]), _codes(self.future[:MOST_STEPS])
+        present = None if self.present is None else _code(self.present)
+        record = {"past": past, "present": present, "future": future, "bookmarks": _codes(self.bookmarks)}
+        return json.dumps(record, separators=(",", ":"), ensure_ascii=False)
+
+
+def read_history(text: str | None, start: Inputs) -> StoredHistory:
+    """What the page kept, for a session that begins with `start`; what cannot be read is left out.
+
+    `start` is another design than the last present one where a link was opened: that one is then a step before it.
+    """
+    try:
+        record: Any = json.loads(text or "{}")
+        past, future, bookmarks = (_inputs(record.get(name, [])) for name in ("past", "future", "bookmarks"))
+        present = _inputs([record["present"]] if record.get("present") else [])
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return StoredHistory(present=start)
+    same = [one for one in present if _code(one) == _code(start)]
+    before, after = (past, future) if same or not present else ((*past, *present), ())
+    return StoredHistory(before[-MOST_STEPS:], start, after[:MOST_STEPS], bookmarks)
+
+
+@lru_cache(maxsize=1024)
+def _code(inputs: Inputs) -> str | None:
+    """The code of the design; None where the inputs mean none, or one that no address holds."""
+    try:
+        return code_of(inputs.design())
+    except ValueError:
+        return None
+
+
+def _codes(steps: Iterable[Inputs]) -> list[str]:
+    return [code for code in map(_code, steps) if code is not None]
+
+
+def _inputs(codes: list[Any]) -> tuple[Inputs, ...]:
+    found: list[Inputs] = []
+    for code in codes[: 2 * MOST_STEPS]:
+        try:
+            found.append(inputs_from(str(code), tell=lambda _: None))
+        except ValueError:
+            continue  # Of another version of the program, or changed in the page.
+    return tuple(found)
+
+
+def _by_word(titles: Iterable[str]) -> dict[str, str]:
+    """Titles by their first word, or by two where it is another's, in small letters that every keyboard has."""
+    named: dict[str, str] = {}
+    for title in titles:
+        words = unicodedata.normalize("NFKD", title).lower().split()
+        named["-".join(words[:2]) if words[0] in named else words[0]] = title
+    return named
+
+
+_CHOICES = {"field": _by_word(FIELDS), "units": _by_word(UNITS)}
+_WORDS = {name: {title: word for word, title in choices.items()} for name, choices in _CHOICES.items()}
+
+
+def view_code(view: ViewState) -> str | None:
+    """The view as a text; None for one that shows what every page begins with."""
+    words = [f"{name}={_view_word(name, value)}" for name in _NAMES if (value := getattr(view, name)) != _default(name)]
+    return ";".join((str(VERSION), *words)) if words else None
+
+
+def view_from(code: str) -> ViewState:
+    """The view a text means; ValueError with one sentence for one that means none."""
+    version, *words = code.strip().split(";")
+    if version != str(VERSION):
+        raise ValueError(f"The view in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
+    view = _PLAIN_VIEW
+    for word in words:
+        name, _, value = word.partition("=")
+        if name not in _NAMES:
+            raise ValueError(f"The view in the address holds {cut(word)!r}: choose {', '.join(_NAMES)}.")
+        view = replace(view, **{name: _view_value(name, value)})
+    return view
+
+
+def _default(name: str) -> Any:
+    return getattr(_PLAIN_VIEW, name)
+
+
+def _view_word(name: str, value: Any) -> str:
+    if name in _CHOICES:
+        return _WORDS[name][value]
+    return f"{value:g}" if isinstance(value, float) else "on" if value else "off"
+
+
+def _view_value(name: str, word: str) -> Any:
+    if isinstance(_default(name), float):
+        return _number(name, word)
+    choices: dict[str, Any] = _CHOICES.get(name, _SWITCHED)
+    if word not in choices:
+        raise ValueError(f"The view in the address has {name}={cut(word)!r}: choose {', '.join(choices)}.")
+    return choices[word]
+
+
+def _number(name: str, word: str) -> float:
+    low, high = TWIST_SHOWN
+    try:
+        value = float(word)
+    except ValueError:
+        value = float("nan")
+    if not low <= value <= high:
+        raise ValueError(f"The view in the address has {name}={cut(word)!r}: give a number from {low:g} to {high:g}.")
+    return value

@@ -13,13 +13,13 @@ from explorer.model.inputs import OWN, inputs_of, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.sharing import share
 from explorer.sharing.address import Address
-from explorer.sharing.view_code import VIEW, view_code
+from explorer.sharing.share import VIEW, view_code
 from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
 from rotor.airfoil.c81 import parse_c81
 from rotor.airfoil.contour import parse_contour
+from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import parse_polar_file
-from rotor.airfoil.wrap import on_run_time_grid
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design
 from rotor.files.design_file import parse_design

@@ -2,31 +2,139 @@
 
 import io
 import logging
+import math
 import threading
 import time
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from html import escape
 
 import viser
 from PIL import Image
 
+from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
-from explorer.export import files
-from explorer.export.files import File
+from explorer.export.blade import blade_stl, flown_design, rotor_glb
+from explorer.export.disk_drawing import disk_svg
+from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
+from explorer.export.report.contents import DesignReport, ReportEntry, report_of
+from explorer.export.report.document import report_html
+from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
+from explorer.model.undo import KeptDesign
+from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS, shown_field
+from explorer.picture.picture import marks_of
 from explorer.scene.controller import SceneController
-from explorer.scene.still_scene import make_stage
+from explorer.scene.still_scene import EmbeddedViewer, make_stage, scene_page
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
+from explorer.text.design_words import flight_words, title_words
 from explorer.text.glossary import hint
+from explorer.text.readout import fineness
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
 """[s] for the page to draw; browsers that draw in software take some."""
 _WIDTH = 1920
 """[px] of a picture of the view."""
+
+
+@dataclass(frozen=True)
+class File:
+    """A file to be saved."""
+
+    name: str
+    content: bytes
+
+    @property
+    def size(self) -> str:
+        """The size as text."""
+        count = len(self.content)
+        return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
+
+
+def jig_file(state: SessionState) -> File:
+    """One blade in jig shape as STL, for manufacture."""
+    design = state.solution.design
+    return File(f"{file_stem(design, 'blade', 'jig')}.stl", blade_stl(design))
+
+
+def flown_file(state: SessionState) -> File:
+    """The reference blade as flown at its azimuth as STL."""
+    solution, azimuth = state.solution, state.view.azimuth_deg
+    name = file_stem(solution.design, "blade", "flown", f"psi{azimuth:.0f}")
+    return File(f"{name}.stl", blade_stl(flown_design(solution, math.radians(azimuth))))
+
+
+def rotor_file(state: SessionState) -> File:
+    """The rotor in trim as GLB."""
+    solution = state.solution
+    return File(f"{file_stem(solution.design, 'rotor')}.glb", rotor_glb(solution, state.view.azimuth_deg))
+
+
+def disk_file(state: SessionState) -> File:
+    """Every field over the disk as CSV."""
+    return File(f"{file_stem(state.solution.design, 'disk')}.csv", disk_csv(state.solution))
+
+
+def along_file(state: SessionState) -> File:
+    """The blade at the marked azimuth as CSV."""
+    azimuth = state.view.azimuth_deg
+    content = blade_csv(state.solution, state.reference.design, azimuth)
+    return File(f"{file_stem(state.solution.design, 'blade', f'psi{azimuth:.0f}')}.csv", content)
+
+
+def power_file(state: SessionState, curves: PowerCurves) -> File:
+    """Power over advance ratio as CSV."""
+    design, reference = state.solution.design, state.reference.design
+    curves.sweep(design, reference, lambda: False)
+    content = power_csv(state.solution, reference, curves.known(design, reference))
+    return File(f"{file_stem(design, 'power')}.csv", content)
+
+
+def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range: Range) -> DesignReport:
+    """The report of the present and the kept designs, compared with A or the baseline."""
+    pinned, solution = state.pinned, state.solution
+    if state.pin is None:
+        reference = ReportEntry(baseline_title(solution.design), state.baseline)
+    else:
+        # A may not converge in the present flight condition; then its own solution is used.
+        flies = pinned is not None and pinned.converged
+        reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
+    others = [item for item in kept if item.solution.design not in (solution.design, reference.solution.design)]
+    entries = [
+        ReportEntry("Now", solution),
+        *(ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)),
+    ]
+    return report_of(
+        reference, entries, state.view, {state.view.field: colour_range}, own_section=state.pin is not None
+    )
+
+
+def scene_file(state: SessionState, colour_range: Range) -> File:
+    """The rotor in trim as one HTML page to be turned with the mouse, without a server."""
+    solution, view = state.solution, replace(state.view, difference=False)
+    design, units = solution.design, UNITS[view.units]
+    powers = units.watts(solution.power.total, fineness(solution.power))
+    line = f"{powers} · {flight_words(design, units)} · {view.field} on the disk"
+    times = f" · twist exaggeration × {view.exaggeration:g}" if view.exaggeration != 1.0 else ""
+    page = scene_page(solution, view, colour_range, title_words(design), line + times)
+    return File(f"{file_stem(design, 'scene')}.html", page.encode("utf-8"))
+
+
+def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves) -> File:
+    """The report as one HTML file."""
+    name = file_stem(report.entries[0].solution.design, "report")
+    return File(f"{name}.html", report_html(report, stage, curves).encode("utf-8"))
+
+
+def disk_drawing_file(state: SessionState, colour_range: Range) -> File:
+    """The disk from above as SVG, as the page colours and marks it."""
+    view, solution = state.view, state.solution
+    field = shown_field(view, state.pinned)
+    drawing = disk_svg(solution, field, colour_range, marks_of(view), UNITS[view.units])
+    return File(f"{file_stem(solution.design, 'disk', field.title)}.svg", drawing.encode("utf-8"))
 
 
 class ExportPanel(Tab):
@@ -38,11 +146,11 @@ class ExportPanel(Tab):
         self._curves = PowerCurves()
         self._stale = False
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
-        shapes = {"Jig STL": files.jig_file, "Flown STL": files.flown_file, "Rotor GLB": files.rotor_file}
+        shapes = {"Jig STL": jig_file, "Flown STL": flown_file, "Rotor GLB": rotor_file}
         tables: dict[str, Callable[[SessionState], File]] = {
-            "Disk": files.disk_file,
-            "Blade": files.along_file,
-            "Power": lambda state: files.power_file(state, self._curves),
+            "Disk": disk_file,
+            "Blade": along_file,
+            "Power": lambda state: power_file(state, self._curves),
         }
         pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
         gui = context.gui
@@ -73,7 +181,7 @@ class ExportPanel(Tab):
         self._stale = True
 
     def _disk_drawing(self, state: SessionState) -> File:
-        return files.disk_drawing_file(state, self._scene.held_range(shown_field(state.view, state.pinned)))
+        return disk_drawing_file(state, self._scene.held_range(shown_field(state.view, state.pinned)))
 
     def _view_picture(self, state: SessionState) -> File:
         """The scene as the page's camera sees it; what the frame draws over it is not in the picture."""
@@ -82,16 +190,16 @@ class ExportPanel(Tab):
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
         png = io.BytesIO()
         Image.fromarray(pixels).save(png, "PNG")
-        return File(f"{files.file_stem(state.solution.design, 'view', f'{_WIDTH}x{height}')}.png", png.getvalue())
+        return File(f"{file_stem(state.solution.design, 'view', f'{_WIDTH}x{height}')}.png", png.getvalue())
 
     def _scene_page(self, state: SessionState) -> File:
-        return files.scene_file(state, self._scene.held_range(FIELDS[state.view.field]))
+        return scene_file(state, self._scene.held_range(FIELDS[state.view.field]))
 
     def _report(self, state: SessionState) -> File:
         view = replace(state.view, difference=False)
-        report = files.session_report(state, self._history.kept, self._scene.held_range(FIELDS[view.field]))
+        report = session_report(state, self._history.kept, self._scene.held_range(FIELDS[view.field]))
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
-        return files.report_file(report, stage, self._curves)
+        return report_file(report, stage, self._curves)
 
     def _save(self, what: str, make: Callable[[SessionState], File]) -> None:
         """Make a file and send it, unless another is under way."""

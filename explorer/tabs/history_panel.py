@@ -12,8 +12,8 @@ from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.undo import History, KeptDesign
 from explorer.model.units import SI, Units
-from explorer.sharing import stored_history
-from explorer.sharing.stored_history import StoredHistory
+from explorer.sharing import share
+from explorer.sharing.share import StoredHistory
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
@@ -122,7 +122,7 @@ class HistoryPanel(Tab):
         """`stored`: the history as the page kept it over a reload; None where it has none."""
         self._context, gui = context, context.gui
         self._lock = threading.RLock()
-        before = stored_history.read_history(stored, start)
+        before = share.read_history(stored, start)
         self._history = History(start, list(before.past), list(reversed(before.future)))
         self._stored = stored
         self._powers: dict[Inputs, float] = {}
@@ -190,7 +190,7 @@ class HistoryPanel(Tab):
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
-            browser.keep(self._context.client, stored_history.NAME, text)
+            browser.keep(self._context.client, share.STEPS_KEPT, text)
 
     def solve_waiting(self, stop: Callable[[], bool]) -> None:
         """Solve the designs that were kept before a reload, until `stop`."""

@@ -21,9 +21,9 @@ from explorer.charts.vibration import (
 )
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
-from explorer.picture.hub_drawing import hub_words, scale_words
 from explorer.picture.poses import BENDING_SHOWN
 from explorer.picture.scene_theme import scene_theme
+from explorer.picture.wake import hub_words, scale_words
 from explorer.scene.controller import SceneController
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext

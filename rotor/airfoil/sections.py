@@ -11,9 +11,9 @@ import numpy as np
 
 from rotor.airfoil.c81 import parse_c81, read_c81
 from rotor.airfoil.contour import SECTION_NAMES, Contour, load_contour, parse_contour
+from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polynomial import THESIS_NAME, parse_reading, polynomial_table
 from rotor.airfoil.section_table import SectionTable, table_from_deck
-from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
 from rotor.user_input import did_you_mean
 

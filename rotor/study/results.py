@@ -1,7 +1,8 @@
 """The results of a study on disk: written chunk by chunk, read complete or still running.
 
 A folder has one Parquet file per chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads
-them as one table. All other names begin with `_` or a dot, which Parquet readers ignore.
+them as one table. All other names begin with `_` or a dot, which Parquet readers ignore. A file that a visitor uploads
+is read in a process of its own, one at a time: some kilobytes may unpack to gigabytes.
 """
 
 import hashlib
@@ -9,10 +10,15 @@ import importlib
 import json
 import math
 import os
+import pickle
 import random
+import sys
+import threading
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
 
@@ -26,10 +32,15 @@ from rotor.study.point import design_of
 from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.study.study import Study
 from rotor.study.study_file import StudyFile
-from rotor.user_input import is_file, make_folder, read_bytes, refusing, shorten
+from rotor.user_input import brief, is_file, make_folder, read_bytes, refusing, shorten
 
 ABOUT, SOURCE = "_study.json", "_study.toml"
 """The description of the folder, and a copy of the study file."""
+_MEMORY = 2 * 10**9
+"""[bytes] beyond what the process has after its start; an accepted file unpacks to a fifth of it."""
+_PATIENCE = 60.0
+"""[s]"""
+_one_at_a_time = threading.Lock()
 
 
 def sha256(text: str) -> str:
@@ -333,3 +344,53 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
     if len(held) < len(concept.parameters):
         raise ValueError(f"point {row} found no blade: choose another one")
     return concept.apply(design, [held[one.name] for one in concept.parameters])
+
+
+def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: float = _PATIENCE) -> Results:
+    """As `read_file`. ValueError also for a file that needs more memory [bytes] or time [s] to read."""
+    context = get_context("spawn")
+    with _one_at_a_time:
+        ours, theirs = context.Pipe(duplex=False)
+        reader = context.Process(target=_read, args=(theirs, content, name, memory), name="parquet", daemon=True)
+        reader.start()
+        theirs.close()
+        try:
+            answer = pickle.loads(ours.recv_bytes()) if ours.poll(patience) else "it takes too long to read"
+        except EOFError:
+            answer = "it needs too much memory to read"
+        finally:
+            ours.close()
+            reader.kill()
+            reader.join()
+    if isinstance(answer, Results):
+        return answer
+    if answer.startswith("it "):
+        raise ValueError(f"{shorten(name)!r} cannot be shown ({answer}): give a smaller file, or the study's folder")
+    raise ValueError(answer)
+
+
+def _read(answer: Connection, content: bytes, name: str, memory: int) -> None:
+    """In the other process: send the results, or a sentence."""
+    made: Results | str
+    try:
+        importlib.import_module("pyarrow.parquet")  # Its own code is not counted.
+        limit_memory(memory)
+        made = read_file(content, name)
+        answer.send_bytes(pickle.dumps(made))
+        return
+    except MemoryError:  # Arrow's is one too.
+        made = "it needs too much memory to read"
+    except Exception as error:
+        made = brief(error)
+    answer.send_bytes(pickle.dumps(made))
+
+
+def limit_memory(memory: int) -> None:
+    """Bound the address space of this process (Linux; elsewhere the sizes that the file itself gives must do)."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    most = pages * resource.getpagesize() + memory
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from explorer.picture import disk_image, lettering
+from explorer.picture import disk_image
 from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
-from explorer.picture.outlines import positive_stall_segments
 from explorer.picture.picture import disk_png, field_values
+from explorer.picture.plan import positive_stall_segments
 from explorer.picture.polar import polar_grid, refined, stall_angles
 from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, region_codes, region_masks
 from explorer.picture.scene_theme import DARK, LIGHT
@@ -183,11 +183,11 @@ class TestRanges:
 class TestFlatPictures:
     def test_words_stand_at_their_sides(self):
         """Ink in the band of the words: nose above, tail below, advancing right, retreating left."""
-        mask = lettering.ring_mask().astype(float)
+        mask = disk_image.ring_mask().astype(float)
         size = len(mask)
         middle = 0.5 * (size - 1)
         row, column = np.nonzero(mask > 100)
-        r = np.hypot(row - middle, column - middle) / (0.5 * size / lettering.REACH)
+        r = np.hypot(row - middle, column - middle) / (0.5 * size / disk_image.REACH)
         psi = np.degrees(np.arctan2(column - middle, row - middle)) % 360
         words = psi[(r > 1.09) & (r < 1.16)]
         for centre in (15, 90, 180, 270):
@@ -195,23 +195,23 @@ class TestFlatPictures:
         assert np.count_nonzero(np.abs(words - 225) < 20) == 0
 
     def test_nothing_lies_on_the_disk_itself(self):
-        mask = lettering.ring_mask()
+        mask = disk_image.ring_mask()
         size = len(mask)
         y, x = np.indices(mask.shape) - 0.5 * (size - 1)
-        assert not mask[np.hypot(x, y) < 0.5 * size / lettering.REACH].any()
+        assert not mask[np.hypot(x, y) < 0.5 * size / disk_image.REACH].any()
 
     def test_a_tinted_picture_has_one_colour_and_the_masks_opacity(self):
         mask = np.array([[0, 128], [255, 64]], dtype=np.uint8)
-        image = np.asarray(Image.open(io.BytesIO(lettering.tinted_png(mask, (10, 20, 30), 0.5))).convert("RGBA"))
+        image = np.asarray(Image.open(io.BytesIO(disk_image.tinted_png(mask, (10, 20, 30), 0.5))).convert("RGBA"))
         assert (image[..., :3] == (10, 20, 30)).all()
         assert image[..., 3].tolist() == [[0, 64], [128, 32]]
 
     def test_the_shadow_is_under_the_airframe_and_fades(self):
         rotor = make_design().rotor
-        mask = lettering.shadow_mask(airframe(rotor), rotor.radius).astype(int)
+        mask = disk_image.shadow_mask(airframe(rotor), rotor.radius).astype(int)
         size = len(mask)
-        unit = 0.5 * size / (lettering.SHADOW_HALF * rotor.radius)
-        row = round(0.5 * size + (0.0 - lettering.SHADOW_CENTRE * rotor.radius) * unit)
+        unit = 0.5 * size / (disk_image.SHADOW_HALF * rotor.radius)
+        row = round(0.5 * size + (0.0 - disk_image.SHADOW_CENTRE * rotor.radius) * unit)
         assert mask[row, size // 2] > 150  # Below the cabin.
         assert mask[0].max() == mask[-1].max() == 0
         assert np.abs(mask - mask[:, ::-1]).max() < 30  # Nearly symmetric: only the tail rotor is not.

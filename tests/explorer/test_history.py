@@ -7,8 +7,7 @@ import pytest
 
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PAUSE, STEPS, History, Pauses
-from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
-from explorer.sharing.stored_history import StoredHistory, read_history
+from explorer.sharing.share import LONGEST, StoredHistory, code_of, design_from, inputs_from, read_history
 from rotor.design.aircraft import RotorFiles
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design

@@ -14,8 +14,7 @@ import pytest
 from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
 from explorer.model.stand import StandInputs
 from explorer.sharing.address import Address, parameter, with_parameter
-from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, inputs_from, tell_retired
-from explorer.sharing.stored_history import read_history
+from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, inputs_from, read_history, tell_retired
 from explorer.tabs.design_files import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics

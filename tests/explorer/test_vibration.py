@@ -17,10 +17,10 @@ from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, Inde
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
-from explorer.picture.hub_drawing import hub_lines, hub_words, load_scale
 from explorer.picture.picture import flown_vertices, make_picture, turned_blades
 from explorer.picture.poses import BENDING_SHOWN, blade_pose, drawn_bending, follows_azimuth, rotate
 from explorer.picture.scene_theme import scene_theme
+from explorer.picture.wake import hub_lines, hub_words, load_scale
 from explorer.scene.overlays import HubLoadLines
 from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
-from explorer.sharing.view_code import view_code, view_from
+from explorer.sharing.share import view_code, view_from
 
 VIEWS = st.builds(
     ViewState,

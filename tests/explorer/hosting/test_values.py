@@ -21,7 +21,7 @@ from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.address import Address
-from explorer.sharing.view_code import view_from
+from explorer.sharing.share import view_from
 from tests.tools.soak.visitor import Visitor
 
 DIGITS = "9" * 400

@@ -4,11 +4,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.decks import DECK_MACH, deck_alpha_deg, prandtl_glauert, smooth_cap, wave_drag, with_lost_suction
+from rotor.airfoil.decks import (
+    DECK_MACH,
+    blend_weight,
+    deck_alpha_deg,
+    prandtl_glauert,
+    smooth_cap,
+    wave_drag,
+    with_lost_suction,
+    wrap_coefficients,
+)
 from rotor.airfoil.polars import read_polars
 from rotor.airfoil.public_points import agreement, points_near, public_points
 from rotor.airfoil.sections import load_installed, load_section
-from rotor.airfoil.wrap import blend_weight, wrap_coefficients
 from rotor.assets import asset_path
 
 DECKS = ("sc1095", "sc1094r8", "naca0012", "naca63a015")

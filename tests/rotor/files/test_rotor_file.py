@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 
 from rotor import make_design
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
+from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import Polar, parse_polar_file, read_polars
 from rotor.airfoil.sections import load_installed
-from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft

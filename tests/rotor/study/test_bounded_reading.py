@@ -15,9 +15,8 @@ import pyarrow.parquet as parquet
 import pytest
 
 from rotor.assets import package_version
-from rotor.study.bounded_reading import limit_memory, read_bounded
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.results import read_file
+from rotor.study.results import limit_memory, read_bounded, read_file
 from rotor.study.study_file import parse_study
 
 STUDY = """

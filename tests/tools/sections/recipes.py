@@ -11,9 +11,8 @@ import numpy as np
 
 from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.contour import load_contour
-from rotor.airfoil.decks import SectionTraits, assemble_deck
+from rotor.airfoil.decks import BLEND_END_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, PolarSet
-from rotor.airfoil.wrap import BLEND_END_DEG
 from rotor.arrays import Array
 from rotor.user_input import did_you_mean
 from tests.tools.sections.tunnel import TunnelTraits
