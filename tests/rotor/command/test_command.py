@@ -192,14 +192,6 @@ def test_version(start: Callable[[list[str]], int], capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out == f"rotor-explorer {__version__}\n"
 
 
-def test_the_explorer_reports_bad_input_in_one_line(capsys: pytest.CaptureFixture[str]):
-    assert explorer_main(["--port", "x"]) == 2
-    assert explorer_main(["--prt", "8080"]) == 2
-    first, second = capsys.readouterr().err.splitlines()
-    assert "'x' is not a port" in first
-    assert "did you mean '--port'?" in second
-
-
 def test_help_lists_the_values_of_flags(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["solve", "--help"])

@@ -141,21 +141,6 @@ def test_the_same_seed_gives_the_same_search():
     assert_allclose(other.best.power, first.best.power, rtol=1e-6)  # The same minimum from elsewhere.
 
 
-@pytest.mark.slow
-def test_many_starts_reach_one_minimum_and_more_parameters_do_better():
-    design = small(0.25)
-    powers = {}
-    for name in ("linear", "quadratic", "two-segment", "two-segment-free", "free-form"):
-        found = run_search(Search(design, CONCEPTS[name], starts=4, band=False))
-        assert found.best is not None
-        powers[name] = found.best.power
-        assert found.minima[0] == found.best
-        assert len([start for minimum in found.minima for start in minimum.starts]) <= 4
-    assert powers["two-segment-free"] <= powers["two-segment"] * (1 + 1e-6) <= powers["linear"] * (1 + 2e-6)
-    assert powers["free-form"] <= powers["quadratic"] * (1 + 1e-6) <= powers["linear"] * (1 + 2e-6)
-    assert powers["free-form"] <= powers["two-segment-free"] * (1 + 3e-4)  # A kink it can only round off.
-
-
 def test_bounds_rate_and_change_limits_are_kept():
     design = small(0.25, "linear:-8")
     for limits, active in (

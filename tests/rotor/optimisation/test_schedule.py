@@ -1,6 +1,5 @@
 """Schedules: properties of every schedule, processes, and files to continue from."""
 
-import math
 import multiprocessing
 import os
 import signal
@@ -188,31 +187,6 @@ def test_a_condition_that_cannot_trim_is_reported():
     bad = schedule.at(1, "linear")
     assert bad is not None
     assert bad.status is SearchStatus.NOT_CONVERGED
-
-
-@pytest.mark.slow
-def test_fifteen_conditions_all_concepts_two_processes():
-    """The full grid; the saving from variable twist is within its upper bound."""
-    design = make_design()
-    ratios = (0.0, *(0.05 + 0.025 * k for k in range(1, 15)))
-    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    schedule = run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=2)
-    assert schedule.converged
-    for name in CONCEPTS:
-        worth = schedule.in_flight_gain(name)
-        assert worth is not None
-        assert 0.0 <= worth.gain < 0.01 * worth.fixed
-        assert math.isfinite(worth.share)
-    nested = (("linear", "quadratic"), ("linear", "two-segment"), ("linear", "three-segment"),
-              ("two-segment", "two-segment-free"), ("three-segment", "three-segment-free"),
-              ("two-segment-free", "three-segment-free"))  # fmt: skip
-    for condition in range(len(conditions)):
-        for poor, rich in nested:
-            assert power(schedule, condition, rich) <= power(schedule, condition, poor) * (1 + 5e-5), (
-                condition,
-                poor,
-                rich,
-            )
 
 
 def test_a_limit_of_the_index_needs_hub_loads_everywhere():
