@@ -118,7 +118,6 @@ class Session:
             yield pause
 
     def _read(self) -> Reading:
-        """Widgets → design."""
         page = self.page
         inputs, view = page.read()
         try:
@@ -203,7 +202,6 @@ class Session:
             self.page.show_power(last, curve, failed=True)
 
     def _wake(self) -> None:
-        """Something changed."""
         self._all_changed = True
         self._worker.wake()
 

@@ -19,8 +19,6 @@ SWEEP = tuple(round(0.025 * k, 3) for k in range(19))
 
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """The content of one chart."""
-
     data: tuple[Array, ...]
     """Abscissa, then one array per series, all of one length."""
     y_range: Range

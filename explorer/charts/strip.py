@@ -28,8 +28,6 @@ _SHOWN_QUANTILE = 0.93
 
 @dataclass(frozen=True, eq=False)
 class StripLine:
-    """One line of a chart."""
-
     x: Array
     y: Array
     role: Role
@@ -39,8 +37,6 @@ class StripLine:
 
 @dataclass(frozen=True)
 class StripDot:
-    """One marked point of a chart."""
-
     x: float
     y: float
     label: str
@@ -65,8 +61,6 @@ class StripMark:
 
 @dataclass(frozen=True, eq=False)
 class StripBand:
-    """The area between two lines."""
-
     x: Array
     low: Array
     high: Array
@@ -83,8 +77,6 @@ class StripGap:
 
 @dataclass(frozen=True, eq=False)
 class StripChart:
-    """One chart, ready to draw."""
-
     title: str
     unit: str
     """Unit and what is compared, beside the title."""

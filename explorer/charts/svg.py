@@ -106,7 +106,6 @@ def text(
 
 
 def image(x: float, y: float, wide: float, high: float, png: bytes) -> str:
-    """A PNG inside the drawing."""
     data = base64.b64encode(png).decode("ascii")
     return (
         f'<image x="{x:.2f}" y="{y:.2f}" width="{wide:.2f}" height="{high:.2f}" href="data:image/png;base64,{data}"/>'

@@ -165,8 +165,6 @@ class FanKey:
 
 
 class FanPlots:
-    """Those of one session."""
-
     def __init__(self) -> None:
         self._found: dict[FanKey, dict[float, BladeFrequencies]] = {}
 

@@ -20,8 +20,6 @@ _SHOWN = 80
 
 @dataclass(frozen=True)
 class AllowedHosts:
-    """The rule for one server."""
-
     host: str
     """Address it listens on."""
     also: tuple[str, ...] = ()

@@ -54,7 +54,6 @@ class Bridge:
             run_in_page(self._client, f"RX.set({{{body}}})")
 
     def stop(self) -> None:
-        """The browser has left."""
         self._worker.shutdown(wait=False, cancel_futures=True)
 
     async def _hear(self, event: viser.GuiEvent[Any]) -> None:

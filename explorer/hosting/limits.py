@@ -67,8 +67,6 @@ _SPARE = 40
 
 @dataclass(frozen=True)
 class ServerLimits:
-    """Limits set by whoever starts the server."""
-
     sessions: int = SESSIONS
     """Pages at work at once."""
     allow_hosts: tuple[str, ...] = ()

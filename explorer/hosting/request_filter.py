@@ -29,8 +29,6 @@ _SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = "<script", "</head>", "<body>"
 
 @dataclass(frozen=True)
 class ServedPage:
-    """The served page."""
-
     html: bytes
 
     @cached_property

@@ -63,8 +63,6 @@ def same_but_flight(one: Inputs, other: Inputs) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class PinResult:
-    """The result of a button."""
-
     pinned: Pinned | None
     inputs: Inputs | None = None
     """Inputs to put on the sliders."""

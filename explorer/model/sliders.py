@@ -42,8 +42,6 @@ _FRACTION = 0.1
 
 @dataclass(frozen=True)
 class Slider:
-    """A slider as it is shown."""
-
     label: str
     low: float
     high: float

@@ -25,8 +25,6 @@ def degrees(angle: float, digits: int = 2) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """One unit."""
-
     symbol: str
     size: float
     """In SI."""

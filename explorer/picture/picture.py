@@ -55,8 +55,6 @@ class Blades:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What one frame shows."""
-
     rotor: Pose
     airframe: Pose
     disk: Pose

@@ -43,8 +43,6 @@ class MarkedRegion(IntEnum):
 
 @dataclass(frozen=True)
 class Marks:
-    """Which regions are marked."""
-
     stall: bool = True
     reverse_flow: bool = True
     drag_divergence: bool = True

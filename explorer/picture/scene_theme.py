@@ -21,8 +21,6 @@ class DiskInk:
 
 @dataclass(frozen=True)
 class Light:
-    """A directional light."""
-
     colour: Rgb
     intensity: float
     position: tuple[float, float, float]
@@ -123,5 +121,4 @@ DARK = SceneTheme(
 
 
 def scene_theme(dark: bool) -> SceneTheme:
-    """The theme of a dark page, or of a light one."""
     return DARK if dark else LIGHT

@@ -14,8 +14,6 @@ Faces = NDArray[np.uint32]
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Triangles."""
-
     vertices: Array
     """Shape (n, 3)."""
     faces: Faces

@@ -179,7 +179,6 @@ class HubLoadLines:
         return lines
 
     def hide(self) -> None:
-        """There are none."""
         self._drawn = None
         for handle in self._lines.values():
             if handle.visible:

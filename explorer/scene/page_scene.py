@@ -53,8 +53,6 @@ def tie(client: viser.ClientHandle, *nodes: str) -> None:
 
 
 class PageScene:
-    """One client's."""
-
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
         self._played = self._spun = False
@@ -79,7 +77,6 @@ class PageScene:
 
     @property
     def playing(self) -> bool:
-        """Whether the page moves the blades."""
         return self._motion is not None and (self._played or self._spun)
 
     def play(self, playing: bool) -> None:

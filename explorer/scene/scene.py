@@ -115,7 +115,6 @@ class RotorNodes:
             self.image.render_width = self.image.render_height = 2.0 * half_width(self._fitted.radius, pixels)
 
     def set_theme(self, theme: SceneTheme) -> None:
-        """Colours for a light page or a dark one."""
         self._theme = theme
         self._head.color = theme.head
         for k, blade in enumerate(self._blades):
@@ -152,7 +151,6 @@ class Scene:
         self._fit_airframe(rotor)
 
     def fit(self, rotor: Rotor) -> None:
-        """Make room for a rotor."""
         if rotor != self._fitted:
             self._fitted = rotor
             self._fit_airframe(rotor)
@@ -180,14 +178,12 @@ class Scene:
         self._set_visible()
 
     def hide_beside(self) -> None:
-        """One rotor again."""
         if self._beside:
             self._beside = self._apart = False
             self.rotor.frame.position = np.zeros(3)
             self._set_visible()
 
     def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
         self._seen = seen
         self._set_visible()
 
@@ -293,5 +289,4 @@ def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, 
 
 
 def place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
-    """Move a node within its parent."""
     viser_compat.place(handle, pose.wxyz, pose.position)

@@ -99,7 +99,6 @@ class Address:
             self._unread.clear()
 
     def stop(self) -> None:
-        """The page has gone."""
         with self._lock:
             if self._waiting is not None:
                 self._waiting.cancel()

@@ -22,8 +22,6 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class StoryPlace:
-    """Where a lecture is."""
-
     step: int
     guess: int | None = None
     """The answer that was chosen; None before."""
@@ -35,8 +33,6 @@ class StoryPlace:
 
 @dataclass(frozen=True)
 class PresentedView:
-    """What a presenter shows."""
-
     inputs: Inputs
     view: ViewState
     against: Inputs | None = None
@@ -61,8 +57,6 @@ def follow_name(secret: str) -> str:
 
 
 class Presentations:
-    """The presentations of one server."""
-
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._shown: dict[str, PresentedView] = {}

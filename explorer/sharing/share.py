@@ -182,7 +182,6 @@ class StoredHistory:
     bookmarks: tuple[Inputs, ...] = ()
 
     def text(self) -> str:
-        """As the page keeps it."""
         past, future = _codes(self.past[-MOST_STEPS:]), _codes(self.future[:MOST_STEPS])
         present = None if self.present is None else _code(self.present)
         record = {"past": past, "present": present, "future": future, "bookmarks": _codes(self.bookmarks)}

@@ -63,7 +63,6 @@ class TabContext:
         """Whether a presenter moves the page."""
 
     def inputs(self) -> Inputs:
-        """What the sliders hold."""
         return self.controls.inputs()
 
     def set_inputs(self, inputs: Inputs) -> None:
@@ -77,12 +76,10 @@ class TabContext:
         self.controls.set_inputs(inputs)
 
     def view(self) -> ViewState:
-        """What is shown."""
         return self.display.view()
 
     @property
     def units(self) -> Units:
-        """Those that are shown."""
         return UNITS[self.display.view().units]
 
     def pin(self, inputs: Inputs | None) -> None:
@@ -95,5 +92,4 @@ class TabContext:
         self.client.send_file_download(name, content, save_immediately=True)
 
     def notify(self, title: str, sentence: str) -> None:
-        """Show a notification for some seconds."""
         self.client.add_notification(title, brief(sentence), auto_close_seconds=6)

@@ -50,8 +50,6 @@ class SessionCallbacks:
 
 
 class InputHandle(Protocol):
-    """What a widget must offer."""
-
     value: Any
     visible: bool
     disabled: bool

@@ -33,8 +33,6 @@ _MOST_FILES = 40
 
 @dataclass(frozen=True)
 class UploadResult:
-    """What a file led to."""
-
     sentence: str
     aircraft: Aircraft | None = None
     """Complete: to be flown."""

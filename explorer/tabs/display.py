@@ -49,7 +49,6 @@ class Display:
         self._show_turn()
 
     def view(self) -> ViewState:
-        """What is shown now."""
         return self._view
 
     @property
@@ -58,7 +57,6 @@ class Display:
         return TURN_RATES[self._pace]
 
     def set_view(self, view: ViewState) -> None:
-        """Show this."""
         with self._lock:
             self._awaited = view.difference and not self._allowed
             self._view = replace(view, difference=view.difference and self._allowed)
@@ -67,14 +65,12 @@ class Display:
         self._changed()
 
     def turn(self, azimuth_deg: float) -> None:
-        """Move the reference blade."""
         with self._lock:
             self._view = replace(self._view, azimuth_deg=azimuth_deg % 360.0)
         self._show_turn()
         self._turned()
 
     def set_playing(self, playing: bool) -> None:
-        """Whether the rotor turns by itself."""
         self._playing = playing
         self._show_turn()
 

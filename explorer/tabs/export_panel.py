@@ -42,14 +42,11 @@ _WIDTH = 1920
 
 @dataclass(frozen=True)
 class File:
-    """A file to be saved."""
-
     name: str
     content: bytes
 
     @property
     def size(self) -> str:
-        """The size as text."""
         count = len(self.content)
         return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
 

@@ -22,8 +22,6 @@ _SHOWN = {
 
 @dataclass(frozen=True)
 class Key:
-    """A command of the palette."""
-
     group: str
     title: str
     key: str = ""

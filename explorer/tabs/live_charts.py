@@ -180,7 +180,6 @@ class ChartStrip:
             self._charts[_MEASURED] = chart
 
     def turn(self, state: SessionState) -> None:
-        """The reference blade is elsewhere."""
         self._charts["alpha"] = alpha_chart(
             state.solution, state.reference, state.view.azimuth_deg, self._held("alpha")
         )
@@ -235,7 +234,6 @@ class ChartStrip:
             self._send()
 
     def fade(self) -> None:
-        """The inputs have no solution."""
         self._faded = True
         self._send()
 

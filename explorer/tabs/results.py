@@ -56,7 +56,6 @@ class SliderSensitivities:
             self._send(state)
 
     def clear(self) -> None:
-        """The inputs have no solution."""
         self._twist, self._flight = {}, {}
         self._bridge.set(worth={})
 
@@ -258,8 +257,6 @@ _EMPTY: dict[str, Any] = {
 
 
 class ResultsPanel:
-    """One session's."""
-
     def __init__(self, context: TabContext) -> None:
         gui, bridge, layout = context.gui, context.bridge, context.layout
         self._bridge, self._layout = bridge, layout

@@ -97,8 +97,6 @@ _KEY: Key = (("total", THIS), _INDUCED)
 
 
 class SensitivityPanel(Tab):
-    """One session's."""
-
     def __init__(self, context: TabContext, strip: Strip) -> None:
         self._strip, self._layout, gui = strip, context.layout, context.gui
         self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
@@ -117,7 +115,6 @@ class SensitivityPanel(Tab):
         self._paint.on_update(lambda _: context.wake())
 
     def show(self, state: SessionState) -> None:
-        """Follow a converged solution."""
         solution, exaggeration, paint = state.solution, state.view.exaggeration, self._paint.value
         turning = paint and follows_azimuth(solution)  # The paint lies on the blade as flown.
         wanted = (solution, state.pinned, paint, exaggeration, state.view.azimuth_deg if turning else 0.0)

@@ -33,13 +33,10 @@ _MOST_FOLDERS = 3000
 
 @dataclass(frozen=True)
 class FoundStudy:
-    """One result."""
-
     path: Path
     title: str
 
     def label(self, root: Path) -> str:
-        """As the menu shows it."""
         return os.path.relpath(self.path, root)
 
 
@@ -132,8 +129,6 @@ _HINT = (
 
 
 class StudiesPanel(Tab):
-    """One session's."""
-
     def __init__(self, context: TabContext, root: Path) -> None:
         """`root`: results beneath it are offered."""
         self._context, self._root = context, root
@@ -172,7 +167,6 @@ class StudiesPanel(Tab):
         threading.Thread(target=self.look, name="studies", daemon=True).start()
 
     def look(self) -> None:
-        """Find the results there are now."""
         shipped = {one.path.resolve(): one for one in find_studies(asset_path("studies"))}
         own = [one for one in find_studies(self._root) if one.path.resolve() not in shipped]
         studies = {one.label(self._root): one for one in own}

@@ -10,8 +10,6 @@ from rotor.trim.solution import Solution
 
 
 class TopBar(Tab):
-    """One session's."""
-
     def __init__(self, context: TabContext) -> None:
         self._context, self._board = context, context.pinboard
         self._along = True
@@ -50,15 +48,12 @@ class TopBar(Tab):
         self.refresh()
 
     def show(self, state: SessionState) -> None:
-        """Follow a converged state."""
         self.refresh()
 
     def show_failure(self) -> None:
-        """A holds all the same."""
         self.refresh()
 
     def refresh(self) -> None:
-        """Send what the bar shows."""
         undo, redo = self._steps
         layout = self._context.layout
         self._context.bridge.set(

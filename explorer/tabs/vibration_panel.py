@@ -41,8 +41,6 @@ _NO_FAN = '<div class="rx rx-dim rx-small">{}</div>'
 
 
 class VibrationPanel:
-    """One session's."""
-
     def __init__(self, context: TabContext, scene: SceneController, strip: ChartStrip) -> None:
         """Its widgets, the fan plot, go where the context stands."""
         self._context, self._scene, self._strip = context, scene, strip
@@ -57,7 +55,6 @@ class VibrationPanel:
         self._content = ""
 
     def show(self, state: SessionState) -> None:
-        """Follow a converged state."""
         self._state = state
         on = state.solution.design.models.bending
         self._say_at_switch(state)
@@ -75,7 +72,6 @@ class VibrationPanel:
         self._show_fan()
 
     def turn(self, state: SessionState) -> None:
-        """The reference blade is elsewhere."""
         self._state = state
         self._draw_lines()
 

@@ -23,8 +23,6 @@ from rotor.trim.solution import Solution
 
 
 class SettingsPanel(Tab):
-    """One session's."""
-
     def __init__(self, context: TabContext) -> None:
         self._context, gui, bind = context, context.gui, context.keyboard.bind
         view = context.view()
@@ -69,8 +67,6 @@ _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": 
 
 
 class SceneViews:
-    """One session's."""
-
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
         self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"

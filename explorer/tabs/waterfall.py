@@ -178,8 +178,6 @@ _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 
 
 class WaterfallPanel(Tab):
-    """One session's."""
-
     def __init__(self, context: TabContext) -> None:
         self._controls, gui = context.controls, context.gui
         gui.add_html(_WORDS)
@@ -210,7 +208,6 @@ class WaterfallPanel(Tab):
                 self._draw()
 
     def show_failure(self) -> None:
-        """The inputs have no answer."""
         self._design = None
         self._fade()
 

@@ -24,7 +24,6 @@ class Term:
 
     @property
     def text(self) -> str:
-        """Sentence and source."""
         if self.equations:
             name = "Eq." if len(self.equations) == 1 else "Eqs."
             return f"{self.sentence} {name} {', '.join(f'({number})' for number in self.equations)}."

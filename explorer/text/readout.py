@@ -223,7 +223,6 @@ def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...]
 
 
 def dash(colour: str, dashed: bool = False) -> str:
-    """The sample of a line."""
     if dashed:
         return f'<span class="rx-dash rx-dashed" style="color:{colour}"></span>'
     return f'<span class="rx-dash" style="background:{colour}"></span>'

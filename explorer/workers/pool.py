@@ -181,7 +181,6 @@ class Pool:
             job.tell(JobEnded(None, stopped=True))
 
     def close(self) -> None:
-        """End all processes."""
         with self._change:
             self.closed = True
             workers, waiting, self._waiting = list(self._workers), self._waiting, []

@@ -294,7 +294,6 @@ class HubLoadTerms:
         return np.zeros(0) if bending is None else bending.along[which] @ (bending.strips * (bending.r if arm else 1.0))
 
     def _vertical(self, row: int, wave: int, times: int, factor: float, atom: int = ONE) -> None:
-        """f_z"""
         self._measured(row, (wave, times), FZ, "one", factor, atom)
         self._moving(row, (wave, times), self._static(0), "inertia", factor, atom)
 

@@ -70,8 +70,6 @@ class Freedom(Protocol):
 
 
 class Torsion:
-    """The elastic twist."""
-
     def __init__(self, modes: int, functions: int, *, bends: bool = False) -> None:
         """bends: whether bending adds the moments of the swept tip's mass."""
         self.modes, self.functions, self._bends = modes, functions, bends

@@ -29,7 +29,6 @@ from rotor.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(
         commands, "actuator", "attainable twist, limits and net saving of an actuator between two flight conditions"
     )
@@ -195,7 +194,6 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
 
 
 def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
-    """The same as text."""
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)

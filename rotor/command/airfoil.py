@@ -11,7 +11,6 @@ from rotor.command.common import add_command
 
 
 def add_parser(subparsers: Any) -> None:
-    """Register the command."""
     parser = add_command(subparsers, "airfoil", "shows section data")
     parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
     parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))

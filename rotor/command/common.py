@@ -241,7 +241,6 @@ def short_spec(spec: str) -> str:
 
 
 def concept_help() -> str:
-    """All names."""
     return " | ".join(CONCEPTS)
 
 

@@ -39,7 +39,6 @@ from rotor.trim.solution import Solution
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(commands, "optimise", "twist of least power or vibration, width of the optimum, saving")
     parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
@@ -208,7 +207,6 @@ def digits_of_band(width: float) -> int:
 
 
 def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bool) -> str:
-    """The same as text."""
     best = optimum.best
     lines = [wrapped(f"{concept.title}: {optimum.status.value}. {optimum.message}")]
     if best is None:

@@ -31,7 +31,6 @@ from rotor.user_input import make_folder, parse_range
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(commands, "reproduce", "rebuilds every figure and table of the thesis that can be rebuilt")
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and index.html; made when missing")
     parser.add_argument(
@@ -133,7 +132,6 @@ def _processes(args: argparse.Namespace) -> int:
 
 
 def ladder_text(found: Ladder) -> str:
-    """The ladder as printed."""
     fast = f"µ {found.speeds[-1]:g}"
     heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in found.speeds]
     wide = 46

@@ -35,7 +35,6 @@ COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "sa
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(commands, "schedule", "optimum twist per condition, best fixed blade, gain of in-flight twist")
     parser.add_argument(
         "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {concept_help()}"
@@ -172,7 +171,6 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
 
 
 def report(schedule: Schedule) -> str:
-    """The same as tables."""
     lines: list[str] = []
     before: object = ...
     for cell in schedule.cells:

@@ -17,7 +17,6 @@ from rotor.units import KNOT
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(commands, "solve", "trims one design: power, controls and caveats")
     add_design_arguments(parser, speed=True)
     parser.add_argument(
@@ -72,7 +71,6 @@ def _load(design: Design) -> str:
 
 
 def report(solution: Solution) -> str:
-    """The same as text."""
     design, controls = solution.design, solution.controls
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [

@@ -55,7 +55,6 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
 
 
 def report(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> str:
-    """The same as text."""
     shown = record(results, least, uncertain)
     least = shown["least"]
     assert least is not None
@@ -166,7 +165,6 @@ _RUN = 8
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(
         commands,
         "study",

@@ -145,7 +145,6 @@ def front_row(one: FrontPoint, start: FrontPoint) -> dict[str, float | str | Non
 
 
 def front_record(design: Design, found: VibrationFront, rows: list[dict[str, float | str | None]]) -> dict[str, Any]:
-    """The JSON."""
     return {
         "status": "converged",
         "message": found.message,
@@ -159,7 +158,6 @@ def front_record(design: Design, found: VibrationFront, rows: list[dict[str, flo
 
 
 def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> str:
-    """The same as text."""
     lines = [
         found.message,
         f"{'power':>12}{'change':>10}{'index':>10}{'over wakes':>14}{'change':>9}{'over wakes':>16}   twist",

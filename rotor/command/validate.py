@@ -24,7 +24,6 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 
 
 def add_parser(commands: Any) -> None:
-    """Register the command."""
     parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")

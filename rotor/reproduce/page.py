@@ -141,7 +141,6 @@ COLOURS = {
 
 
 def escape(text: str) -> str:
-    """Text for the page."""
     return escape_html(typographic(text))
 
 

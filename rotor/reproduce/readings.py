@@ -69,7 +69,6 @@ def reading_design(section: str, rate: float, mu: float) -> Design:
 
 @CachedFunction
 def judge(section: str, unit: str) -> Judgement:
-    """The five statements of one reading."""
     root = make_design(preset="thesis").rotor.blade.root_cutout
     per_unit = 1.0 if unit == UNITS[0] else 1.0 / (1.0 - root)
 
@@ -114,7 +113,6 @@ def needed(name: str) -> list[tuple[CachedFunction[[str, str], Judgement], tuple
 
 
 def described(section: str) -> str:
-    """A reading in words."""
     if not section.startswith(THESIS_NAME):
         return "table over Mach number"
     reading = parse_reading(section)

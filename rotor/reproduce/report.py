@@ -50,8 +50,6 @@ class Agreement(Enum):
 
 @dataclass(frozen=True)
 class Curve:
-    """One line of a picture."""
-
     label: str
     x: tuple[float, ...]
     y: tuple[float, ...]
@@ -64,8 +62,6 @@ class Curve:
 
 @dataclass(frozen=True)
 class PlotPanel:
-    """One pair of axes."""
-
     x_label: str
     y_label: str
     curves: tuple[Curve, ...]
@@ -205,7 +201,6 @@ def by_name(values: Mapping[str, float], form: str = "{:.1f} %") -> str:
 
 
 def judged(agrees: bool) -> Agreement:
-    """Agrees or differs."""
     return Agreement.AGREES if agrees else Agreement.DIFFERS
 
 

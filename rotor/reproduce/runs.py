@@ -146,8 +146,6 @@ QUICK = Scope((0.0, 0.15, 0.30), 2)
 
 @dataclass(frozen=True)
 class ConceptOptimum:
-    """One optimum."""
-
     mu: float
     converged: bool
     message: str

@@ -44,8 +44,6 @@ FIELD = "Take point"
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """What is known of a map."""
-
     task: MapTask
     powers: Array
     """[W], (rows along y, columns along x); NaN where a design does not trim."""
@@ -216,7 +214,6 @@ def colour_bar() -> str:
 
 
 def title(drawn: Map) -> str:
-    """Titles of the axes."""
     x, y = drawn.parameters
     return (
         f'<div class="rx rx-line rx-small rx-map-title"><span>↑ {escape(y.title)} [{y.shown_unit}]</span>'
@@ -233,8 +230,6 @@ _NEAR = 1e-3
 
 
 class MapPanel:
-    """One session's map."""
-
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
         self._context, self.search, gui = context, search, context.gui
@@ -280,7 +275,6 @@ class MapPanel:
         self._context.wake()
 
     def stop(self) -> None:
-        """The browser has left."""
         if self._job is not None:
             self._context.pool.stop(self._job, quiet=True)
 

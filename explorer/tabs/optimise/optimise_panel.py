@@ -85,7 +85,6 @@ class OptimisePanel:
             by_hand(widget, lambda _: context.wake())
 
     def request(self) -> SearchRequest:
-        """What the widgets ask for."""
         number = {name: float(handle.value) for name, handle in self._numbers.items()}
         return SearchRequest(
             concept=next(name for name, title in self._titles.items() if title == self._concept.value),
@@ -158,7 +157,6 @@ class OptimisePanel:
             self.begin()
 
     def stop(self) -> None:
-        """The browser has left."""
         if self._job is not None:
             self._context.pool.stop(self._job, quiet=True)
 

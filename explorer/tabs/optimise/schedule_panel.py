@@ -29,8 +29,6 @@ _URGENCY = 1
 
 
 class SchedulePanel:
-    """One session's schedule."""
-
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
         self._context, self._request, gui = context, search.request, context.gui
@@ -163,7 +161,6 @@ class SchedulePanel:
         return {"text": text[:1].upper() + text[1:], "actions": [("land", "Stop")]}
 
     def _fly_on(self, seconds: float) -> None:
-        """A step of the clock."""
         flight = self._flight
         if flight is None:
             return
@@ -174,7 +171,6 @@ class SchedulePanel:
             self._context.wake()
 
     def stop(self) -> None:
-        """The browser has left."""
         self._player.pause()
         if self._job is not None:
             self._context.pool.stop(self._job, quiet=True)

@@ -57,8 +57,6 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 @dataclass(frozen=True)
 class SearchRequest:
-    """The Optimise tab's widgets."""
-
     concept: str = "two-segment-free"
     objective: str = "total"
     hover_share: float = 50.0
@@ -233,13 +231,11 @@ class SearchRun:
         return 0.85 * (progress.start + done / (done + 15.0)) / progress.starts
 
     def stopping(self) -> None:
-        """Somebody pressed Stop."""
         with self._lock:
             if self.under_way:
                 self.state = "stopping"
 
     def on_event(self, news: JobEvent) -> None:
-        """Take in what the pool tells."""
         with self._lock:
             match news:
                 case JobQueued(ahead):
@@ -360,7 +356,6 @@ class Playback:
     since: float = 0.0
 
     def frame(self, frames: list[SearchFrame]) -> SearchFrame | None:
-        """The frame to show now."""
         if not frames:
             return None
         last = len(frames) - 1

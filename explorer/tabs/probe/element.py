@@ -15,8 +15,6 @@ from rotor.trim.solution import DiskFields, Solution
 
 
 class FlowRegion(Enum):
-    """What the section's flow is like."""
-
     ATTACHED = "attached"
     STALLED = "stalled"
     REVERSE = "reverse flow"

@@ -135,8 +135,6 @@ _STEPS = {"out": (_R_STEP, 0.0), "in": (-_R_STEP, 0.0), "on": (0.0, _PSI_STEP), 
 
 @dataclass(frozen=True)
 class _ProbePoint:
-    """What the widgets say."""
-
     r: float
     psi_deg: float
     shown: bool
@@ -222,7 +220,6 @@ class ProbePanel(Tab):
         self._cursor.hide()
 
     def stop(self) -> None:
-        """The browser has left."""
         self._player.pause()
 
     def set_seen(self, seen: bool) -> None:
@@ -234,7 +231,6 @@ class ProbePanel(Tab):
         self._set(r, float(round(psi_deg) % 360))
 
     def toggle(self) -> None:
-        """Play, or pause."""
         if self._player.playing or self._context.state() is None:
             self._pause()
             return
@@ -254,7 +250,6 @@ class ProbePanel(Tab):
         self._scene.play(playing)
 
     def _walk(self, seconds: float) -> None:
-        """A step of the clock."""
         with self._hand:
             if self._player.playing:
                 self._walk_on(seconds)
