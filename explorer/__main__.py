@@ -7,8 +7,7 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.hosting.allowed_hosts import host_name
-from explorer.hosting.limits import SESSIONS
+from explorer.hosting.limits import SESSIONS, host_name
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command
@@ -48,8 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.hosting.allowed_hosts import is_loopback, warning
-    from explorer.hosting.limits import ServerLimits, few_pools, limit_log
+    from explorer.hosting.limits import ServerLimits, few_pools, is_loopback, limit_log, warning
     from explorer.model.inputs import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.compiled import tell_in_a_log

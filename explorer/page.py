@@ -43,10 +43,9 @@ from explorer.tabs.probe.probe_panel import ProbePanel
 from explorer.tabs.results import ResultsPanel, beside_labels
 from explorer.tabs.sensitivity_panel import SensitivityPanel
 from explorer.tabs.studies_panel import StudiesPanel
-from explorer.tabs.top_bar import TopBar
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
-from explorer.tabs.views import SceneViews, SettingsPanel
+from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
 from rotor.design.design import Design
 from rotor.trim.solution import Solution

@@ -1,5 +1,9 @@
-"""What the parts of one page share, and what each of them does when the session calls it."""
+"""What the parts of one page share, what each does when the session calls it, and a clock for those that play."""
 
+import logging
+import threading
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +22,11 @@ from explorer.tabs.keys import Keyboard
 from explorer.tabs.layout import Layout
 from explorer.workers.pool import Pool
 from rotor.user_input import brief
+
+_log = logging.getLogger(__name__)
+
+BEAT = 0.05
+"""Time between steps [s]: a browser is asked to draw at most 20 times a second."""
 
 
 @dataclass(frozen=True)
@@ -93,3 +102,44 @@ class TabContext:
 
     def notify(self, title: str, sentence: str) -> None:
         self.client.add_notification(title, brief(sentence), auto_close_seconds=6)
+
+
+class Player:
+    """Play and pause; safe from any thread."""
+
+    def __init__(self, step: Callable[[float], None], name: str) -> None:
+        """`step` is called with the time [s] since its last call, or since play was pressed."""
+        self._step = step
+        self._name = name
+        self._lock = threading.Lock()
+        self._pause: threading.Event | None = None
+        """Of the thread that plays now; None when none does."""
+
+    @property
+    def playing(self) -> bool:
+        return self._pause is not None
+
+    def play(self) -> None:
+        """Start, unless it plays already."""
+        with self._lock:
+            if self._pause is None:
+                pause = self._pause = threading.Event()
+                threading.Thread(target=self._run, args=(pause,), name=self._name, daemon=True).start()
+
+    def pause(self) -> None:
+        """No step begins after this."""
+        with self._lock:
+            if self._pause is not None:
+                self._pause.set()
+                self._pause = None
+
+    def _run(self, pause: threading.Event) -> None:
+        before = time.monotonic()
+        while not pause.wait(BEAT):
+            now = time.monotonic()
+            try:
+                self._step(now - before)
+            except Exception:  # The browser may have gone.
+                _log.exception("play ended")
+                self.pause()
+            before = now

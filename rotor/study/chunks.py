@@ -21,8 +21,7 @@ from typing import Any
 from rotor.assets import package_version
 from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate
-from rotor.study.quantities import QUANTITIES, Value
-from rotor.study.study import Column, Study, columns_of
+from rotor.study.study import QUANTITIES, Column, Study, Value, columns_of
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 

@@ -30,8 +30,7 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
-from rotor.study.quantities import PLAIN, Value, concept_with_breaks
-from rotor.study.study import FREQUENCIES, OptimumSettings, Study
+from rotor.study.study import FREQUENCIES, PLAIN, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution

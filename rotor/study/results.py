@@ -29,8 +29,7 @@ from rotor.design.design import Design
 from rotor.design.retired import Tell, warn
 from rotor.study.chunks import CONVERGED, StudyProvenance, describe
 from rotor.study.point import design_of
-from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_with_breaks
-from rotor.study.study import Study
+from rotor.study.study import PLAIN, QUANTITIES, Study, Value, concept_with_breaks
 from rotor.study.study_file import StudyFile
 from rotor.user_input import brief, is_file, make_folder, read_bytes, refusing, shorten
 

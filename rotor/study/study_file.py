@@ -20,14 +20,15 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point
-from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import (
+    QUANTITIES,
     Axis,
     OptimumSettings,
     Sample,
     ShowSettings,
     Study,
     StudyPoints,
+    Value,
     check_uncertain,
     columns_of,
     default_chunk,

@@ -17,7 +17,7 @@ from explorer.picture.picture import LINE_LIFT
 from explorer.picture.poses import about, drawn_bending, flown_twist
 from explorer.scene.controller import SceneController
 from explorer.scene.page_scene import tie
-from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.context import Player, Tab, TabContext
 from explorer.tabs.keys import COARSE
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.element import Probe, probe
@@ -26,7 +26,6 @@ from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, 
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
 from explorer.theme import colours
-from explorer.workers.player import Player
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution

@@ -2,7 +2,7 @@
 
 import pytest
 
-from explorer.hosting.allowed_hosts import AllowedHosts, host_name, is_loopback, warning
+from explorer.hosting.limits import AllowedHosts, host_name, is_loopback, warning
 
 
 class TestAllowedHosts:

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from explorer.workers.player import BEAT, Player
+from explorer.tabs.context import BEAT, Player
 
 
 def playing(name: str) -> int:
