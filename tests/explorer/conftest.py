@@ -1,4 +1,4 @@
-"""A server without a page, and the sliders of the Explore mode on it."""
+"""A server without a page, the sliders of the Explore mode on it, and the UH-60A as built at three speeds."""
 
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
@@ -10,6 +10,24 @@ import viser
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PowerTracker
 from explorer.tabs.controls import DesignControls, SessionCallbacks
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+@pytest.fixture(scope="session")
+def hover() -> Solution:
+    return solve(make_design(mu=0.0)).require()
+
+
+@pytest.fixture(scope="session")
+def cruise() -> Solution:
+    return solve(make_design(mu=0.2)).require()
+
+
+@pytest.fixture(scope="session")
+def fast() -> Solution:
+    return solve(make_design(mu=0.3)).require()
 
 
 def nothing(*_: Any) -> None:

@@ -11,21 +11,14 @@ from explorer.picture.disk_image import levels_of
 from explorer.picture.png import encode_png
 from explorer.picture.polar import Sums, angles_of_attack, polar_grid
 from explorer.picture.regions import mark_line
-from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
-@pytest.fixture(scope="module")
-def solution() -> Solution:
-    return solve(make_design(mu=0.3)).require()
-
-
-def test_sums_of_neighbours_are_products_of_matrices(solution: Solution):
-    grid = polar_grid(solution.disk, 50, 170)
-    expected = grid.along @ solution.disk.theta @ grid.around
-    assert np.abs(grid.refine(solution.disk.theta) - expected).max() < 1e-14
-    assert np.abs(grid.refine_all([solution.disk.u_t, solution.disk.theta])[1] - expected).max() < 1e-6
+def test_sums_of_neighbours_are_products_of_matrices(fast: Solution):
+    grid = polar_grid(fast.disk, 50, 170)
+    expected = grid.along @ fast.disk.theta @ grid.around
+    assert np.abs(grid.refine(fast.disk.theta) - expected).max() < 1e-14
+    assert np.abs(grid.refine_all([fast.disk.u_t, fast.disk.theta])[1] - expected).max() < 1e-6
 
 
 def test_sums_of_full_matrices_and_of_rows_with_one_term():

@@ -35,11 +35,6 @@ def fast() -> Solution:
     return solve(replace(make_design(mu=0.4, mass_kg=9300.0), twist=twist)).require()
 
 
-@pytest.fixture(scope="module")
-def hover() -> Solution:
-    return solve(make_design(mu=0.0)).require()
-
-
 def with_inflow(inflow: str, mu: float) -> Solution:
     """The UH-60A as built."""
     return solve(make_design(mu=mu, inflow=inflow)).require()

@@ -31,16 +31,6 @@ VIEW = ViewState()
 
 
 @pytest.fixture(scope="module")
-def fast() -> Solution:
-    return solve(make_design(mu=0.3)).require()
-
-
-@pytest.fixture(scope="module")
-def hover() -> Solution:
-    return solve(make_design(hover=True)).require()
-
-
-@pytest.fixture(scope="module")
 def rigid() -> Solution:
     design = make_design(mu=0.3)
     return solve(replace(design, models=replace(design.models, elastic_twist=False))).require()

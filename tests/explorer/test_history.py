@@ -1,13 +1,26 @@
-"""Undo and redo, and designs in the page's address."""
+"""Undo and redo, the change since a grab, and designs and views in the address of the page."""
 
 import gc
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from explorer.model.inputs import Inputs
-from explorer.model.undo import PAUSE, STEPS, History, Pauses
-from explorer.sharing.share import LONGEST, StoredHistory, code_of, design_from, inputs_from, read_history
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.undo import PAUSE, STEPS, History, Pauses, PowerTracker
+from explorer.model.units import UNITS
+from explorer.picture.fields import FIELDS
+from explorer.sharing.share import (
+    LONGEST,
+    StoredHistory,
+    code_of,
+    design_from,
+    inputs_from,
+    read_history,
+    view_code,
+    view_from,
+)
 from rotor.design.aircraft import RotorFiles
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
@@ -16,6 +29,22 @@ START = Inputs()
 
 
 LONG = 5.0
+VIEWS = st.builds(
+    ViewState,
+    field=st.sampled_from(tuple(FIELDS)),
+    exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
+    difference=st.booleans(),
+    reverse_flow=st.booleans(),
+    stall=st.booleans(),
+    drag_divergence=st.booleans(),
+    units=st.sampled_from(tuple(UNITS)),
+    wake=st.booleans(),
+    arrows=st.booleans(),
+    beside=st.booleans(),
+)
+FIRST = Inputs(law="linear", linear=-8.0)
+DRAG = 0.05
+"""[s] between two movements of a drag."""
 
 
 def drag(history: History, name: str, values: list[float], pause: float) -> None:
@@ -219,3 +248,96 @@ def test_a_week_of_edits_in_one_session_keeps_a_hundred_steps():
     assert kept[1] < kept[0] + 100
     assert len(history.past) == STEPS
     assert history.undo() is not None
+
+
+@settings(max_examples=25)
+@given(VIEWS)
+def test_a_view_comes_back_from_the_address(view: ViewState):
+    code = view_code(view)
+    assert (ViewState() if code is None else view_from(code)) == view
+    assert code is None or (code.isascii() and len(code) < 160)
+
+
+def test_only_what_differs_is_written():
+    assert view_code(ViewState()) is None
+    assert view_code(replace(ViewState(), azimuth_deg=200.0, dark=True)) is None
+    assert view_code(replace(ViewState(), field="M²cn", stall=False)) == "1;field=m2cn;stall=off"
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("", "version 1"),
+        ("2;field=mach", "version 1"),
+        ("1;colour=red", "'colour=red'"),
+        ("1;dark=on", "'dark=on'"),
+        ("1;field=" + "x" * 90, "choose angle, induced"),
+        ("1;stall=1", "choose on, off"),
+        ("1;exaggeration=nan", "from 1 to 6"),
+        ("1;exaggeration=50", "from 1 to 6"),
+    ],
+)
+def test_a_bad_view_is_one_sentence(code: str, said: str):
+    with pytest.raises(ValueError, match=r"^The view in the address") as raised:
+        view_from(code)
+    assert said in str(raised.value)
+    assert len(str(raised.value)) < 240
+
+
+def at(rate: float, **others: float) -> Inputs:
+    return replace(FIRST, linear=rate, **others)
+
+
+R22 = {"rotor": "r22", "mass_t": 0.6}
+BEGUN = ((FIRST, 850e3, 0.0, None), (at(-9.0), 847e3, 60.0, -3e3))
+"""A page that has opened at 850 kW, and a first movement."""
+COURSES = {
+    "the first solution is what counting begins from": ((FIRST, 850e3, 0.0, None),),
+    "a drag counts from the power before it": (
+        (FIRST, 850e3, 0.0, None), (at(-8.5), 849e3, 60.0, -1e3), (at(-9.0), 847e3, DRAG, -3e3),
+    ),
+    "the same inputs keep the count": (*BEGUN, (at(-9.0), 847e3, 0.0, -3e3)),
+    "after a pause the next movement counts anew": (*BEGUN, (at(-10.0), 845e3, PAUSE, -2e3)),
+    "another slider counts anew without a pause": (*BEGUN, (at(-9.0, mass_t=9.0), 950e3, DRAG, 103e3)),
+    "while the pointer is down neither a pause nor a second input ends the grab": (
+        BEGUN[0], "grab", BEGUN[1], (at(-9.5, two_division=0.6), 846e3, 10.0, -4e3), "release",
+        (at(-10.0, two_division=0.6), 845e3, 10.0, -1e3),
+    ),
+    "a second grab counts from where the slider stands": (*BEGUN, "grab", (at(-9.5), 846e3, DRAG, -1e3)),
+    "a step without trim has no change and does not spoil the next": (
+        *BEGUN, (at(-30.0), None, DRAG, None), (at(-9.5), 846e3, DRAG, -4e3),
+    ),
+    "a reset drops what was kept": (*BEGUN, "reset", (at(-12.0), 840e3, 0.0, None)),
+    "another rotor is no change of power": (
+        *BEGUN, (replace(at(-9.0), **R22), 74e3, 60.0, None), (replace(at(-9.5), **R22), 73e3, 60.0, -1e3),
+    ),
+    # Reset, then a handle taken at once: the change is counted, not lost for as long as it is held.
+    "a grab before the new design has a power counts from its first": (
+        BEGUN[0], "reset", "grab", (FIRST, 850e3, 0.0, 0.0), (at(-9.0), 847e3, DRAG, -3e3), "release",
+    ),
+    # A lecture sets another design while the answer to the last drag is still on its way.
+    "what no hand has moved does not count": (
+        *BEGUN, "reset", (at(-9.5), 846e3, DRAG, None), (at(-16.0, mass_t=10.0), 1349e3, 60.0, None), "touch",
+        (at(-16.5, mass_t=10.0), 1347e3, DRAG, -2e3),
+    ),
+    # The release comes at once, the answers to the last movements of the drag later.
+    "a slider let go before its last answers counts from the press": (
+        (FIRST, 1047e3, 0.0, None), "grab", (at(-9.0), 1000e3, 60.0, -47e3), (at(-10.0), 901e3, 3.0, -146e3), "release",
+        (at(-10.5), 915e3, DRAG, -132e3), (at(-10.6), 929e3, DRAG, -118e3),
+    ),
+}  # fmt: skip
+"""Calls of the tracker, and solutions: inputs, power [W], pause [s] and the change that is expected [W]."""
+
+
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_change(course: tuple[str | tuple[Inputs, float | None, float, float | None], ...]):
+    tracker, expected = PowerTracker(), None
+    for step in course:
+        if isinstance(step, str):
+            getattr(tracker, step)()
+            expected = None if step == "reset" else expected
+        else:
+            inputs, power, pause, expected = step
+            assert tracker.solved(inputs, power, pause) == expected
+    if course[-1] == "release":
+        assert tracker.change == expected

@@ -23,16 +23,6 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 
-@pytest.fixture(scope="module")
-def forward() -> Solution:
-    return solve(make_design(mu=0.3)).require()
-
-
-@pytest.fixture(scope="module")
-def hover() -> Solution:
-    return solve(make_design(mu=0.0)).require()
-
-
 def grid_of(solution: Solution) -> PolarGrid:
     return polar_grid(solution.disk, *disk_image.grid_size(disk_image.SIZE))
 
@@ -50,46 +40,46 @@ def at(image: np.ndarray, r: float, psi_deg: float) -> np.ndarray:
 
 
 class TestRefinement:
-    def test_reproduces_a_harmonic_and_is_periodic(self, forward: Solution):
-        disk, grid = forward.disk, grid_of(forward)
+    def test_reproduces_a_harmonic_and_is_periodic(self, fast: Solution):
+        disk, grid = fast.disk, grid_of(fast)
         fine = grid.refine(disk.r[:, None] * np.cos(disk.psi)[None, :])
         assert_allclose(fine, grid.r[:, None] * np.cos(grid.psi)[None, :], atol=3e-4)  # Catmull–Rom on 3° steps.
 
-    def test_rows_are_affine_combinations(self, forward: Solution):
-        grid = grid_of(forward)
+    def test_rows_are_affine_combinations(self, fast: Solution):
+        grid = grid_of(fast)
         assert_allclose(grid.along.sum(axis=1), 1.0, rtol=1e-12)
         assert_allclose(grid.around.sum(axis=0), 1.0, rtol=1e-12)
 
-    def test_spans_cut_out_to_tip(self, forward: Solution):
-        grid = grid_of(forward)
-        assert_allclose(grid.r[[0, -1]], [forward.design.rotor.blade.root_cutout, 1.0], rtol=1e-12)
+    def test_spans_cut_out_to_tip(self, fast: Solution):
+        grid = grid_of(fast)
+        assert_allclose(grid.r[[0, -1]], [fast.design.rotor.blade.root_cutout, 1.0], rtol=1e-12)
 
 
 class TestDiskPicture:
-    def test_advancing_side_is_at_the_right_and_nose_up(self, forward: Solution):
+    def test_advancing_side_is_at_the_right_and_nose_up(self, fast: Solution):
         """Mach is largest at ψ = 90° and smallest at 270°."""
         field = FIELDS["Mach number"]
-        image = opened(disk_png(forward, field, (field.low, field.high))).astype(int)
+        image = opened(disk_png(fast, field, (field.low, field.high))).astype(int)
         luminance = image[..., :3] @ [0.2126, 0.7152, 0.0722]
         right, left, top, bottom = (at(luminance[..., None], 0.8, psi)[0] for psi in (90, 270, 180, 0))
         assert right > top > left
         assert abs(top - bottom) < 6.0
 
-    def test_nose_is_up(self, forward: Solution):
+    def test_nose_is_up(self, fast: Solution):
         """Pitt–Peters puts the stronger inflow aft, ψ = 0, at the bottom."""
         field = FIELDS["Induced inflow λi"]
-        image = opened(disk_png(forward, field, (field.low, field.high))).astype(int)
+        image = opened(disk_png(fast, field, (field.low, field.high))).astype(int)
         redness = image[..., 0] - image[..., 2]
         assert at(redness[..., None], 0.9, 0)[0] > at(redness[..., None], 0.9, 180)[0] + 20
 
-    def test_cut_out_and_corners_are_clear_and_the_disk_is_not(self, forward: Solution):
-        image = opened(disk_png(forward, FIELDS["Mach number"], (0.0, 0.9)))
+    def test_cut_out_and_corners_are_clear_and_the_disk_is_not(self, fast: Solution):
+        image = opened(disk_png(fast, FIELDS["Mach number"], (0.0, 0.9)))
         assert image[0, 0, 3] == 0
         assert at(image, 0.0, 0.0)[3] == 0
         assert all(at(image, r, psi)[3] == 255 for r in (0.16, 0.5, 0.98) for psi in range(0, 360, 15))
 
-    def test_edges_are_softened(self, forward: Solution):
-        alpha = opened(disk_png(forward, FIELDS["Mach number"], (0.0, 0.9)))[..., 3]
+    def test_edges_are_softened(self, fast: Solution):
+        alpha = opened(disk_png(fast, FIELDS["Mach number"], (0.0, 0.9)))[..., 3]
         assert 800 < np.count_nonzero((alpha > 0) & (alpha < 255)) < 4000
 
     def test_no_wedge_where_the_turn_closes(self, hover: Solution):
@@ -99,22 +89,22 @@ class TestDiskPicture:
         ring = np.array([at(image, 0.7, psi) for psi in np.arange(-8.0, 8.0, 0.25)])
         assert np.ptp(ring, axis=0).max() <= 4
 
-    def test_reverse_flow_is_blanked_for_the_angle_of_attack(self, forward: Solution):
+    def test_reverse_flow_is_blanked_for_the_angle_of_attack(self, fast: Solution):
         field = FIELDS["Angle of attack"]
-        image = opened(disk_png(forward, field, (field.low, field.high)))
+        image = opened(disk_png(fast, field, (field.low, field.high)))
         assert tuple(at(image, 0.2, 270)[:3]) == VOID
         assert tuple(at(image, 0.4, 270)[:3]) != VOID
 
-    def test_a_lost_answer_is_grey_and_translucent(self, forward: Solution):
+    def test_a_lost_answer_is_grey_and_translucent(self, fast: Solution):
         field = FIELDS["Angle of attack"]
-        image = opened(disk_png(forward, field, (field.low, field.high), faded=True)).astype(int)
+        image = opened(disk_png(fast, field, (field.low, field.high), faded=True)).astype(int)
         pixel = at(image, 0.6, 40)
         assert np.ptp(pixel[:3]) <= 6
         assert 100 < pixel[3] < 200
 
-    def test_the_png_of_any_field_is_small(self, forward: Solution):
+    def test_the_png_of_any_field_is_small(self, fast: Solution):
         for field in FIELDS.values():
-            assert len(disk_png(forward, field, (field.low, field.high))) < 120_000
+            assert len(disk_png(fast, field, (field.low, field.high))) < 120_000
 
 
 class TestFields:
@@ -137,31 +127,31 @@ class TestFields:
         lift = 4.0 * np.trapezoid(per_blade, grid.r) * hover.design.rotor.radius
         assert_allclose(lift, 1.035 * hover.design.condition.weight, rtol=0.02)
 
-    def test_power_per_blade_sums_to_the_shaft_power(self, forward: Solution):
-        grid = grid_of(forward)
-        per_blade = 1e3 * FIELDS["Power dP/dr"].sample(forward, grid).mean(axis=1)  # [W/m]
-        power = 4.0 * np.trapezoid(per_blade, grid.r) * forward.design.rotor.radius
-        assert_allclose(power, forward.power.shaft, rtol=0.02)
+    def test_power_per_blade_sums_to_the_shaft_power(self, fast: Solution):
+        grid = grid_of(fast)
+        per_blade = 1e3 * FIELDS["Power dP/dr"].sample(fast, grid).mean(axis=1)  # [W/m]
+        power = 4.0 * np.trapezoid(per_blade, grid.r) * fast.design.rotor.radius
+        assert_allclose(power, fast.power.shaft, rtol=0.02)
 
-    def test_circulation_is_that_of_the_panels(self, forward: Solution):
+    def test_circulation_is_that_of_the_panels(self, fast: Solution):
         """Where nothing is stalled the field is the circulation that the lifting line was solved for."""
-        assert forward.linear is not None
-        point, terms = forward.linear.point, forward.linear.problem.inflow_terms
+        assert fast.linear is not None
+        point, terms = fast.linear.point, fast.linear.problem.inflow_terms
         assert isinstance(terms, LiftingLineTerms)
-        rotor, grid, line = forward.design.rotor, grid_of(forward), terms.line
+        rotor, grid, line = fast.design.rotor, grid_of(fast), terms.line
         solved = point.x[point.system.structure.given :].reshape(line.panels, line.azimuths)
         solved = solved * math.pi / rotor.blades * rotor.tip_speed * rotor.radius  # [m²/s]
-        shown = FIELDS["Circulation"].sample(forward, grid)
+        shown = FIELDS["Circulation"].sample(fast, grid)
         around = np.array([np.interp(line.r, grid.r, column) for column in shown.T]).T.mean(axis=1)
         outer = line.r > 0.6
         assert_allclose(around[outer], solved.mean(axis=1)[outer], rtol=0.03)
 
-    def test_angle_of_attack_runs_smoothly_up_to_the_reverse_flow_circle(self, forward: Solution):
+    def test_angle_of_attack_runs_smoothly_up_to_the_reverse_flow_circle(self, fast: Solution):
         """Outside the circle neighbouring values stay near each other: no ring of wrapped angles."""
-        grid = grid_of(forward)
-        alpha = FIELDS["Angle of attack"].sample(forward, grid)
-        column = round(grid_of(forward).psi.searchsorted(math.radians(300)))
-        outside = alpha[~reverse_flow(forward, grid)[:, column], column]
+        grid = grid_of(fast)
+        alpha = FIELDS["Angle of attack"].sample(fast, grid)
+        column = round(grid_of(fast).psi.searchsorted(math.radians(300)))
+        outside = alpha[~reverse_flow(fast, grid)[:, column], column]
         assert np.abs(np.diff(outside))[3:].max() < 25.0
 
     @pytest.mark.parametrize("preset", ["flight", "thesis"])
@@ -173,8 +163,8 @@ class TestFields:
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
 
-    def test_filling_takes_the_first_value_outside(self, forward: Solution):
-        disk = forward.disk
+    def test_filling_takes_the_first_value_outside(self, fast: Solution):
+        disk = fast.disk
         values = np.broadcast_to(disk.r[:, None], disk.u_t.shape)
         reverse = disk.u_t < 0.0
         column = int(reverse.sum(axis=0).argmax())
@@ -227,22 +217,22 @@ class TestPoses:
 
 
 class TestPicture:
-    def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, forward: Solution):
+    def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, fast: Solution):
         view = ViewState(azimuth_deg=30.0)
-        picture = make_picture(forward, view, (-4.0, 10.0))
+        picture = make_picture(fast, view, (-4.0, 10.0))
         azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
         assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
         assert picture.blades.azimuth == pytest.approx(math.radians(30.0))
 
-    def test_the_airframe_leans_by_the_shaft_tilt_less_the_shaft_in_the_airframe(self, forward: Solution):
+    def test_the_airframe_leans_by_the_shaft_tilt_less_the_shaft_in_the_airframe(self, fast: Solution):
         """The nose is at −x: it goes down by the shaft tilt, less the 3° that the shaft leans forward already."""
-        nose = rotate(make_picture(forward, ViewState(), (-4.0, 10.0)).airframe.wxyz, np.array([-1.0, 0.0, 0.0]))
+        nose = rotate(make_picture(fast, ViewState(), (-4.0, 10.0)).airframe.wxyz, np.array([-1.0, 0.0, 0.0]))
         down = math.degrees(math.asin(-nose[2]))
-        assert_allclose(down, math.degrees(forward.controls.shaft_tilt) - 3.0, atol=1e-9)
+        assert_allclose(down, math.degrees(fast.controls.shaft_tilt) - 3.0, atol=1e-9)
 
     @pytest.mark.parametrize("pixels", [disk_image.MOVING, disk_image.AT_REST])
-    def test_the_picture_has_the_size_asked_for(self, forward: Solution, pixels: int):
-        picture = make_picture(forward, ViewState(), (-4.0, 10.0), pixels=pixels)
+    def test_the_picture_has_the_size_asked_for(self, fast: Solution, pixels: int):
+        picture = make_picture(fast, ViewState(), (-4.0, 10.0), pixels=pixels)
         assert opened(picture.png).shape == (pixels, pixels, 4)
         assert picture.png_size == pixels
 

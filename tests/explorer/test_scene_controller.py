@@ -68,26 +68,21 @@ def page() -> Iterator[Page]:
 
 
 @pytest.fixture(scope="module")
-def built() -> Solution:
-    return solve(make_design(mu=0.3)).require()
-
-
-@pytest.fixture(scope="module")
 def changed() -> Solution:
     return solve(replace(make_design(mu=0.3), twist=LinearTwist(math.radians(-6.0)))).require()
 
 
 class TestCoarseAndFine:
-    def test_the_disk_is_small_while_it_moves_and_large_at_rest(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_the_disk_is_small_while_it_moves_and_large_at_rest(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
         small = len(page["/rotor/disk/field"]._data)
         page.controller.draw_finely()
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * AT_REST / (AT_REST - 2))
         assert len(page["/rotor/disk/field"]._data) > 2 * small
 
-    def test_settling_twice_draws_once(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_settling_twice_draws_once(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         page.controller.draw_finely()
         fine = page["/rotor/disk/field"]._data
         page["/rotor/disk/field"]._data = b""
@@ -95,8 +90,8 @@ class TestCoarseAndFine:
         assert page["/rotor/disk/field"]._data == b""
         assert fine
 
-    def test_only_the_reference_blade_bends_until_it_settles(self, page: Page, built: Solution, changed: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_only_the_reference_blade_bends_until_it_settles(self, page: Page, fast: Solution, changed: Solution):
+        page.controller.draw(fast, VIEW, None)
         before = page["/rotor/blade_2"].vertices.copy()
         page.controller.draw(changed, VIEW, None)
         assert np.array_equal(page["/rotor/blade_2"].vertices, before)
@@ -106,18 +101,18 @@ class TestCoarseAndFine:
         expected = blade_vertices(blade_shape(ROTOR), opposite, VIEW.exaggeration)
         np.testing.assert_allclose(page["/rotor/blade_2"].vertices, expected, atol=1e-5)
 
-    def test_a_turned_blade_leaves_the_disk_alone(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_a_turned_blade_leaves_the_disk_alone(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         page["/rotor/disk/field"]._data = b"as it was"
-        page.controller.draw(built, replace(VIEW, azimuth_deg=120.0), None)
+        page.controller.draw(fast, replace(VIEW, azimuth_deg=120.0), None)
         assert page["/rotor/disk/field"]._data == b"as it was"
         hub = page["/rotor/blade_0"].position
         assert math.degrees(math.atan2(hub[1], hub[0])) == pytest.approx(120.0)
 
 
 class TestLook:
-    def test_near_the_blade_airframe_and_words_make_room(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_near_the_blade_airframe_and_words_make_room(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         page.controller.look("blade")
         assert not page["/airframe"].visible
         assert not page["/rotor/disk/words"].visible
@@ -132,13 +127,13 @@ def rigid(solution: Solution) -> Solution:
 
 
 class TestGhost:
-    def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, built: Solution):
+    def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, fast: Solution):
         """By its edges alone: its surface would cut the flown one at small angles."""
-        page.controller.draw(built, VIEW, None)
+        page.controller.draw(fast, VIEW, None)
         page.controller.draw_finely()
         assert page["/rotor/blade_0/ghost"].visible
         assert not page["/rotor/blade_0/other"].visible
-        flown = flown_twist(built, math.radians(VIEW.azimuth_deg))
+        flown = flown_twist(fast, math.radians(VIEW.azimuth_deg))
         edges = ghost_segments(ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25))
         np.testing.assert_allclose(page["/rotor/blade_0/ghost"].points, edges, atol=1e-5)
 
@@ -149,8 +144,8 @@ class TestGhost:
         page.controller.draw(changed, replace(VIEW, azimuth_deg=270.0), None)
         assert np.abs(page["/rotor/blade_0/other"].vertices - before).max() > 0.01
 
-    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, built: Solution, changed: Solution):
-        page.controller.draw(rigid(built), VIEW, None)
+    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, fast: Solution, changed: Solution):
+        page.controller.draw(rigid(fast), VIEW, None)
         assert not page["/rotor/blade_0/other"].visible
         page.controller.draw(changed, VIEW, None)
         assert page["/rotor/blade_0/other"].visible
@@ -213,9 +208,9 @@ class TestRanges:
 
 
 class TestBeside:
-    def test_a_stands_beside_b_at_rest(self, page: Page, built: Solution, changed: Solution):
+    def test_a_stands_beside_b_at_rest(self, page: Page, fast: Solution, changed: Solution):
         view = replace(VIEW, beside=True)
-        page.controller.draw(changed, view, None, built)
+        page.controller.draw(changed, view, None, fast)
         page.controller.draw_finely()
         assert page["/compared"].visible
         assert not page["/airframe"].visible
@@ -233,13 +228,13 @@ class TestBeside:
 
 
 class TestPlay:
-    def test_the_page_turns_the_blades_and_the_scene_leaves_them(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_the_page_turns_the_blades_and_the_scene_leaves_them(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         page.controller.draw_finely()
         assert page["/rotor/vortices"].visible
         before = page["/rotor/blade_0"].wxyz.copy()
         page.controller.play(True)
-        page.controller.draw(built, replace(VIEW, azimuth_deg=90.0), None)
+        page.controller.draw(fast, replace(VIEW, azimuth_deg=90.0), None)
         assert np.array_equal(page["/rotor/blade_0"].wxyz, before)
         assert page.scripts[-1] == f"rotorScene.turn({math.pi / 2:.4f})"
         assert page["/rotor/vortices"].visible  # The page moves them too.
@@ -249,9 +244,9 @@ class TestPlay:
         assert page["/rotor/vortices"].visible
 
     def test_a_slider_that_moves_meanwhile_changes_how_the_blades_flap(
-        self, page: Page, built: Solution, changed: Solution
+        self, page: Page, fast: Solution, changed: Solution
     ):
-        page.controller.draw(built, VIEW, None)
+        page.controller.draw(fast, VIEW, None)
         page.controller.play(True)
         page.controller.draw(changed, VIEW, None)
         told = [script for script in page.scripts if script.startswith("rotorScene.move")]
@@ -260,21 +255,21 @@ class TestPlay:
 
 
 class TestOverlays:
-    def test_vortices_and_arrows_are_switched(self, page: Page, built: Solution):
+    def test_vortices_and_arrows_are_switched(self, page: Page, fast: Solution):
         for wake, arrows in ((True, False), (False, True)):
-            page.controller.draw(built, replace(VIEW, wake=wake, arrows=arrows), None)
+            page.controller.draw(fast, replace(VIEW, wake=wake, arrows=arrows), None)
             page.controller.draw_finely()
             assert page["/rotor/vortices"].visible == wake
             assert page["/rotor/inflow"].visible == arrows
 
-    def test_a_lost_trim_greys_the_disk(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
-        page.controller.fade(built, VIEW)
+    def test_a_lost_trim_greys_the_disk(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
+        page.controller.fade(fast, VIEW)
         assert page.shown.calls[-1][2]
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
 
-    def test_a_dark_view_takes_the_dark_theme(self, page: Page, built: Solution):
-        page.controller.draw(built, VIEW, None)
+    def test_a_dark_view_takes_the_dark_theme(self, page: Page, fast: Solution):
+        page.controller.draw(fast, VIEW, None)
         light = tuple(page["/airframe/body"].color)
-        page.controller.draw(built, replace(VIEW, dark=True), None)
+        page.controller.draw(fast, replace(VIEW, dark=True), None)
         assert tuple(page["/airframe/body"].color) != light

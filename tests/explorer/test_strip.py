@@ -29,11 +29,6 @@ from rotor.trim.solve import solve
 
 
 @pytest.fixture(scope="module")
-def built() -> Solution:
-    return solve(make_design(mu=0.2)).require()
-
-
-@pytest.fixture(scope="module")
 def linear() -> Solution:
     return solve(make_design(mu=0.2, twist="linear:-8")).require()
 
@@ -132,8 +127,8 @@ class TestPowerChange:
 
 
 class TestAlpha:
-    def test_lines_and_least_margin(self, built: Solution, linear: Solution):
-        chart = alpha_chart(built, linear, 65.0)
+    def test_lines_and_least_margin(self, cruise: Solution, linear: Solution):
+        chart = alpha_chart(cruise, linear, 65.0)
         assert [one.role for one in chart.lines] == ["limit", "limit", "reference", "this"]
         lower, upper = (one.y for one in chart.lines[:2])
         alpha = line(chart, "this")
@@ -152,15 +147,15 @@ class TestAlpha:
 class TestLift:
     def test_the_blades_carry_the_thrust(self):
         made = make_design(mu=0.2)
-        built = solve(replace(made, models=replace(made.models, azimuths=24))).require()  # As solved.
-        design = built.design
-        per_blade = float(built.disk.dr @ lift_per_metre(built)) * design.rotor.radius
-        assert_allclose(per_blade * design.rotor.blades, built.ct * design.thrust_unit, rtol=1e-9)
+        cruise = solve(replace(made, models=replace(made.models, azimuths=24))).require()  # As solved.
+        design = cruise.design
+        per_blade = float(cruise.disk.dr @ lift_per_metre(cruise)) * design.rotor.radius
+        assert_allclose(per_blade * design.rotor.blades, cruise.ct * design.thrust_unit, rtol=1e-9)
         assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
 
-    def test_less_twist_moves_the_peak_outboard(self, built: Solution):
+    def test_less_twist_moves_the_peak_outboard(self, cruise: Solution):
         untwisted = solve(make_design(mu=0.2, twist="linear:0")).require()
-        chart = lift_chart(untwisted, built)
+        chart = lift_chart(untwisted, cruise)
         assert [one.role for one in chart.lines] == ["reference", "this"]
         r = untwisted.disk.r
         assert r[np.argmax(line(chart, "this"))] >= r[np.argmax(line(chart, "reference"))]
@@ -168,14 +163,14 @@ class TestLift:
 
 
 class TestWhereToTwist:
-    def test_kilowatt_per_degree(self, built: Solution):
-        gradient = power_gradient(built)
+    def test_kilowatt_per_degree(self, cruise: Solution):
+        gradient = power_gradient(cruise)
         chart = where_to_twist_chart(gradient)
         assert_allclose(chart.lines[0].y, gradient.density * math.pi / 180.0 / 1e3)
 
-    def test_the_spike_at_the_tip_is_clipped_and_said(self, built: Solution):
+    def test_the_spike_at_the_tip_is_clipped_and_said(self, cruise: Solution):
         """That of linear inflow on 40 elements, without elastic twist, which takes it from the UH-60A as built."""
-        design = built.design
+        design = cruise.design
         rigid = replace(design, models=replace(design.models, elastic_twist=False, inflow="pitt-peters"))
         gradient = power_gradient(solve(rigid))
         chart = where_to_twist_chart(gradient)
@@ -191,8 +186,8 @@ class TestWhereToTwist:
         assert where_to_twist_chart(flat).note == ""
 
 
-def test_axes_stay_while_the_data_fit(built: Solution, linear: Solution):
-    first = lift_chart(built, None)
+def test_axes_stay_while_the_data_fit(cruise: Solution, linear: Solution):
+    first = lift_chart(cruise, None)
     assert lift_chart(linear, None, first.y_range).y_range == first.y_range
 
 
@@ -204,22 +199,22 @@ def test_ticks_are_few_round_and_inside(low: float, high: float):
     assert low > 0.0 or 0.0 in ticks
 
 
-def test_every_chart_is_plain_json_without_nan(built: Solution, linear: Solution):
+def test_every_chart_is_plain_json_without_nan(cruise: Solution, linear: Solution):
     design, reference, ideal = (np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan))
     curve = PowerCurve(design, reference, ideal)
     charts = (
         power_change_chart(curve, 0.2, -10e3, "A"),
-        alpha_chart(built, linear, 270.0),
-        lift_chart(built, linear),
-        where_to_twist_chart(power_gradient(built)),
+        alpha_chart(cruise, linear, 270.0),
+        lift_chart(cruise, linear),
+        where_to_twist_chart(power_gradient(cruise)),
     )
     for chart in charts:
         text = json.dumps(chart.as_dict, allow_nan=False)
         assert len(text) < 4000
 
 
-def test_an_unconverged_reference_is_left_out(built: Solution):
-    lost = replace(built, status=type(built.status).NOT_CONVERGED)
+def test_an_unconverged_reference_is_left_out(cruise: Solution):
+    lost = replace(cruise, status=type(cruise.status).NOT_CONVERGED)
     assert all(
-        one.role != "reference" for one in (*alpha_chart(built, lost, 0.0).lines, *lift_chart(built, lost).lines)
+        one.role != "reference" for one in (*alpha_chart(cruise, lost, 0.0).lines, *lift_chart(cruise, lost).lines)
     )

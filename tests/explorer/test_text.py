@@ -24,11 +24,6 @@ from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
 
 
-@pytest.fixture(scope="module")
-def forward() -> Solution:
-    return solve(make_design(mu=0.2)).require()
-
-
 class TestInputs:
     def test_degrees_and_tonnes_end_here(self):
         design = Inputs(law="linear", linear=-9.0, mass_t=7.5, altitude_m=1200.0, advance_ratio=0.25).design()
@@ -65,70 +60,70 @@ class TestReadout:
     def test_what_is_no_number_is_a_dash(self, value: float | None):
         assert number(value) == "–"
 
-    def test_power_and_its_parts(self, forward: Solution):
-        html = readout.power_panel(forward, forward)
-        total = number(forward.power.total / 1e3)
+    def test_power_and_its_parts(self, cruise: Solution):
+        html = readout.power_panel(cruise, cruise)
+        total = number(cruise.power.total / 1e3)
         assert f">{total} kW<" in html
-        assert number(forward.power.total / 745.699872) + " hp" in html
+        assert number(cruise.power.total / 745.699872) + " hp" in html
         for title in ("Induced", "Profile", "Parasite", "Tail rotor", "vs. UH-60A as built"):
             assert title in html
         assert ">0.0 %<" in html
 
-    def test_change_against_the_baseline(self, forward: Solution):
+    def test_change_against_the_baseline(self, cruise: Solution):
         dearer = replace(
-            forward, last_power=replace(forward.power, profile=forward.power.profile + 0.1 * forward.power.total)
+            cruise, last_power=replace(cruise.power, profile=cruise.power.profile + 0.1 * cruise.power.total)
         )
-        assert "+10.0 %" in readout.power_panel(dearer, forward)
-        assert re.search(r"−9\.1 %", readout.power_panel(forward, dearer))
+        assert "+10.0 %" in readout.power_panel(dearer, cruise)
+        assert re.search(r"−9\.1 %", readout.power_panel(cruise, dearer))
 
-    def test_no_change_against_a_baseline_that_did_not_trim(self, forward: Solution):
-        lost = replace(forward, status=Status.NOT_CONVERGED)
-        assert 'data-explorer="change"' not in readout.power_panel(forward, lost)
+    def test_no_change_against_a_baseline_that_did_not_trim(self, cruise: Solution):
+        lost = replace(cruise, status=Status.NOT_CONVERGED)
+        assert 'data-explorer="change"' not in readout.power_panel(cruise, lost)
 
-    def test_hover_has_a_figure_of_merit_and_flight_a_lift_to_drag(self, forward: Solution):
+    def test_hover_has_a_figure_of_merit_and_flight_a_lift_to_drag(self, cruise: Solution):
         hover = solve(make_design(mu=0.0))
         assert "Figure of merit" in readout.trim_panel(hover)
-        assert "Rotor L/De" in readout.trim_panel(forward)
+        assert "Rotor L/De" in readout.trim_panel(cruise)
         ideal = hover.ct**1.5 / math.sqrt(2.0)  # over ρA(ΩR)³, eq. (2.10)
         assert f"{ideal / hover.cp:.3f}" in readout.trim_panel(hover)
 
-    def test_status_says_every_caveat_and_escapes(self, forward: Solution):
-        noted = replace(forward, caveats=(Caveat("a", "Read <this> with care."), Caveat("b", "And that.")))
+    def test_status_says_every_caveat_and_escapes(self, cruise: Solution):
+        noted = replace(cruise, caveats=(Caveat("a", "Read <this> with care."), Caveat("b", "And that.")))
         html = status_panel(noted)
         assert "Read &lt;this&gt; with care." in html
         assert "And that." in html
         assert 'data-kind="converged"' in html
 
-    def test_not_converged_is_a_red_sentence(self, forward: Solution):
-        lost = replace(forward, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
+    def test_not_converged_is_a_red_sentence(self, cruise: Solution):
+        lost = replace(cruise, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
         html = status_panel(lost)
         assert 'data-kind="problem"' in html
         assert "Not trimmed: too heavy. Greyed: last converged solution" in html
         assert "choose less. Greyed" in status_panel(None, "too much: choose less")
 
-    def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
-        html = provenance(forward)
+    def test_provenance_names_preset_inflow_sections_and_kind(self, cruise: Solution):
+        html = provenance(cruise)
         for words in ("flight", "SC1095 / SC1094 R8", "24 × 24", "not a measurement"):
             assert words in html
         assert "annulus balance" in provenance(solve(make_design(mu=0.0)))
 
-    def test_nothing_that_is_no_number_reaches_the_screen(self, forward: Solution):
+    def test_nothing_that_is_no_number_reaches_the_screen(self, cruise: Solution):
         broken = replace(
-            forward,
-            last_power=replace(forward.power, induced=math.nan),
-            controls=replace(forward.controls, collective=math.nan),
+            cruise,
+            last_power=replace(cruise.power, induced=math.nan),
+            controls=replace(cruise.controls, collective=math.nan),
             ct=math.inf,
         )
-        for html in (readout.power_panel(broken, forward), readout.trim_panel(broken), provenance(broken)):
+        for html in (readout.power_panel(broken, cruise), readout.trim_panel(broken), provenance(broken)):
             assert not re.search(r"\b(nan|inf)\b", html, re.IGNORECASE)
 
-    def test_kappa_and_the_bound_beside_it(self, forward: Solution):
-        html = readout.power_panel(forward, None)
-        assert f'data-explorer="kappa">{forward.induced_power_factor:.2f}' in html
+    def test_kappa_and_the_bound_beside_it(self, cruise: Solution):
+        html = readout.power_panel(cruise, None)
+        assert f'data-explorer="kappa">{cruise.induced_power_factor:.2f}' in html
         assert "ideal <b>" in html
-        ideal = readout.ideal_induced(forward)
+        ideal = readout.ideal_induced(cruise)
         assert ideal is not None
-        assert 0.5 * forward.power.induced < ideal < forward.power.induced
+        assert 0.5 * cruise.power.induced < ideal < cruise.power.induced
         fast = solve(make_design(mu=0.43, mass_kg=6000.0)).require()
         assert readout.ideal_induced(fast) is None
         assert "not converged above" in readout.power_panel(fast, None)
@@ -153,12 +148,12 @@ class TestPlots:
         assert np.isnan(upper[r < 0.3]).all()
         assert np.isfinite(plots.angles_along(solution, 90.0)[2]).all()
 
-    def test_azimuth_closes(self, forward: Solution):
-        for first, last in zip(*(plots.angles_along(forward, psi) for psi in (0.0, 360.0)), strict=True):
+    def test_azimuth_closes(self, cruise: Solution):
+        for first, last in zip(*(plots.angles_along(cruise, psi) for psi in (0.0, 360.0)), strict=True):
             assert_allclose(first, last, rtol=1e-12)
 
-    def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
-        r, (lower, upper, alpha) = forward.disk.r, plots.angles_along(forward, 60.0)
+    def test_stall_limit_lies_above_an_unstalled_blade(self, cruise: Solution):
+        r, (lower, upper, alpha) = cruise.disk.r, plots.angles_along(cruise, 60.0)
         assert (upper > alpha).all()
         assert (lower < alpha).all()
         assert 10.0 < upper[r.searchsorted(0.4)] < 16.0

@@ -14,14 +14,7 @@ from explorer.tabs import history_panel as history_view
 from explorer.tabs.controls import DesignControls
 from explorer.text import readout
 from explorer.text.design_words import flight_name
-from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
-
-
-@pytest.fixture(scope="module")
-def solution() -> Solution:
-    return solve(make_design(mu=0.2)).require()
 
 
 def test_factors_by_definition():
@@ -31,10 +24,10 @@ def test_factors_by_definition():
     assert (POUND.size, FOOT.size) == (0.45359237, 0.3048)
 
 
-def test_the_chosen_unit_comes_first(solution: Solution):
+def test_the_chosen_unit_comes_first(cruise: Solution):
     for units, first, second in ((SI, "kW", "hp"), (AVIATION, "hp", "kW")):
-        html = readout.power_panel(solution, None, units)
-        assert html.index(f"{units.watts(solution.power.total)}</span>") < html.index(f" {second}</span>")
+        html = readout.power_panel(cruise, None, units)
+        assert html.index(f"{units.watts(cruise.power.total)}</span>") < html.index(f" {second}</span>")
         assert f" {first}</td>" in html
         assert f" {second}</td>" not in html
     assert AVIATION.airspeed(50.0) == "97 kt · 180 km/h · 50.0 m/s"
@@ -42,11 +35,11 @@ def test_the_chosen_unit_comes_first(solution: Solution):
     assert SI.airspeed(0.0) == "hover"
 
 
-def test_a_and_b_in_horsepower(solution: Solution):
-    html = readout.compared_power_panel(solution, solution, AVIATION)
+def test_a_and_b_in_horsepower(cruise: Solution):
+    html = readout.compared_power_panel(cruise, cruise, AVIATION)
     assert "Δ hp" in html
     assert "Δ kW" not in html
-    assert AVIATION.watts(solution.power.total) in html
+    assert AVIATION.watts(cruise.power.total) in html
 
 
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
@@ -58,14 +51,14 @@ def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     assert flight_name(Inputs(climb_m_s=5.0, preset="thesis")) == "µ 0.2, 8.32 t"
 
 
-def test_searches_and_history_in_horsepower(solution: Solution):
+def test_searches_and_history_in_horsepower(cruise: Solution):
     history = History(Inputs())
     for units in (SI, AVIATION):
-        shown = units.watts(solution.power.total)
-        assert shown in history_view.strip(history, {Inputs(): solution.power.total}, units)
-        assert shown in history_view.kept_rows((KeptDesign(Inputs(), solution),), None, units)
-    kept = KeptDesign(Inputs(), solution)
-    assert "now 0 hp" in history_view.kept_rows((kept,), solution, AVIATION)
+        shown = units.watts(cruise.power.total)
+        assert shown in history_view.strip(history, {Inputs(): cruise.power.total}, units)
+        assert shown in history_view.kept_rows((KeptDesign(Inputs(), cruise),), None, units)
+    kept = KeptDesign(Inputs(), cruise)
+    assert "now 0 hp" in history_view.kept_rows((kept,), cruise, AVIATION)
 
 
 def test_curves_change_with_the_unit():
