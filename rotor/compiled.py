@@ -83,7 +83,6 @@ class _Watch(event.Listener):
         self.told = True
         """Whether a stderr that is no terminal has its line, or is to have none."""
         self._width = 0
-        """Of the line on the terminal."""
 
     @property
     def words(self) -> str:

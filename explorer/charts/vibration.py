@@ -137,7 +137,6 @@ _KINDS = {
     "lag": ("var(--rx-profile)", ""),
     "torsion": ("var(--rx-tail)", "5 3"),
 }
-"""Colour and dashes."""
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,6 @@ class ServerLimits:
     sessions: int = SESSIONS
     """Pages at work at once."""
     allow_hosts: tuple[str, ...] = ()
-    """Further names by which the server is reached."""
     studies: Path = Path()
     """Results of studies in this folder are offered to every page; nothing else on the disk is."""
     frame_ancestors: tuple[str, ...] = ()
@@ -247,7 +246,6 @@ class AllowedHosts:
     """
 
     host: str
-    """Address it listens on."""
     also: tuple[str, ...] = ()
     """Further names it is reached by, as behind a reverse proxy."""
 

@@ -116,7 +116,6 @@ class Inputs:
     fuselage: bool = True
     download: bool = True
     bending: bool = False
-    """Whether blades bend in flap and lag."""
     dynamic_stall: bool = False
     """Whether sections stall with lags and vortices."""
     given: TwistLaw | None = None
@@ -264,9 +263,7 @@ class ViewState:
     units: str = "SI"
     """A title of `explorer.model.units.UNITS`."""
     wake: bool = True
-    """Whether the tip vortices are drawn."""
     arrows: bool = False
-    """Whether arrows show the induced inflow."""
     beside: bool = False
     """Whether A stands beside B while a design is pinned."""
     wipe: bool = False

@@ -25,7 +25,6 @@ class Pinned:
     """A design that others are compared with."""
 
     inputs: Inputs
-    """What was on the sliders."""
     solution: Solution
     """Its solution when it was pinned; converged."""
 
@@ -67,7 +66,6 @@ class PinResult:
     inputs: Inputs | None = None
     """Inputs to put on the sliders."""
     sentence: str = ""
-    """A sentence to show."""
 
 
 def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult:

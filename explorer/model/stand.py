@@ -39,7 +39,6 @@ class StandInputs:
     load: str = "ct_over_sigma"
     """Which of `LOAD_KEYS` is given."""
     value: float = 0.07
-    """Its value."""
     shaft_tilt_deg: float | None = None
     """Positive forward; None is 0. Of a free rotor it is found, and this is only where the search begins."""
     cyclic_1c_deg: float = 0.0
@@ -181,9 +180,7 @@ class MeasuredCondition:
     """One measured point of a rotor, as the page can be set to it."""
 
     test: str
-    """Title of the test in the menu."""
     label: str
-    """The point in the menu."""
     advance_ratio: float
     stand: StandInputs | None
     """None: flown, with the mass and the altitude below."""

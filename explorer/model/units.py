@@ -81,4 +81,3 @@ AVIATION = Units(
     "Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT, FOOT_PER_MINUTE
 )
 UNITS = {units.title: units for units in (SI, AVIATION)}
-"""By the title of the menu."""

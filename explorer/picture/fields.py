@@ -34,7 +34,6 @@ class Field:
     absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
     """Where else the quantity is not defined, on the polar grid."""
     note: str = ""
-    """What follows the unit in the label."""
     speeds: int | None = None
     """Its size goes with chord × tip speed to this power, and so does its range; None: one for all rotors."""
 

@@ -24,7 +24,6 @@ class Light:
     colour: Rgb
     intensity: float
     position: tuple[float, float, float]
-    """Where it comes from."""
 
 
 @dataclass(frozen=True)

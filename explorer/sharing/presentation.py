@@ -38,7 +38,6 @@ class PresentedView:
     against: Inputs | None = None
     """A of A/B."""
     place: StoryPlace | None = None
-    """In the lecture."""
     camera: tuple[Point, Point] | None = None
     """Position and the point looked at [m]."""
 

@@ -51,7 +51,6 @@ _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
 _NEVER = ("format", "version", "twist")
 STEPS_KEPT = "steps"
-"""Under which the page keeps the steps to undo."""
 MOST_STEPS = 50
 """Most steps before the present that are kept, and most after it."""
 VIEW = "v"

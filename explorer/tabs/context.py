@@ -34,10 +34,8 @@ class SharedServices:
     """What the pages of one server share."""
 
     pool: Pool
-    """This page's access to the worker processes."""
     presentations: Presentations
     studies: Path = Path()
-    """The folder whose results the Studies section offers."""
 
 
 class Tab:
@@ -58,7 +56,6 @@ class TabContext:
 
     layout: Layout
     controls: DesignControls
-    """The sliders."""
     display: Display
 
     def __init__(self, client: viser.ClientHandle, pool: Pool, callbacks: SessionCallbacks) -> None:
@@ -69,7 +66,6 @@ class TabContext:
         self.tracker = PowerTracker()
         self.wake, self.state = callbacks.wake, callbacks.state
         self.held = False
-        """Whether a presenter moves the page."""
 
     def inputs(self) -> Inputs:
         return self.controls.inputs()

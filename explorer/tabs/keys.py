@@ -81,7 +81,6 @@ KEYS: dict[str, Key] = {
     "export": Key(_PAGE, "Export", "X"),
     "keys": Key(_PAGE, "Keys", "?", SHIFT),
 }
-"""In the order of the palette and of the list."""
 
 
 def leads(name: str) -> bool:

@@ -20,7 +20,6 @@ DRAWERS = {
     "lecture": "Lecture",
     "settings": "Settings",
 }
-"""Names and titles."""
 RAIL, DRAWER = 332, 348
 """Widths [px]."""
 _WIDER = 1.22

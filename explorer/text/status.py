@@ -175,7 +175,6 @@ class ValidationRecord:
     """What measurement says about a rotor here."""
 
     words: str
-    """For the chip."""
     sentence: str
     measured: MeasuredSet | None = None
     """The set that is nearest; None where nothing was measured."""

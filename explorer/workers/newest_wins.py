@@ -93,7 +93,6 @@ class UpdatePool:
 
 
 UPDATES = UpdatePool(min(os.cpu_count() or 1, 2))
-"""Of this process."""
 
 
 class NewestWins:

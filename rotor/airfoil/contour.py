@@ -151,11 +151,6 @@ def leading_edge_index(contour: Contour) -> int:
     return int(np.argmax(np.hypot(*(contour.points - trailing_edge(contour)).T)))
 
 
-def chord_line(contour: Contour) -> tuple[Array, Array]:
-    """Nose and trailing-edge points, each of shape (2,) [chord]; the chord line joins them."""
-    return contour.points[leading_edge_index(contour)], trailing_edge(contour)
-
-
 def thickness_and_camber(contour: Contour, stations: int = 501) -> tuple[float, float, float]:
     """Largest thickness, its x, and largest camber, all in chord lengths, measured across the x axis."""
     nose = leading_edge_index(contour)

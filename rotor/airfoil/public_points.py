@@ -19,7 +19,6 @@ SOURCES = {
     "tm-88370": "flight-test rotor table, NASA TM-88370",
     "hart2": "section table of the HART II test, DLR",
 }
-"""Titles of the sources."""
 
 
 @dataclass(frozen=True)

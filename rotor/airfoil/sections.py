@@ -71,7 +71,6 @@ class OwnSection:
     outline: str
     """Name of a bundled or NACA outline, or coordinates as text (Selig), one point a line."""
     source: str
-    """Files it came from."""
     incidence_offset: float = 0.0
     """[rad], nose-down positive."""
     chord_ratio: float = 1.0

@@ -44,7 +44,6 @@ _LISTED: dict[str, Iterable[str]] = {
     "off": [one.flag for one in SWITCHES.values()],
     "trim": TRIMS,
 }
-"""Names that the help of a flag lists."""
 _SPEED = ("mu", "speed_kt", "hover")
 _ARGUMENTS = {
     name: one.annotation for name, one in inspect.signature(make_design).parameters.items() if name != "models"
@@ -63,7 +62,6 @@ _STAND = {
     "density_kg_m3": "air density",
     "flapping": "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
 }
-"""Inputs of a test stand."""
 
 
 def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False) -> None:

@@ -21,7 +21,6 @@ class RetiredModel:
     """The field of `Models` that named it."""
     replacement: str
     sentence: str
-    """For the user."""
 
 
 RETIRED = {
@@ -44,7 +43,6 @@ RETIRED = {
         "inflow", "lifting-line", "The vortex wake of rigid helices was retired; the lifting line stands in for it."
     ),
 }
-"""By name."""
 
 
 def warn(sentence: str) -> None:

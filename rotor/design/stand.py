@@ -101,7 +101,6 @@ class Stand:
 
 
 STAND_KEYS = tuple(_RECORD.values())
-"""Keys of a record."""
 LOAD_KEYS = ("thrust_n", "ct_over_sigma", "collective_deg")
 """Of which one is given."""
 

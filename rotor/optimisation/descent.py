@@ -224,7 +224,6 @@ class Descent:
     end: Evaluation | None
     """The best feasible point evaluated; None when there was none, or when the descent leads to a minimum known."""
     converged: bool
-    """Whether it converged."""
 
 
 def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], bool]) -> Descent:

@@ -26,7 +26,6 @@ class Progress:
     start: int
     """Index of the start, from 0."""
     starts: int
-    """Number of starts."""
     evaluation: int
     """Running number, from 1."""
     parameters: tuple[float, ...]

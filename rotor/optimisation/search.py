@@ -63,7 +63,6 @@ class Search:
     guesses: tuple[tuple[float, ...], ...] = ()
     """Parameters to start from before all others."""
     band: bool = True
-    """Whether to measure the band."""
 
     def __post_init__(self) -> None:
         if not 1 <= self.starts <= 1000:

@@ -261,7 +261,6 @@ def tail_rotor() -> Report:
 RAISED = 0.2
 """µ at which two assumptions are changed alone."""
 TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
-"""By preset."""
 
 
 def figure_3_10() -> Report:

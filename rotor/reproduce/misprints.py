@@ -31,7 +31,6 @@ class Misprint:
     kind: str
     """`misprint`, `ambiguous`, or `omission`."""
     printed: str
-    """The printed text."""
     ours: str
     """What this program computes, and why."""
     setting: str

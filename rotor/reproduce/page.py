@@ -145,7 +145,6 @@ def escape(text: str) -> str:
 
 
 TALK = "today.html"
-"""One page to show in a lecture."""
 MISPRINTS_PAGE = "misprints.html"
 
 

@@ -94,7 +94,6 @@ class Report:
     caption: str
     """In our own words."""
     statement: str
-    """The statement of the thesis."""
     ours: str
     """Our numbers, one or two sentences."""
     verdict: Agreement

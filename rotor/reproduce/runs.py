@@ -46,7 +46,6 @@ class CachedFunction(Generic[P, R]):
 
 
 Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
-"""A cached function and its arguments."""
 
 
 def compute_ahead(
@@ -159,7 +158,6 @@ class ConceptOptimum:
     twist: str
     """SPEC"""
     power_kw: float
-    """Total power."""
     baseline_kw: float
     """Total power of `BASELINE` on the preset's own airfoils."""
 

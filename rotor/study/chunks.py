@@ -46,7 +46,6 @@ class FinishedChunk:
     rows: int
     failures: int
     seconds: float
-    """Processor time."""
     worker: str
     """Machine and process."""
     content: bytes

@@ -267,11 +267,9 @@ class Study:
     title: str
     points: StudyPoints
     given: tuple[tuple[str, Value], ...]
-    """Values that all points share."""
     optimum: OptimumSettings | None
     """None: each point is a trim."""
     chunk: int
-    """Points per chunk."""
     show: ShowSettings
     aircraft: tuple[tuple[str, Aircraft], ...] = ()
     """Rotors from files of the user's own, by the names that the study file gives them: a worker has no such files."""
