@@ -5,6 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from fake_bridge import Bridge
 
 from explorer.model.inputs import ViewState
 from explorer.scene.page_scene import TURN_RATES
@@ -12,26 +13,12 @@ from explorer.tabs.display import Display
 from explorer.tabs.probe.probe_panel import ProbePanel
 
 
-class FakeBridge:
-    """Keeps the actions and what is shown."""
-
-    def __init__(self) -> None:
-        self.actions: dict[str, Any] = {}
-        self.shown: dict[str, Any] = {}
-
-    def on(self, name: str, action: Any) -> None:
-        self.actions[name] = action
-
-    def set(self, **parts: Any) -> None:
-        self.shown.update(parts)
-
-
 def test_a_press_takes_the_next_speed():
-    bridge: Any = FakeBridge()
+    bridge: Any = Bridge()
     display = Display(bridge, ViewState(), lambda: None, lambda: None)
     seen = []
     for _ in range(4):
-        seen.append((bridge.shown["turn"]["pace"], display.turn_rate))
+        seen.append((bridge.state["turn"]["pace"], display.turn_rate))
         bridge.actions["pace"](None)
     assert [name for name, _ in seen] == ["normal", "fast", "slow", "normal"]
     assert seen[2][1] < seen[0][1] < seen[1][1]

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fake_bridge import Bridge
 
 from explorer.model.drag import (
     DETENT,
@@ -218,23 +219,9 @@ class TestUndo:
         assert len(history.past) == 2
 
 
-class _Bridge:
-    """What the frame was told, and what it would say."""
-
-    def __init__(self) -> None:
-        self.actions: dict[str, Any] = {}
-        self.state: dict[str, Any] = {}
-
-    def on(self, name: str, action: Any) -> None:
-        self.actions[name] = action
-
-    def set(self, **parts: Any) -> None:
-        self.state |= parts
-
-
-def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, _Bridge, list[Inputs], list[bool]]:
+def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, Bridge, list[Inputs], list[bool]]:
     """With the present inputs, and what was taken (True) or let go."""
-    bridge, now, took = _Bridge(), [inputs], list[bool]()
+    bridge, now, took = Bridge(), [inputs], list[bool]()
     page: Any = SimpleNamespace(
         inputs=lambda: now[0],
         drag_to=lambda new: now.__setitem__(0, new),

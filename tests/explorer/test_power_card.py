@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from fake_bridge import Bridge
 
 from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
@@ -12,22 +13,12 @@ from explorer.tabs.results import PowerCard, beside_labels
 from rotor.trim.solve import solve
 
 
-class Bridge:
-    """What the frame was told."""
-
-    def __init__(self) -> None:
-        self.power: dict[str, Any] = {}
-
-    def set(self, power: dict[str, Any]) -> None:
-        self.power = power
-
-
 def card(inputs: Inputs) -> dict[str, Any]:
     bridge: Any = Bridge()
     solution = solve(inputs.design()).require()
     state = SessionState(inputs, ViewState(), solution, solve(baseline_of(solution.design)), None)
     PowerCard(bridge, PowerTracker()).show(state, 0.0)
-    return bridge.power
+    return bridge.state["power"]
 
 
 @pytest.mark.parametrize("climb", [-8.0, -13.0])

@@ -3,7 +3,6 @@
 import asyncio
 import re
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -11,7 +10,7 @@ from explorer.app import App
 from explorer.hosting import browser
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, follow_name
 from explorer.tabs.lecture.presence import Presence
-from tests.tools.soak.visitor import Visitor
+from tests.tools.soak.visitor import Visitor, ran
 
 
 @pytest.fixture
@@ -31,19 +30,17 @@ def app() -> Iterator[App]:
 
 def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str]):
     async def visit() -> None:
-        async with asyncio.timeout(240.0):
-            visitor = Visitor()
-            await visitor.open(app.address)
-            await visitor.until(lambda: len(app.sessions) == 1)
-            page = app.sessions[0].page
-            await asyncio.to_thread(page._presence.present)
-            page.file.copy_link()
-            assert page._presence._secret
-            await asyncio.sleep(1.0)
-            await visitor.close()
+        visitor = Visitor()
+        await visitor.open(app.address)
+        await visitor.until(lambda: len(app.sessions) == 1)
+        page = app.sessions[0].page
+        await asyncio.to_thread(page._presence.present)
+        page.file.copy_link()
+        assert page._presence._secret
+        await asyncio.sleep(1.0)
+        await visitor.close()
 
-    with ThreadPoolExecutor(1) as thread:
-        thread.submit(lambda: asyncio.run(visit())).result()
+    ran(visit)
     (kept,) = (script for script in scripts if script.startswith(f'RX.keep("{PRESENT}",'))
     secret = re.fullmatch(rf'RX\.keep\("{PRESENT}","([\w-]+)"\)', kept)
     assert secret is not None
@@ -85,24 +82,22 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
         return visitor
 
     async def visit() -> list[str]:
-        async with asyncio.timeout(240.0):
-            first = await arrive("one")
-            second = await arrive("two")
-            said = [first.text("presence"), second.text("presence")]
-            again = await arrive("one")  # Connected again, before the server knows that it was gone.
-            said.append(again.text("presence"))
-            for visitor in (first, again):
-                await visitor.close()
-            while len(app.sessions) > 1:
-                await asyncio.sleep(0.05)
-            third = await arrive("three")  # Loaded again after the first was closed.
-            said.append(third.text("presence"))
-            for visitor in (second, third):
-                await visitor.close()
-            return said
+        first = await arrive("one")
+        second = await arrive("two")
+        said = [first.text("presence"), second.text("presence")]
+        again = await arrive("one")  # Connected again, before the server knows that it was gone.
+        said.append(again.text("presence"))
+        for visitor in (first, again):
+            await visitor.close()
+        while len(app.sessions) > 1:
+            await asyncio.sleep(0.05)
+        third = await arrive("three")  # Loaded again after the first was closed.
+        said.append(third.text("presence"))
+        for visitor in (second, third):
+            await visitor.close()
+        return said
 
-    with ThreadPoolExecutor(1) as thread:
-        first, second, again, third = thread.submit(lambda: asyncio.run(visit())).result()
+    first, second, again, third = ran(visit)
     assert first.startswith("Presenting: 1 follower")  # The second.
     assert second.startswith("Another tab of this browser presents already: this one follows it.")
     assert again.startswith("Presenting: 1 follower")

@@ -1,14 +1,12 @@
 """The server as a client meets it: who may connect, floods, uploads, places."""
 
-import asyncio
 import json
 import socket
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Awaitable, Callable, Coroutine, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 import viser
@@ -23,9 +21,8 @@ from explorer.hosting import limits, request_filter, viser_compat
 from explorer.hosting.limits import AllowedHosts, ServerLimits
 from explorer.hosting.request_filter import RequestFilter
 from tests.tools.soak import wire
-from tests.tools.soak.visitor import Visitor
+from tests.tools.soak.visitor import Visitor, ran
 
-Result = TypeVar("Result")
 INNER, OUTER = "Δ inboard [°/R]", "Δ outboard [°/R]"
 
 
@@ -34,22 +31,6 @@ def app() -> Iterator[App]:
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=2))
     yield app
     app.stop()
-
-
-def ran(work: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
-    """The outcome of a coroutine, on a thread of its own: where a browser is open, this one has a loop already."""
-    with ThreadPoolExecutor(1) as thread:
-        return thread.submit(lambda: asyncio.run(work())).result()
-
-
-def alone(work: Callable[[], Awaitable[None]]) -> None:
-    """Run a test's visitors to their end, with a bound on time."""
-
-    async def bounded() -> None:
-        async with asyncio.timeout(240.0):
-            await work()
-
-    ran(bounded)
 
 
 async def arrive(app: App) -> Visitor:
@@ -153,7 +134,7 @@ class TestStrangers:
             assert [one.protocol.max_message_size for one in connections] == [limits.LARGEST_MESSAGE]
             await other.close()
 
-        alone(work)
+        ran(work)
 
 
 class TestUploads:
@@ -176,7 +157,7 @@ class TestUploads:
                 assert not any(client.gui._current_file_upload_states for client in app.server.get_clients().values())
             await visitor.close()
 
-        alone(work)
+        ran(work)
 
     def test_private_names_of_viser_exist(self):
         assert set(_messages.FileTransferStartUpload.__annotations__) >= {"size_bytes", "part_count", "filename"}
@@ -200,7 +181,7 @@ class TestPlaces:
             for visitor in (second, third, fourth):
                 await visitor.close()
 
-        alone(work)
+        ran(work)
         until_all_have_left(app)
 
     def test_a_page_is_sent_in_one_piece_with_its_first_solution(self, app: App):
@@ -211,7 +192,7 @@ class TestPlaces:
             assert visitor.text("total-power").endswith("kW")
             await visitor.close()
 
-        alone(work)
+        ran(work)
 
     def test_leaving_during_the_welcome_frees_everything(self, app: App):
         async def work() -> None:
@@ -220,7 +201,7 @@ class TestPlaces:
                 await visitor.open(app.address)
                 await visitor.close()
 
-        alone(work)
+        ran(work)
         until_all_have_left(app)
 
     def test_too_many_connections_are_refused(self):
@@ -235,7 +216,7 @@ class TestPlaces:
                     await Visitor().open(address)
                 await visitor.close()
 
-            alone(work)
+            ran(work)
         finally:
             viser_compat.quiet_stop(server)
 

@@ -1,6 +1,5 @@
 """What a page may put into its widgets, and links and files of any kind: a value or a sentence, never silence."""
 
-import asyncio
 import json
 import logging
 import math
@@ -22,7 +21,7 @@ from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.share import view_from
-from tests.tools.soak.visitor import Visitor
+from tests.tools.soak.visitor import Visitor, ran
 
 DIGITS = "9" * 400
 
@@ -120,55 +119,52 @@ def test_a_path_that_no_file_can_have_is_not_found(app: App, path: str):
 
 def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App, caplog: pytest.LogCaptureFixture):
     async def flood() -> None:
-        async with asyncio.timeout(240.0):
-            visitor = Visitor()
-            await visitor.open(app.address)
-            await visitor.until(lambda: visitor.text("status") == "converged")
-            power = visitor.text("total-power")
-            for uuid, widget in list(visitor.widgets.items()):
-                await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"max": math.nan})
-                if "mime_type" in widget or widget.get("label") in (
-                    "Δ inboard [°/R]",
-                    "Δ outboard [°/R]",
-                    "Law",
-                    "Inflow",
-                    "Preset",
-                ):
-                    for value in ("nan", math.nan, None, {}, [1.0], "x" * 100) * 20:
-                        await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
-            await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)
-            assert visitor.gone is None
-            await visitor.close()
+        visitor = Visitor()
+        await visitor.open(app.address)
+        await visitor.until(lambda: visitor.text("status") == "converged")
+        power = visitor.text("total-power")
+        for uuid, widget in list(visitor.widgets.items()):
+            await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"max": math.nan})
+            if "mime_type" in widget or widget.get("label") in (
+                "Δ inboard [°/R]",
+                "Δ outboard [°/R]",
+                "Law",
+                "Inflow",
+                "Preset",
+            ):
+                for value in ("nan", math.nan, None, {}, [1.0], "x" * 100) * 20:
+                    await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+        await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)
+        assert visitor.gone is None
+        await visitor.close()
 
-    with caplog.at_level(logging.WARNING), ThreadPoolExecutor(1) as thread:
-        thread.submit(lambda: asyncio.run(flood())).result()
+    with caplog.at_level(logging.WARNING):
+        ran(flood)
     assert not [record for record in caplog.records if record.exc_info]
     assert json.dumps([record.getMessage() for record in caplog.records]).count("failed") == 0
 
 
 def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
     async def drag() -> list[Any]:
-        async with asyncio.timeout(240.0):
-            visitor = Visitor()
-            await visitor.open(app.address)
-            await visitor.until(lambda: visitor.text("status") == "converged")
-            (session,) = app.sessions
-            buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
-            push = buffer.push
+        visitor = Visitor()
+        await visitor.open(app.address)
+        await visitor.until(lambda: visitor.text("status") == "converged")
+        (session,) = app.sessions
+        buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
+        push = buffer.push
 
-            def watched(message: Message) -> None:
-                queued.append(message)
-                push(message)
+        def watched(message: Message) -> None:
+            queued.append(message)
+            push(message)
 
-            buffer.push = watched
-            slider, power = visitor.find("Δ inboard [°/R]"), visitor.text("total-power")
-            await visitor.move("Δ inboard [°/R]", visitor.widgets[slider]["value"] - 2.0)
-            await visitor.until(lambda: visitor.text("total-power") != power)
-            await visitor.close()
-            return [one for one in queued if getattr(one, "uuid", None) == slider]
+        buffer.push = watched
+        slider, power = visitor.find("Δ inboard [°/R]"), visitor.text("total-power")
+        await visitor.move("Δ inboard [°/R]", visitor.widgets[slider]["value"] - 2.0)
+        await visitor.until(lambda: visitor.text("total-power") != power)
+        await visitor.close()
+        return [one for one in queued if getattr(one, "uuid", None) == slider]
 
-    with ThreadPoolExecutor(1) as thread:
-        assert thread.submit(lambda: asyncio.run(drag())).result() == []
+    assert ran(drag) == []
 
 
 def test_only_quick_callbacks_are_called_at_once():

@@ -3,8 +3,9 @@
 import asyncio
 import json
 import re
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
@@ -12,6 +13,7 @@ from websockets.typing import Subprotocol
 
 from tests.tools.soak import wire
 
+Result = TypeVar("Result")
 BLADE = "/rotor/blade_0"
 """The reference blade: its vertices tell which twist a frame shows."""
 _CAMERA = {
@@ -164,3 +166,14 @@ class Visitor:
                     self.frame.update(json.loads(state[1]))
             case _ if "props" in message and "uuid" in message:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
+
+
+def ran(work: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
+    """The outcome of visitors' work, on a thread of its own: where a browser is open, this one has a loop already."""
+
+    async def bounded() -> Result:
+        async with asyncio.timeout(240.0):
+            return await work()
+
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(lambda: asyncio.run(bounded())).result()
