@@ -26,7 +26,7 @@ from rotor.user_input import brief
 _log = logging.getLogger(__name__)
 
 BEAT = 0.05
-"""Time between steps [s]: a browser is asked to draw at most 20 times a second."""
+"""Time between steps of a clock [s]: a browser is asked to draw at most 20 times a second."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class TabContext:
 
 
 class Player:
-    """Play and pause; safe from any thread."""
+    """A clock that advances something in small steps, on a thread of its own while it plays; safe from any thread."""
 
     def __init__(self, step: Callable[[float], None], name: str) -> None:
         """`step` is called with the time [s] since its last call, or since play was pressed."""

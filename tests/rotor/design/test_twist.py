@@ -14,7 +14,6 @@ from rotor.design.twist import (
     IdealTwist,
     LinearTwist,
     PiecewiseLinearTwist,
-    QuadraticTwist,
     TwistLaw,
     ideal_tip_pitch,
     parse_twist,
@@ -151,11 +150,6 @@ def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
     with pytest.raises(ValueError, match=re.escape(words)) as caught:
         parse(f"table:{path}")
     assert "\n" not in str(caught.value)
-
-
-def test_twist_laws_equal_their_specs():
-    assert parse("linear:-8") == LinearTwist(math.radians(-8.0))
-    assert parse("quadratic:6,-14") == QuadraticTwist(math.radians(6.0), math.radians(-14.0))
 
 
 def test_ideal_tip_pitch_carries_the_thrust():

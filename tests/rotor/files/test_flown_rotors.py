@@ -176,10 +176,6 @@ def test_power_between_the_drag_areas(name: str):
     assert between_drag_areas(solve(make_design(rotor=name, hover=True)).require()) is None
 
 
-def test_a_rotor_with_one_drag_area_has_no_band():
-    assert between_drag_areas(solve(make_design(mu=0.2)).require()) is None
-
-
 @pytest.mark.parametrize(
     ("rotor", "stand", "said"),
     [

@@ -14,7 +14,7 @@ from rotor.__main__ import main
 from rotor.analysis.ideal_bound import bound_line, find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import design_from_record
-from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
+from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.search import Search, run_search
@@ -194,7 +194,3 @@ def test_rotor_flag(capsys: pytest.CaptureFixture[str], tmp_path):
     ):
         assert main(["solve", *words]) == 2
         assert says in capsys.readouterr().err
-
-
-def test_find_aircraft_prefers_the_shipped_name():
-    assert find_aircraft("uh60a") is shipped_aircraft("uh60a")
