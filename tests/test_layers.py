@@ -17,9 +17,9 @@ KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 ORDER = {
     "rotor": (
-        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "blas_threads", "plots", "assets",
-        "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation", "analysis",
-        "validation", "actuator", "study", "reproduce", "command",
+        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "spawn", "blas_threads", "plots",
+        "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation",
+        "analysis", "validation", "actuator", "study", "reproduce", "command",
     ),
     "explorer": (
         "web", "theme", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "scene",

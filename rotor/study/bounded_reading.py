@@ -8,10 +8,11 @@ import importlib
 import pickle
 import sys
 import threading
-from multiprocessing import get_context
+from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
 
+from rotor.spawn import start_process
 from rotor.study.results import Results, read_file
 from rotor.user_input import brief, shorten
 
@@ -24,11 +25,9 @@ _one_at_a_time = threading.Lock()
 
 def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: float = _PATIENCE) -> Results:
     """As `read_file`. ValueError also for a file that needs more memory [bytes] or time [s] to read."""
-    context = get_context("spawn")
     with _one_at_a_time:
-        ours, theirs = context.Pipe(duplex=False)
-        reader = context.Process(target=_read, args=(theirs, content, name, memory), name="parquet", daemon=True)
-        reader.start()
+        ours, theirs = Pipe(duplex=False)
+        reader = start_process(_read, (theirs, content, name, memory), "parquet")
         theirs.close()
         try:
             answer = pickle.loads(ours.recv_bytes()) if ours.poll(patience) else "it takes too long to read"
