@@ -250,8 +250,8 @@ def influence(line: Line, course: WakeCourse) -> Array:
         found = _seen(line, wake, targets, at, at, np.arange(blades), own)
         out[:, at] = found.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
 
-    # Without the interpreter lock, in two threads, which halve the wait for a new speed: more would take processors from
-    # the other pages. They end here, as a kept pool would hang in a forked process.
+    # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
+    # other pages. They end here, as a kept pool would hang in a forked process.
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(fill, range(m // blades)))
     return out.reshape(n * m, n * m)
