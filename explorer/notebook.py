@@ -6,7 +6,7 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.limits import ServerLimits
+from explorer.hosting.limits import ServerLimits, host_name
 from explorer.model.inputs import inputs_of
 from rotor.design.design import Design, require_design
 
@@ -14,13 +14,16 @@ _LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")
 """Where notebooks on this machine are shown."""
 _HEIGHT = 720
 """[px] of the page inside a notebook."""
+_PREFIX = "JUPYTERHUB_SERVICE_PREFIX"
+"""The path of a user's own server, set by JupyterHub."""
 
 
 class RunningPage:
     """A page in the background: its address, and a way to stop it. Jupyter shows it inline."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: App, hub: bool = False) -> None:
         self._app: App | None = app
+        self._hub = hub
         self.address = app.address
         atexit.register(self.stop)
 
@@ -37,29 +40,41 @@ class RunningPage:
     def _repr_html_(self) -> str:
         if self._app is None:
             return f"<p>The page at {self.address} is stopped.</p>"
-        if sentence := why_out_of_reach(self.address):
+        place = proxied_path(self.address) if self._hub else self.address
+        if not self._hub and (sentence := why_out_of_reach(self.address)):
             return f"<p>{sentence}</p>"
-        return f'<iframe src="{self.address}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+        return f'<iframe src="{place}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+
+
+def proxied_path(address: str) -> str:
+    """Where jupyter-server-proxy passes on a page of the notebook's machine: a path on the hub's own name."""
+    return f"{os.environ.get(_PREFIX, '/')}proxy/{_port(address)}/"
 
 
 def why_out_of_reach(address: str) -> str:
     """On JupyterHub, one sentence on how to reach a page that listens on the notebook's machine; else empty."""
-    if "JUPYTERHUB_SERVICE_PREFIX" not in os.environ:
+    if _PREFIX not in os.environ:
         return ""
-    port = address.rstrip("/").rpartition(":")[2]
+    port = _port(address)
     return (
-        f"This notebook runs on JupyterHub, and {address} is an address of that machine: forward the port with "
-        f"ssh -L {port}:127.0.0.1:{port} USER@HUB and open {address} here, or save the design and run "
-        "rotor-explorer --design FILE on your own machine."
+        f"This notebook runs on JupyterHub, and {address} is an address of that machine: where the hub has "
+        "jupyter-server-proxy, name the hub: explorer.show(design, hub='hub.example'); else forward the port: "
+        f"ssh -L {port}:127.0.0.1:{port} USER@HUB and open {address} here."
     )
 
 
-def start_page(design: Design, port: int, browser: bool | None) -> RunningPage:
+def _port(address: str) -> str:
+    return address.rstrip("/").rpartition(":")[2]
+
+
+def start_page(design: Design, port: int, browser: bool | None, hub: str | None) -> RunningPage:
     """Start the server on the design; see `explorer.show`."""
+    names = () if hub is None else (host_name(hub.removeprefix("https://").removeprefix("http://").partition("/")[0]),)
     start = inputs_of(require_design(design))
-    page = RunningPage(App("127.0.0.1", port, start, ServerLimits(frame_ancestors=_LOCAL)))
-    if browser or (browser is None and "ipykernel" not in sys.modules):
+    limits = ServerLimits(allow_hosts=names, frame_ancestors=_LOCAL)
+    page = RunningPage(App("127.0.0.1", port, start, limits), hub is not None)
+    if browser or (browser is None and hub is None and "ipykernel" not in sys.modules):
         webbrowser.open(page.address)
-    if sentence := why_out_of_reach(page.address):
+    if hub is None and (sentence := why_out_of_reach(page.address)):
         print(sentence)
     return page

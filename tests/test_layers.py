@@ -17,9 +17,9 @@ KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 ORDER = {
     "rotor": (
-        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "blas_threads", "plots", "assets",
-        "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation", "analysis",
-        "validation", "actuator", "study", "reproduce", "command",
+        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "spawn", "blas_threads", "plots",
+        "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation",
+        "analysis", "validation", "actuator", "study", "reproduce", "command",
     ),
     "explorer": (
         "web", "theme", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "scene",
@@ -199,8 +199,8 @@ def test_commits_are_checked_by_the_same_ruff():
     assert set(used) == {pinned[1]}
 
 
-MOST_MODULES = 304
-"""Of both packages together, 170 of them in `rotor`. A further one takes the place of another."""
+MOST_MODULES = 305
+"""Of both packages together, 171 of them in `rotor`. A further one takes the place of another."""
 
 
 def test_the_packages_stay_small():

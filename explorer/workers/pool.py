@@ -17,12 +17,14 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import Pipe
 from multiprocessing.connection import Connection, wait
 from typing import Any, Literal, Protocol
 
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")  # Before NumPy is loaded: its BLAS then makes no threads, which only hinder.
+
+from rotor.spawn import start_process  # noqa: E402
 
 _NICE = 5
 """Lower priority than the server, so that frames come before searches where processors are short."""
@@ -293,10 +295,8 @@ class WorkerThread(threading.Thread):
         if self.pid is not None and self._pipe is not None:
             return self._pipe
         self._drop()
-        context = get_context("spawn")
-        pipe, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
-        process.start()
+        pipe, theirs = Pipe()
+        process = start_process(serve, (theirs,), self.name)
         theirs.close()  # So that the pipe ends with the process.
         self._process, self._pipe = process, pipe
         if self._closed:

@@ -189,7 +189,7 @@ def table_3_1() -> Report:
     """The tail rotor."""
     loaded = {key: float(uh60a_data()["tail_rotor"][key]) for key in DOCUMENT_3_1}
     return _as_loaded(
-        "3.1", "Tail rotor as loaded, beside the thesis", DOCUMENT_3_1, loaded,
+        "3.1", "Input of the tail rotor, beside the thesis", DOCUMENT_3_1, loaded,
         "Twist −18° and section SC1095 stand in the thesis too; the tail rotor is solved by an energy method that "
         "needs neither.",
     )  # fmt: skip
@@ -202,7 +202,7 @@ def table_3_2() -> Report:
     sources = {**main, **main["document"], **data["airframe"]}
     loaded = {key: float(sources[key]) for key in DOCUMENT_3_2}
     return _as_loaded(
-        "3.2", "Main rotor and mass as loaded, beside the thesis", DOCUMENT_3_2, loaded,
+        "3.2", "Input of main rotor and mass, beside the thesis", DOCUMENT_3_2, loaded,
         "The thesis calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The flight preset uses "
         "measured blade mass and flap inertia instead of 13.92 kg/m.",
     )  # fmt: skip
@@ -217,7 +217,7 @@ def _as_loaded(number: str, caption: str, document: dict[str, float], loaded: di
         caption=f"{caption}.",
         statement="The numbers of the thesis, p. 25.",
         ours=f"{len(rows)} numbers loaded from assets/uh60a.toml; largest difference {100 * worst:.2g} %.",
-        verdict=Agreement.LOADED if worst == 0.0 else Agreement.DIFFERS,
+        verdict=Agreement.INPUT if worst == 0.0 else Agreement.DIFFERS,
         because=because,
         tables=(table("loaded", ("quantity", "document", "loaded"), rows, shown=True),),
         numbers={"largest_difference": worst},

@@ -134,8 +134,8 @@ ROWS = 60
 COLOURS = {
     Agreement.AGREES: "#1d7a46",
     Agreement.DIFFERS: "#b3452c",
-    Agreement.ALONE: "#5b6770",
-    Agreement.LOADED: "#5b6770",
+    Agreement.NO_REFERENCE: "#5b6770",
+    Agreement.INPUT: "#5b6770",
     Agreement.INDICATIVE: "#9a6b00",
 }
 
@@ -194,7 +194,9 @@ def _opening(title: str, kind: str = "") -> str:
 
 def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> str:
     counts = Counter(report.verdict for _, report in made)
-    summary = ", ".join(f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.ALONE)
+    summary = ", ".join(
+        f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.NO_REFERENCE
+    )
     checkable, captions = (sum(getattr(report, name) for _, report in made) for name in ("checkable", "caption_only"))
     drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
     rows = "".join(

@@ -40,9 +40,9 @@ class Agreement(Enum):
 
     AGREES = "agrees"
     DIFFERS = "differs"
-    ALONE = "stands alone"
+    NO_REFERENCE = "no reference"
     """Nothing was compared: the number of the thesis is not known, or there is no statement to test."""
-    LOADED = "as loaded"
+    INPUT = "input reproduced"
     """The numbers of the thesis are our input."""
     INDICATIVE = "indicative"
     """Compared with data of unclear origin or with another model: no verdict."""
@@ -112,7 +112,7 @@ class Report:
     @property
     def checkable(self) -> bool:
         """Whether anything of the thesis was compared or loaded."""
-        return self.verdict is not Agreement.ALONE
+        return self.verdict is not Agreement.NO_REFERENCE
 
     @property
     def caption_only(self) -> bool:
@@ -189,7 +189,7 @@ def card(
         number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
         statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
         "thesis are not.",
-        verdict=Agreement.ALONE, tables=tables if panels else (replace(data, shown=True),),
+        verdict=Agreement.NO_REFERENCE, tables=tables if panels else (replace(data, shown=True),),
     )  # fmt: skip
 
 

@@ -115,7 +115,7 @@ def today() -> Report:
         f"{found.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}, but one that moves saves only "
         f"{_saves(last.moving.gain)} beyond the best fixed blade ({_saves(first.moving.gain)} with the thesis' "
         "assumptions).",
-        verdict=Agreement.ALONE,
+        verdict=Agreement.NO_REFERENCE,
         because=SOURCES,
         tables=(
             table("answer", ("", ""), rows, shown=True),

@@ -17,7 +17,7 @@ import threading
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from multiprocessing import get_context
+from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from rotor.design.design import Design
 from rotor.design.retired import Tell, warn
+from rotor.spawn import start_process
 from rotor.study.chunks import CONVERGED, StudyProvenance, describe
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Study, Value, concept_with_breaks
@@ -347,11 +348,9 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
 
 def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: float = _PATIENCE) -> Results:
     """As `read_file`. ValueError also for a file that needs more memory [bytes] or time [s] to read."""
-    context = get_context("spawn")
     with _one_at_a_time:
-        ours, theirs = context.Pipe(duplex=False)
-        reader = context.Process(target=_read, args=(theirs, content, name, memory), name="parquet", daemon=True)
-        reader.start()
+        ours, theirs = Pipe(duplex=False)
+        reader = start_process(_read, (theirs, content, name, memory), "parquet")
         theirs.close()
         try:
             answer = pickle.loads(ours.recv_bytes()) if ours.poll(patience) else "it takes too long to read"

@@ -70,6 +70,22 @@ def test_on_jupyterhub_a_sentence_says_how_the_page_is_reached(
     page.stop()
 
 
+@pytest.mark.parametrize("named", ["hub.example", "https://hub.example/hub/home"])
+def test_on_a_jupyterhub_that_is_named_the_page_is_inline_by_its_path(
+    named: str, opened: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    """As jupyter-server-proxy passes it on; a path is of the hub's own origin, so the frame is allowed."""
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ann/")
+    page = explorer.show(rotor.make_design(), hub=named)
+    assert opened == []
+    assert '<iframe src="/user/ann/proxy/8765/"' in page._repr_html_()
+    assert FakeApp.made[0].limits.allow_hosts == ("hub.example",)
+    assert capsys.readouterr().out == ""
+    page.stop()
+    with pytest.raises(ValueError, match="is not a host name"):
+        explorer.show(rotor.make_design(), hub="a@b")
+
+
 def test_a_second_stop_does_nothing(opened: list[str]):
     page = explorer.show(rotor.make_design(), browser=False)
     page.stop()

@@ -17,6 +17,7 @@ tip. All are sums over the targets that see one rotor position: the loops run al
 """
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -242,11 +243,17 @@ def influence(line: Line, course: WakeCourse) -> Array:
     n, m, blades = line.panels, line.azimuths, line.blades
     wake, own = build_wake(line, course, line.psi), own_core(line, course)
     out = np.empty((n, m, n, m))
-    for position in range(m // blades):
+
+    def fill(position: int) -> None:
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])
         found = _seen(line, wake, targets, at, at, np.arange(blades), own)
         out[:, at] = found.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
+
+    # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
+    # other pages. They end here, as a kept pool would hang in a forked process.
+    with ThreadPoolExecutor(2) as pool:
+        list(pool.map(fill, range(m // blades)))
     return out.reshape(n * m, n * m)
 
 

@@ -88,7 +88,7 @@ def test_figure_3_9(report: Make):
 
 def test_table_3_1(report: Make):
     assert report("table 3.1").numbers["largest_difference"] == 0.0
-    assert report("table 3.1").verdict is Agreement.LOADED
+    assert report("table 3.1").verdict is Agreement.INPUT
 
 
 def test_table_3_2(report: Make):

@@ -14,7 +14,7 @@ Make = Callable[[str], Report]
 def alone(report: Make, number: str) -> Report:
     """No comparison without reference numbers."""
     one = report(number)
-    assert one.verdict is Agreement.ALONE
+    assert one.verdict is Agreement.NO_REFERENCE
     assert one.tables
     return one
 

@@ -51,7 +51,7 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     found = re.findall(r'<article id="([\w-]+)"', page)
     assert found == ["table-3_1", "table-3_2", "table-5_1"]
-    assert "2 checkable against the thesis (as loaded 2); 1 ours under its captions" in page
+    assert "2 checkable against the thesis (input reproduced 2); 1 ours under its captions" in page
     assert f"{len(DRAWINGS)} pictures of the thesis that show nothing" in page
 
 
