@@ -107,8 +107,7 @@ class ActuatorPanel:
         now = (inputs, design)
         self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._show_verdict(inputs, installed, question, design)
-        self._pay.show(question.pair, installed, question.share)
+        self._pay.show(question.pair, self._show_verdict(inputs, installed, question, design))
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
@@ -133,7 +132,7 @@ class ActuatorPanel:
 
     def _show_verdict(
         self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
-    ) -> None:
+    ) -> Verdict | None:
         outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
         outcome = outcomes[question.actuator]
         verdict = outcome if isinstance(outcome, Verdict) else None
@@ -150,6 +149,7 @@ class ActuatorPanel:
         root = design.rotor.blade.root_cutout
         places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
         self._verdict = verdict or self._verdict
+        return verdict
 
     def _draw(
         self,
