@@ -9,7 +9,7 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.disk_drawing import disk_svg
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
-from explorer.export.report.contents import DesignReport, ReportEntry, report_of
+from explorer.export.report.contents import DesignReport, JudgedActuator, ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
@@ -75,8 +75,10 @@ def power_file(state: SessionState, curves: PowerCurves) -> File:
     return File(f"{file_stem(design, 'power')}.csv", content)
 
 
-def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range: Range) -> DesignReport:
-    """The report of the present and the kept designs, compared with A or the baseline."""
+def session_report(
+    state: SessionState, kept: Sequence[KeptDesign], colour_range: Range, actuator: JudgedActuator | str = ""
+) -> DesignReport:
+    """The report of the present and the kept designs, compared with A or the baseline, and of the actuator chosen."""
     pinned, solution = state.pinned, state.solution
     if state.pin is None:
         reference = ReportEntry(baseline_title(solution.design), state.baseline)
@@ -90,7 +92,12 @@ def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range
         *(ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)),
     ]
     return report_of(
-        reference, entries, state.view, {state.view.field: colour_range}, own_section=state.pin is not None
+        reference,
+        entries,
+        state.view,
+        {state.view.field: colour_range},
+        own_section=state.pin is not None,
+        actuator=actuator,
     )
 
 

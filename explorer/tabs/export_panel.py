@@ -14,6 +14,7 @@ from PIL import Image
 from explorer.charts.power_curve import PowerCurves
 from explorer.export import files
 from explorer.export.files import File
+from explorer.export.report.contents import judged_actuator
 from explorer.model.session_state import SessionState
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.scene.controller import SceneController
@@ -21,6 +22,7 @@ from explorer.scene.still_scene import make_stage
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
+from rotor.actuator.verdict import Verdict
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
@@ -32,8 +34,15 @@ _WIDTH = 1920
 class ExportPanel(Tab):
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
-    def __init__(self, context: TabContext, scene: SceneController, history: HistoryPanel) -> None:
-        self._context, self._scene, self._history = context, scene, history
+    def __init__(
+        self,
+        context: TabContext,
+        scene: SceneController,
+        history: HistoryPanel,
+        actuator: Callable[[], Verdict | str],
+    ) -> None:
+        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
+        self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         self._stale = False
@@ -89,7 +98,10 @@ class ExportPanel(Tab):
 
     def _report(self, state: SessionState) -> File:
         view = replace(state.view, difference=False)
-        report = files.session_report(state, self._history.kept, self._scene.held_range(FIELDS[view.field]))
+        outcome = self._actuator()
+        actuator = outcome if isinstance(outcome, str) else judged_actuator(outcome)
+        colour_range = self._scene.held_range(FIELDS[view.field])
+        report = files.session_report(state, self._history.kept, colour_range, actuator)
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
         return files.report_file(report, stage, self._curves)
 

@@ -31,6 +31,7 @@ from rotor.actuator.electrical import drive
 from rotor.actuator.installation import InstalledActuator, with_actuator_mass
 from rotor.actuator.optimum import STATIONS, Baseline, ConditionPair, best_fixed, law_shapes, twisted
 from rotor.actuator.section import Host, default_placement
+from rotor.arrays import Array
 from rotor.dynamics.structure import uh60a_torsion
 from rotor.dynamics.torsion import Addition, stiffer_blade
 from rotor.optimisation.concepts import Concept
@@ -119,8 +120,8 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
     stiffness = sum(share * h for share, h in zip(shares, blade.curvatures, strict=True))
     resting = _mean(pair, rest) - 0.5 * offset**2 / stiffness
     swing, gross = 0.0, 0.0
-    (shape,) = derating * law_shapes(installed, pair.design)
-    phi = np.interp(r, STATIONS, shape)
+    shape: Array = derating * law_shapes(installed, pair.design)[0]
+    phi: Array = np.interp(r, STATIONS, shape)
     tip = float(np.ptp(shape))
     if tip > NOTHING:
         slope = float(phi @ before[1].by_element)
