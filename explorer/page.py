@@ -125,7 +125,7 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history)
+            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)

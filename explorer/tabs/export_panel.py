@@ -17,7 +17,7 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.disk_drawing import disk_svg
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
-from explorer.export.report.contents import DesignReport, ReportEntry, report_of
+from explorer.export.report.contents import DesignReport, JudgedActuator, ReportEntry, judged_actuator, report_of
 from explorer.export.report.document import report_html
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
@@ -32,6 +32,7 @@ from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.glossary import hint
 from explorer.text.readout import fineness
+from rotor.actuator.verdict import Verdict
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
@@ -90,8 +91,10 @@ def power_file(state: SessionState, curves: PowerCurves) -> File:
     return File(f"{file_stem(design, 'power')}.csv", content)
 
 
-def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range: Range) -> DesignReport:
-    """The report of the present and the kept designs, compared with A or the baseline."""
+def session_report(
+    state: SessionState, kept: Sequence[KeptDesign], colour_range: Range, actuator: JudgedActuator | str = ""
+) -> DesignReport:
+    """The report of the present and the kept designs, compared with A or the baseline, and of the actuator chosen."""
     pinned, solution = state.pinned, state.solution
     if state.pin is None:
         reference = ReportEntry(baseline_title(solution.design), state.baseline)
@@ -105,7 +108,12 @@ def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range
         *(ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)),
     ]
     return report_of(
-        reference, entries, state.view, {state.view.field: colour_range}, own_section=state.pin is not None
+        reference,
+        entries,
+        state.view,
+        {state.view.field: colour_range},
+        own_section=state.pin is not None,
+        actuator=actuator,
     )
 
 
@@ -137,8 +145,15 @@ def disk_drawing_file(state: SessionState, colour_range: Range) -> File:
 class ExportPanel(Tab):
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
-    def __init__(self, context: TabContext, scene: SceneController, history: HistoryPanel) -> None:
-        self._context, self._scene, self._history = context, scene, history
+    def __init__(
+        self,
+        context: TabContext,
+        scene: SceneController,
+        history: HistoryPanel,
+        actuator: Callable[[], Verdict | str],
+    ) -> None:
+        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
+        self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         self._stale = False
@@ -194,7 +209,10 @@ class ExportPanel(Tab):
 
     def _report(self, state: SessionState) -> File:
         view = replace(state.view, difference=False)
-        report = session_report(state, self._history.kept, self._scene.held_range(FIELDS[view.field]))
+        outcome = self._actuator()
+        actuator = outcome if isinstance(outcome, str) else judged_actuator(outcome)
+        colour_range = self._scene.held_range(FIELDS[view.field])
+        report = session_report(state, self._history.kept, colour_range, actuator)
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
         return report_file(report, stage, self._curves)
 

@@ -171,9 +171,7 @@ class _Task:
         self.segments = len(installed.shapes) if installed else 0
         self.shapes = np.zeros((0, len(STATIONS)))
         if installed:
-            shapes = installed.shapes_in(designs[0])
-            at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
-            self.shapes = derating * (at - reference)
+            self.shapes = derating * law_shapes(installed, designs[0])
         swings = list(ends) if ends is not None else self._swing_bounds(installed, orientation)
         self.bounds = self._jig_bounds() + swings
         self.low = np.array([low for low, _ in self.bounds])
@@ -251,6 +249,14 @@ class _Task:
 
     def _law(self, jig: TwistLaw, swings: Array) -> TwistLaw:
         return twisted(jig, swings @ self.shapes) if self.segments and np.any(swings) else jig
+
+
+def law_shapes(installed: InstalledActuator, design: Design) -> Array:
+    """What each segment's whole range adds to the design's twist law at STATIONS, zero at 0.75 R [rad], (segments,
+    stations)."""
+    shapes = installed.shapes_in(design)
+    at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
+    return at - reference
 
 
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:

@@ -7,6 +7,9 @@ the mass m of all blades together
     net(x, m, W) = gross(x) − cost(m) − W,   gross(x) = P_fixed − min over θ of [s₁ P₁(θ) + s₂ P₂(θ + x)]
 
 and the line is where net = 0. P_fixed is the best fixed blade, s the shares of time.
+
+The builds of the search are not read off that line: a ply over part of the span, or on a softer blade, saves more or
+less than its tip twist would along the whole blade. Each is trimmed (`rotor.actuator.estimate`).
 """
 
 import math
@@ -18,15 +21,14 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, actuators
-from rotor.actuator.electrical import drive
+from rotor.actuator.estimate import Estimate, estimate, host_blade
 from rotor.actuator.installation import InstalledActuator, heavier, install
-from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_fixed
+from rotor.actuator.optimum import Baseline, ConditionPair, baseline
 from rotor.actuator.section import Host, default_placement
 from rotor.actuator.verdict import Verdict, judge
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
-from rotor.dynamics.torsion import Addition, stiffer_blade
+from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation.concepts import find_concept
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -84,6 +86,10 @@ class BreakEven:
         """Gross saving of a range of twist [W], between trims by straight lines."""
         return float(np.interp(twist, self.twists, self.gross))
 
+    def twist_for(self, saving: float) -> float:
+        """Range of linear twist that saves this much [rad]; 0 for a loss, the whole range beyond the ideal saving."""
+        return float(np.interp(saving, self.gross, self.twists))
+
     def cost(self, mass: float) -> float:
         """Power that carrying a mass costs [W]; beyond the line with its last slope."""
         x, y = self.masses, self.gross
@@ -103,7 +109,7 @@ class BreakEven:
     def requirement(self) -> Requirement:
         """Twist for most of the ideal saving, and the mass and drive that share it evenly."""
         wanted = ENOUGH * self.ideal_saving
-        twist = float(np.interp(wanted, self.gross, self.twists))
+        twist = self.twist_for(wanted)
         return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
 
 
@@ -192,22 +198,11 @@ def with_mass(design: Design, mass: float) -> Design:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One build of an actuator, as the break-even line ranks it."""
+    """One build of an actuator, with what it saves and costs."""
 
     installed: InstalledActuator
-    hold: float
-    """Drive power held all the time [W]."""
-    stiffness_cost: float
-    """Of the blade's torsional stiffness, at rest, with its best fixed twist [W]."""
-    saving: float
-    """Of its twist by the break-even line [W]."""
-    mass_cost: float
-    """By the break-even line [W]."""
-
-    @property
-    def estimate(self) -> float:
-        """Net saving by the break-even line [W], an upper bound: a ply over part of the span saves less than it."""
-        return self.saving - self.mass_cost - self.hold - self.stiffness_cost
+    estimate: Estimate
+    """To second order, by trims of this build; nothing of it is read off the break-even line."""
 
     @property
     def earned(self) -> float:
@@ -216,7 +211,12 @@ class Candidate:
         Net savings alone would rank by mass, as the lightest build loses least. What a softer blade saves by itself is
         not credited: that needs no actuator.
         """
-        return self.saving / max(self.mass_cost + self.hold + max(self.stiffness_cost, 0.0), 1e-9)
+        one = self.estimate
+        return one.gross / max(one.mass_cost + one.drive_cost + max(one.stiffness_cost, 0.0), 1e-9)
+
+    @property
+    def pays(self) -> bool:
+        return self.earned > 1.0
 
     @property
     def name(self) -> str:
@@ -241,7 +241,7 @@ class PaySearch:
     candidates: tuple[Candidate, ...]
     """Those that earn most of their cost first; empty where the blade's structure is not known."""
     verdicts: tuple[Verdict, ...]
-    """Of the first candidates, judged by trims, best net saving first."""
+    """Of the first candidates, best net saving first."""
 
 
 PLIES = (1, 2, 4)
@@ -252,10 +252,10 @@ HOSTS = (Host("new", 1.0), Host("new", 0.5), Host("new", 0.25))
 
 
 def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = False) -> PaySearch:
-    """Search material, layers, span and stiffness for the net saving, against the break-even line.
+    """Search material, layers, span and stiffness for the build that earns most of what it costs.
 
-    Every build is ranked by the line and its stiffness; the first of each of `judged` actuators is judged by trims.
-    Without a known blade structure there is the line alone. Takes some ten seconds.
+    Every build is trimmed and its best twist found to second order; the first of each of `judged` actuators is judged
+    with a search of its own. Without a known blade structure there is the line alone. Takes some ten seconds.
     """
     even = break_even(pair)
     if pair.design.aircraft.key != KNOWN_BLADE or not even.worthwhile:
@@ -263,17 +263,16 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
     base = baseline(pair, find_concept("linear"))
     found: list[Candidate] = []
     for host in HOSTS:
-        stiffness = _stiffness_cost(base, host)
+        blade = host_blade(base, host)
         for actuator, plies, span in product(actuators().values(), PLIES, SPANS):
             if isinstance(actuator, ExtensionTwist):
                 continue  # It would need another rotor speed.
             try:
                 made = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
-            except ValueError:
-                continue  # The plies alone are stiffer than the blade.
-            hold = drive(made, (0.0,)).hold_power
-            twist = made.attainable * (made.derating if derated else 1.0)
-            found.append(Candidate(made, hold, stiffness, even.saving(twist), even.cost(made.masses.aircraft)))
+                one = estimate(made, blade, derating=made.derating if derated else 1.0)
+            except (ValueError, RuntimeError):
+                continue  # The plies alone are stiffer than the blade, or it does not trim.
+            found.append(Candidate(made, one))
     found.sort(key=lambda one: -one.earned)
     firsts: dict[str, Candidate] = {}
     for one in found:
@@ -285,19 +284,6 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
     return PaySearch(even, tuple(found), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)))
 
 
-def _stiffness_cost(base: Baseline, host: Host) -> float:
-    """Power that another torsional stiffness costs at rest [W], with the best fixed twist of its own."""
-    design = base.pair.design
-    if host.stiffness == 1.0 or not design.elastic:
-        return 0.0
-    low, high = (end * design.rotor.radius for end in default_placement().span)
-    nothing = Addition((low, high), 0.0, 0.0, 0.0)
-    structure = stiffer_blade(uh60a_torsion(design.rotor.radius), host.stiffness, nothing)
-    blade = replace(design.rotor.blade, structure=structure)
-    pair = replace(base.pair, design=replace(design, rotor=replace(design.rotor, blade=blade)))
-    return best_fixed(pair, base.concept, [base.fixed.values], alone=True).power - base.fixed.power
-
-
 def search_sentence(search: PaySearch) -> str:
     """How near the best build comes, in one line; empty without a search."""
     if not search.candidates:
@@ -305,10 +291,10 @@ def search_sentence(search: PaySearch) -> str:
     best = search.candidates[0]
     twist = math.degrees(best.installed.attainable)
     what = f"{best.name}: {twist:.1f}° for {best.mass:.0f} kg"
-    count, paying = len(search.candidates), sum(one.earned > 1.0 for one in search.candidates)
+    count, paying = len(search.candidates), sum(one.pays for one in search.candidates)
     if paying:
         return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost."
-    return f"None of {count} builds pays; nearest: {what}, saves at most {100.0 * best.earned:.0f} % of its cost."
+    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost."
 
 
 def pay_sentence(even: BreakEven) -> str:

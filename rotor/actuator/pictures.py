@@ -182,7 +182,7 @@ def _wall(spec: SectionSpec, installed: InstalledActuator) -> float:
 def break_even_charts(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> tuple[LineChart, LineChart]:
     """Mass that just pays over twist, and drive power that just pays over mass.
 
-    actuator: name, range of twist [rad] and mass of all blades [kg] of the one to show beside the line.
+    actuator: name, linear twist that saves as much [rad] and mass of all blades [kg] of the one beside the line.
     """
     half, twists, largest = 0.5 * even.ideal_saving, even.twists.tolist(), float(even.twists[-1])
     degrees = tuple(np.degrees(twists).tolist())
@@ -202,6 +202,6 @@ def break_even_charts(even: BreakEven, actuator: tuple[str, float, float] | None
         name, twist, mass = actuator
         lines.append(Series(name, (math.degrees(twist),), (mass,), "points", 2))
     return (
-        LineChart("Pays below the line", "range of tip twist [°]", "mass of all blades [kg]", tuple(lines)),
+        LineChart("Pays below the line", "range of linear twist [°]", "mass of all blades [kg]", tuple(lines)),
         LineChart("Pays below the line", "mass of all blades [kg]", "drive power [W]", powers),
     )

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import STEPS, ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven
+from rotor.actuator.pay import ENOUGH, BreakEven, Candidate
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import Concept, find_concept
+from rotor.terminal import wrapped
 
 NONE = "–"
 
@@ -28,16 +29,24 @@ class ActuatorTable:
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     notes: tuple[str, ...] = ()
+    keys: int = 1
+    """First columns that name a row: a table too wide for a line goes on below itself, with them again."""
 
-    def text(self) -> str:
-        """The table with aligned columns."""
-        widths = [max(len(row[k]) for row in (self.columns, *self.rows)) for k in range(len(self.columns))]
-        lines = [self.title, ""]
-        lines += [
-            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-            for row in (self.columns, *self.rows)
-        ]
-        return "\n".join([*lines, *(("", *self.notes) if self.notes else ())])
+    def text(self, width: int = 120) -> str:
+        """The table with aligned columns, in blocks of at most `width` letters."""
+        rows = (self.columns, *self.rows)
+        widths = [max(len(row[k]) for row in rows) for k in range(len(self.columns))]
+        names = list(range(self.keys))
+        blocks = [list(names)]
+        for k in range(self.keys, len(self.columns)):
+            if len(blocks[-1]) > self.keys and sum(widths[j] + 2 for j in blocks[-1]) + widths[k] > width:
+                blocks.append(list(names))
+            blocks[-1].append(k)
+        lines = [self.title]
+        for block in blocks:
+            lines.append("")
+            lines += ["  ".join(row[k].ljust(widths[k]) for k in block).rstrip() for row in rows]
+        return "\n".join([*lines, *(("", *map(wrapped, self.notes)) if self.notes else ())])
 
 
 def table_5_1() -> ActuatorTable:
@@ -161,7 +170,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
         "with unlimited twist in flight.",
     )
     return ActuatorTable(
-        f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes
+        f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes, keys=2
     )
 
 
@@ -173,8 +182,7 @@ def kilowatts(power: float) -> str:
 def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
     """What an actuator would have to be, a rotor a row."""
     columns = (
-        "rotor", "µ", "optima apart °", "unlimited twist saves kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W",
-        "mass ≤ kg, no drive",
+        "rotor", "µ", "optima apart °", "ideal kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W", "mass ≤ kg, no drive",
     )  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for even in lines:
@@ -190,7 +198,37 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
         rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
     notes = (
         f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
-        "unlimited twist saves over the best fixed blade) and all blades together gain no more than this mass while "
-        "it draws no more than this power; less of one allows more of the other. Mass alone: the last column.",
+        "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
+        "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
+        "column.",
     )
     return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)
+
+
+def builds_table(builds: Sequence[Candidate]) -> ActuatorTable:
+    """Builds with what they save and cost, in kW as `Verdict.savings` has them."""
+    columns = (
+        "build", "twist °", "used %", "kg", "gross", "stiffness", "mass", "drive", "net kW", "earns %",
+    )  # fmt: skip
+    rows = [
+        (
+            one.name,
+            f"{math.degrees(one.installed.attainable):.1f}",
+            f"{100.0 * abs(one.estimate.swing):.0f}",
+            f"{one.mass:.0f}",
+            *(
+                kilowatts(part)
+                for part in (
+                    one.estimate.gross, -one.estimate.stiffness_cost, -one.estimate.mass_cost,
+                    -one.estimate.drive_cost, one.estimate.net,
+                )
+            ),
+            f"{100.0 * one.earned:.0f}",
+        )
+        for one in builds
+    ]  # fmt: skip
+    notes = (
+        "Each build is trimmed, and its best twist found to second order: gross within a tenth of a full search on an "
+        "elastic blade. Earns: gross over mass, drive and what the stiffness costs.",
+    )
+    return ActuatorTable("Nearest builds", columns, tuple(rows), notes)

@@ -1,7 +1,7 @@
 """The grid of blade elements and azimuths, with the blade properties on it."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -115,6 +115,16 @@ def build_disk(
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
     `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count.
     """
+    # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
+    # of its own, because the modes of a blade are kept by its disk.
+    blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
+    return replace(_disk(replace(rotor, blade=blade), elements, azimuths, only_mach, swept, surface, fine_tip))
+
+
+@lru_cache(maxsize=16)
+def _disk(
+    rotor: Rotor, elements: int, azimuths: int, only_mach: float | None, swept: bool, surface: bool, fine_tip: bool
+) -> Disk:
     blade = rotor.blade
     edges, r = stations(blade.root_cutout, elements, fine_tip)
     psi = azimuths_of(azimuths)

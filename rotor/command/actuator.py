@@ -3,7 +3,6 @@
 import argparse
 import json
 import math
-import textwrap
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -16,15 +15,16 @@ from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
 from rotor.actuator.pictures import break_even_charts
 from rotor.actuator.section import BladeKind, Host, Placement, default_placement
-from rotor.actuator.tables import ActuatorTable, pay_table, table_5_1, table_5_2
+from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
-from rotor.command.common import add_command, add_design_arguments, design_from, finite
+from rotor.command.common import add_command, add_design_arguments, design_from, finite, short_spec
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.line_chart import draw
 from rotor.optimisation.concepts import find_concept
+from rotor.terminal import wrapped
 from rotor.user_input import check_suffix, check_writable, write_whole
 
 
@@ -197,7 +197,7 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
-    twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
+    twists = [short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
     tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
     saved = verdict.fuel_saving
     fuel = (
@@ -205,9 +205,9 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     )
     lines = [
         verdict_sentence(verdict),
-        *textwrap.wrap(verdict_details(verdict), 120),
+        wrapped(verdict_details(verdict)),
         "",
-        f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
+        wrapped(f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)", " " * 30),
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
         "",
         f"savings against {reference(verdict)}",
@@ -222,7 +222,7 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         f"torsion           {installed.frequency:8.2f} /rev",
         f"added mass        {masses.aircraft:8.1f} kg  ({masses.blade:.1f} per blade, "
         f"{masses.balance:.1f} of it nose weight)",
-        f"drive             {verdict.drive.slew_power:8.1f} W during a change of {verdict.drive.slew_time:.0f} s, "
+        f"drive             {verdict.drive.slew_power:8.0f} W during a change of {verdict.drive.slew_time:.0f} s, "
         f"{verdict.drive.hold_power:.0f} W to hold",
     ]
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
@@ -238,13 +238,16 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         softer = f", while the other stiffness costs {cost / 1e3:.1f} kW" if abs(cost) >= PRINTED else ""
         lines += [
             "",
-            f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
-            f"±{math.degrees(turned.dynamic.amplitude):.2f}°{at_rest}, {100 * turned.share:.0f} % used, saves "
-            f"{turned.wave_saving / 1e3:.1f} kW{softer}; {left} its mass and losses. Not validated: no measured power "
-            "benefit of active twist was found.",
+            wrapped(
+                f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
+                f"±{math.degrees(turned.dynamic.amplitude):.2f}°{at_rest}, {100 * turned.share:.0f} % used, saves "
+                f"{turned.wave_saving / 1e3:.1f} kW{softer}; {left} its mass and losses. Not validated: no measured "
+                "power benefit of active twist was found."
+            ),
         ]
-    lines += ["", *(f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)]
-    return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
+    met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
+    lines += ["", *(wrapped(one, " " * 9) for one in met)]
+    return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])
 
 
 ROTORS = (*SHIPPED_ROTORS, "hart2")
@@ -260,8 +263,9 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
     if args.plot is not None:
         best = None
         if first.candidates:
-            one = first.candidates[0].installed
-            best = (one.actuator.name, one.attainable, one.masses.aircraft)
+            one = first.candidates[0]
+            worth = first.even.twist_for(one.estimate.gross - one.estimate.stiffness_cost)
+            best = (one.installed.actuator.name, worth, one.mass)
         write_whole(args.plot, draw(break_even_charts(first.even, best)[0]))
     if args.json:
         records = [pay_record(search) for search in searches]
@@ -269,19 +273,17 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
         return 0
     print(pay_table([search.even for search in searches]).text())
     if args.what_would_pay == "this":
-        print("\n" + pay_sentence(first.even))
-        print(*filter(None, [search_sentence(first)]), *_builds(first), sep="\n")
+        print()
+        print(*map(wrapped, filter(None, [pay_sentence(first.even), search_sentence(first)])), sep="\n")
+        print(*_builds(first), sep="\n")
     return 0
 
 
 def _builds(search: PaySearch) -> list[str]:
-    lines = [
-        f"  {one.name}: {math.degrees(one.installed.attainable):.2f}°, {one.mass:.0f} kg, saves {one.saving:.0f} W, "
-        f"{100.0 * one.earned:.0f} % of its cost, net {one.estimate:.0f} W"
-        for one in search.candidates[:5]
-    ]
-    judged = [f"  {verdict.installed.actuator.id}: {verdict_sentence(verdict)}" for verdict in search.verdicts]
-    return [*lines, *(["by trims"] if judged else []), *judged]
+    if not search.candidates:
+        return []
+    judged = [wrapped(f"{one.installed.actuator.id}: {verdict_sentence(one)}", "  ") for one in search.verdicts]
+    return ["", builds_table(search.candidates[:5]).text(), *(["", "By full search"] if judged else []), *judged]
 
 
 def pay_record(search: PaySearch) -> dict[str, Any]:
@@ -304,8 +306,10 @@ def pay_record(search: PaySearch) -> dict[str, Any]:
             {
                 "actuator": one.installed.actuator.id, "plies": one.installed.placement.plies,
                 "span_r": list(one.installed.placement.span), "blade": one.installed.host.label,
-                "twist_deg": math.degrees(one.installed.attainable), "mass_kg": one.mass, "saving_w": one.saving,
-                "net_saving_w": one.estimate,
+                "twist_deg": math.degrees(one.installed.attainable), "swing": one.estimate.swing, "mass_kg": one.mass,
+                "gross_saving_w": one.estimate.gross, "stiffness_cost_w": one.estimate.stiffness_cost,
+                "mass_cost_w": one.estimate.mass_cost, "drive_cost_w": one.estimate.drive_cost,
+                "net_saving_w": one.estimate.net,
             }
             for one in search.candidates
         ],
@@ -318,8 +322,7 @@ def _show(table: ActuatorTable, as_json: bool) -> None:
 
 
 def _kw(power: float) -> str:
-    """Kilowatts with two decimals, without negative zero."""
-    return f"{round(power / 1e3, 2) + 0.0:8.2f} kW"
+    return f"{kilowatts(power):>8} kW"
 
 
 def _host(kind: BladeKind, stiffness: float | None) -> Host:

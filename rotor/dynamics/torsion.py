@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh, solveh_banded
 
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.design.structure import BladeStructure
 
 ELEMENTS = 240
@@ -172,7 +173,8 @@ def torsion_modes(beam: TorsionBeam, count: int) -> TorsionModes:
     stiffness, mass = _matrices(beam)
     held = math.isinf(beam.control_stiffness)
     matrices = [_dense(band)[1:, 1:] if held else _dense(band) for band in (stiffness, mass)]
-    squares, vectors = eigh(*matrices, subset_by_index=[0, count - 1])
+    with one_blas_thread():
+        squares, vectors = eigh(*matrices, subset_by_index=[0, count - 1])
     shape = np.pad(vectors.T, ((0, 0), (1, 0))) if held else vectors.T
     tip = shape[:, -1]
     return TorsionModes(beam.r, shape / tip[:, None], np.sqrt(np.maximum(squares, 0.0)), 1.0 / tip**2, beam.pull)

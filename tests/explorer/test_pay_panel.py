@@ -10,11 +10,14 @@ import pytest
 
 from explorer.tabs.actuator.pay_panel import PayAnswer, PayTask, drive_chart, mass_chart, pay_panel
 from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.estimate import Estimate
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, Candidate
 from rotor.actuator.section import Host, default_placement
+from rotor.actuator.verdict import judge
 from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
 
 DESIGN = make_design(inflow="drees")
 
@@ -33,12 +36,12 @@ def built(plies: int = 2) -> InstalledActuator:
 
 
 def answer(line: BreakEven | None = None) -> PayAnswer:
-    builds = tuple(Candidate(built(n), 0.0, 100.0, 2000.0, 900.0 * n) for n in (1, 2))
+    builds = tuple(Candidate(built(n), Estimate(1.0, 2000.0, 100.0, 900.0 * n, 0.0)) for n in (1, 2))
     return PayAnswer(line or even(), ("Pays if it twists.", "None of 2 builds pays."), builds)
 
 
 def test_the_panel_holds_sentence_charts_and_builds():
-    html = pay_panel(answer(), built(), 1.0)
+    html = pay_panel(answer(), None)
     assert "<b>Pays if it twists.</b>" in html
     assert 'data-explorer="pay-mass"' in html
     assert 'data-explorer="pay-drive"' in html
@@ -50,26 +53,32 @@ def test_the_panel_holds_sentence_charts_and_builds():
     assert ">+1.0</td>" in html  # 2000 − 900 − 100 W
     assert ">200</td>" in html  # of its cost
     assert "find again" not in html
-    assert "find again" in pay_panel(answer(), built(), 1.0, stale=True)
+    assert "find again" in pay_panel(answer(), None, stale=True)
     assert min(int(size) for size in re.findall(r'font-size="(\d+)"', html)) >= 12
 
 
-def test_the_point_stands_on_its_side_of_the_line():
-    """Red above the line, green below; its numbers are those of the actuator."""
-    made = built()
-    heavy = mass_chart(even(), made, 1.0)
-    assert "var(--rx-bad)" in heavy
-    assert f"{math.degrees(made.attainable):.1f}°, {made.masses.aircraft:.0f} kg" in heavy
-    light = replace(made, masses=replace(made.masses, actuator=0.5, wiring=0.0, balance=0.0, electronics=0.0))
-    assert "#0ca678" in mass_chart(even(), light, 1.0).split("<circle", 1)[1]
-    circle, edge = (re.search(pattern, heavy) for pattern in (r'cy="([\d.]+)" r', r'<polyline points="[\d.]+,([\d.]+)'))
+def test_the_point_is_what_the_verdict_says():
+    """Red where it does not pay; it stands at the linear twist that saves as much as the plies do."""
+    design = make_design(inflow="drees", elements=16, azimuths=36)
+    pair = ConditionPair(design, (0.0, 0.3))
+    judged = judge(find_actuator("MFC_P1"), pair, find_concept("linear"), default_placement(2), Host("new", 0.5))
+    line = replace(even(4000.0), pair=pair)
+    drawn = mass_chart(line, judged)
+    assert judged.net_saving < 0.0
+    assert "var(--rx-bad)" in drawn
+    worth = math.degrees(line.twist_for(judged.gross_saving - judged.stiffness_cost))
+    assert 0.0 < worth < 4.0
+    assert f"worth {worth:.1f}°, {judged.installed.masses.aircraft:.0f} kg" in drawn
+    assert "MFC P1 does not pay" in drawn
+    assert "<circle" not in mass_chart(line, None)
+    circle, edge = (re.search(pattern, drawn) for pattern in (r'cy="([\d.]+)" r', r'<polyline points="[\d.]+,([\d.]+)'))
     assert circle is not None
     assert edge is not None
     assert float(circle[1]) < float(edge[1])  # Higher on the page: more mass.
 
 
 def test_no_chart_where_nothing_is_to_be_saved():
-    html = pay_panel(answer(even(10.0)), built(), 1.0)
+    html = pay_panel(answer(even(10.0)), None)
     assert "<svg" not in html
 
 

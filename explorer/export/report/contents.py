@@ -12,6 +12,8 @@ from explorer.model.units import UNITS, Units
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
 from explorer.theme.colours import BASELINE
+from rotor.actuator.flight import ActuatorFlight, fly
+from rotor.actuator.verdict import Verdict
 from rotor.trim.solution import Solution
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
@@ -31,6 +33,23 @@ class ReportEntry:
 
 
 @dataclass(frozen=True, eq=False)
+class JudgedActuator:
+    """The actuator of a report."""
+
+    verdict: Verdict
+    flight: ActuatorFlight | str
+    """Over the standard flight, or the sentence that says why there is none."""
+
+
+def judged_actuator(verdict: Verdict) -> JudgedActuator:
+    """Fly the actuator of a verdict; a second or two."""
+    try:
+        return JudgedActuator(verdict, fly(verdict))
+    except RuntimeError as error:
+        return JudgedActuator(verdict, str(error))
+
+
+@dataclass(frozen=True, eq=False)
 class DesignReport:
     """The content of a report."""
 
@@ -44,6 +63,8 @@ class DesignReport:
     """Colour range by title of the field, where it is not the default; the same for all designs."""
     own_section: bool = False
     """Whether the reference is the user's own design, which is shown like the others."""
+    actuator: JudgedActuator | str = ""
+    """The actuator chosen for the first design, or why there is no verdict on it; empty where none was chosen."""
 
     @property
     def units(self) -> Units:
@@ -87,6 +108,7 @@ def report_of(
     ranges: Mapping[str, Range] | None = None,
     *,
     own_section: bool = False,
+    actuator: JudgedActuator | str = "",
 ) -> DesignReport:
     """A report of these designs; ValueError where there is none, or where one did not converge."""
     if not entries:
@@ -96,7 +118,13 @@ def report_of(
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
     installed = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
     return DesignReport(
-        reference, tuple(entries), view, datetime.now().astimezone(), {**installed, **(ranges or {})}, own_section
+        reference=reference,
+        entries=tuple(entries),
+        view=view,
+        when=datetime.now().astimezone(),
+        ranges={**installed, **(ranges or {})},
+        own_section=own_section,
+        actuator=actuator,
     )
 
 

@@ -15,7 +15,8 @@ from explorer import web
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
-from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, report_of
+from explorer.export.report.actuator import actuator_section
+from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, judged_actuator, report_of
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
@@ -23,7 +24,9 @@ from explorer.text.design_words import flight_words, model_words, title_words, w
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
+from rotor.actuator.verdict import try_actuator
 from rotor.design.design import Design
+from rotor.dynamics.structure import check_blade
 from rotor.files.design_file import load_design
 from rotor.terminal import run_command
 from rotor.trim.solution import Solution
@@ -40,6 +43,7 @@ def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
         _stage(report, stage),
         tables.comparison(report),
         figures.overview(report, curves or PowerCurves()),
+        actuator_section(report.actuator, report.units),
     ]
     sections = [_section(report, k) for k in range(len(report.shown))]
     rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in versions().items())
@@ -150,8 +154,16 @@ def _run(options: argparse.Namespace) -> int:
     entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
     view = ViewState(field=options.field)
     first = entries[0].solution.design
+    baseline = ReportEntry(baseline_title(first), solve(baseline_of(first)))
+    if options.actuator:
+        check_blade(first.aircraft)
     try:
-        report = report_of(ReportEntry(baseline_title(first), solve(baseline_of(first))), entries, view)
+        chosen = judged_actuator(try_actuator(options.actuator, first)) if options.actuator else ""
+    except RuntimeError as error:
+        print(f"explorer report: {error}", file=sys.stderr)
+        return 1
+    try:
+        report = report_of(baseline, entries, view, actuator=chosen)
     except ValueError as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1
@@ -179,6 +191,11 @@ def _parser() -> argparse.ArgumentParser:
         help="design files (JSON); changes count from the first one's baseline twist",
     )
     parser.add_argument("--out", default="report.html", metavar="FILE", help="where to write (default report.html)")
+    parser.add_argument(
+        "--actuator",
+        metavar="ID",
+        help="judge it on the first design, hover and µ 0.3 (list: rotor actuator --table 5.1)",
+    )
     parser.add_argument(
         "--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=f"in 3D: {', '.join(FIELDS)}"
     )

@@ -37,13 +37,13 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
     for entry, colour in reversed(pairs):
         mark: Mark = "dashed" if entry is report.reference else "line"
         solution = entry.solution
-        twist.append(_series(entry.title, r, np.degrees(solution.design.twist(r)), mark, colour))
-        load.append(_series(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, mark, colour))
+        twist.append(series(entry.title, r, np.degrees(solution.design.twist(r)), mark, colour))
+        load.append(series(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, mark, colour))
     seen = [y for one in power for x, y in zip(one.x, one.y, strict=True) if x <= 0.4 and math.isfinite(y)]
     y_range, unit = held_range(None, 0.0, max(seen, default=1.0)), report.units.power[0].symbol
     speed, speeds, along_r = "advance ratio µ", (-0.01, 0.46), (0.1, 1.01)
     changes = [one for entry, colour in pairs for one in _change(report, entry, colour, curves)]
-    zero = _series("", np.array(speeds), np.zeros(2), "dashed", BASELINE)
+    zero = series("", np.array(speeds), np.zeros(2), "dashed", BASELINE)
     against = f"vs. {report.reference.title} [%]"
     charts = [
         LineChart("Power over advance ratio", f"{speed}; hover as a point", f"total power [{unit}]", tuple(power),
@@ -65,7 +65,7 @@ def figure(chart: LineChart) -> str:
     return f'<figure class="chart">{title}{draw(chart, inline=True)}</figure>'
 
 
-def _series(label: str, x: Array, y: Array, mark: Mark, colour: str) -> Series:
+def series(label: str, x: Array, y: Array, mark: Mark, colour: str) -> Series:
     return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
 
 
@@ -79,12 +79,12 @@ def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerC
     here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
     total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
     found = [
-        _series(entry.title, *_smooth(total), "dashed" if is_reference else "line", colour),
-        _series("", mu[:1], total[:1], "points", colour),
+        series(entry.title, *_smooth(total), "dashed" if is_reference else "line", colour),
+        series("", mu[:1], total[:1], "points", colour),
     ]
     if entry is report.entries[0]:
-        found.insert(0, _series("ideal for its lift", *_smooth(ideal), "dashed", IDEAL))
-    return found if is_reference else [*found, _series("", *here, "points", colour)]
+        found.insert(0, series("ideal for its lift", *_smooth(ideal), "dashed", IDEAL))
+    return found if is_reference else [*found, series("", *here, "points", colour)]
 
 
 def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Series]:
@@ -96,8 +96,8 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
     curve = curves.known(design, reference)
     change = 100.0 * (curve.design / curve.reference - 1.0)
     return [
-        _series(entry.title, *_smooth(change), "line", colour),
-        _series("", np.array(SWEEP[:1]), change[:1], "points", colour),
+        series(entry.title, *_smooth(change), "line", colour),
+        series("", np.array(SWEEP[:1]), change[:1], "points", colour),
     ]
 
 
@@ -150,10 +150,10 @@ def along(solution: Solution) -> str:
         lower, upper, angle = plots.angles_along(solution, float(degrees))
         if degrees == 270:
             names = zip(("stall at ψ 270°", ""), (lower, upper), strict=True)
-            alpha += [_series(name, r, limit, "dashed", BASELINE) for name, limit in names]
-        alpha.append(_series(f"ψ {degrees}°", r, angle, "line", colour))
+            alpha += [series(name, r, limit, "dashed", BASELINE) for name, limit in names]
+        alpha.append(series(f"ψ {degrees}°", r, angle, "line", colour))
         cl = np.where(np.isfinite(angle), plots.lift_along(solution, float(degrees)), math.nan)
-        lift.append(_series(f"ψ {degrees}°", r, cl, "line", colour))
+        lift.append(series(f"ψ {degrees}°", r, cl, "line", colour))
     x_label, x_range = "r/R; reverse flow omitted", (0.1, 1.01)
     charts = [
         LineChart("Angle of attack", x_label, "α [°]", tuple(alpha), x_range=x_range, y_range=(-15.0, 20.0)),

@@ -5,7 +5,7 @@ import viser
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.actuator_tasks import FlightTask, PoolAnswers, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_tasks import FlightTask, Outcome, PoolAnswers, answer, sweep_task, verdict_tasks
 from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
 from explorer.tabs.actuator.flight_bar import FlightBar
 from explorer.tabs.actuator.lifted_picture import (
@@ -41,6 +41,8 @@ class ActuatorPanel:
         self._blade = LiftedScene(context.client, context.bridge)
         self.lifted = False
         """Whether the blade is wanted outside the rotor."""
+        self._opened = False
+        """Whether it ever was."""
         self._radius = 1.0
         # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
         self._verdicts = PoolAnswers(context.pool, 5, context.wake)
@@ -71,8 +73,20 @@ class ActuatorPanel:
         """Whether this rotor's blade is known well enough to carry an actuator."""
         return self._context.inputs().aircraft.key == KNOWN_BLADE
 
+    def outcome(self) -> Outcome:
+        """The verdict on the actuator and the design of the sliders, or why there is none, worked out where it is not
+        known; empty while nobody has opened Actuate."""
+        if not (self._opened and self.fits):
+            return ""
+        try:
+            question = question_of(self.inputs(), self._context.inputs().design())
+        except ValueError as error:
+            return str(error)
+        return self._verdicts.answer(verdict_tasks(question)[0]) or answer(question)
+
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
+        self._opened = self._opened or out
         self.lifted = out
         if out:
             self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
@@ -107,8 +121,7 @@ class ActuatorPanel:
         now = (inputs, design)
         self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._show_verdict(inputs, installed, question, design)
-        self._pay.show(question.pair, installed, question.share)
+        self._pay.show(question.pair, self._show_verdict(inputs, installed, question, design))
 
     def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
         task = sweep_task(inputs, design)
@@ -133,7 +146,7 @@ class ActuatorPanel:
 
     def _show_verdict(
         self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
-    ) -> None:
+    ) -> Verdict | None:
         outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
         outcome = outcomes[question.actuator]
         verdict = outcome if isinstance(outcome, Verdict) else None
@@ -150,6 +163,7 @@ class ActuatorPanel:
         root = design.rotor.blade.root_cutout
         places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
         self._verdict = verdict or self._verdict
+        return verdict
 
     def _draw(
         self,

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from explorer.model.inputs import Inputs
-from explorer.model.units import Units, number
+from explorer.model.units import Units
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.actuator_tasks import flight_legs
 from explorer.tabs.context import TabContext
+from explorer.text.balance import balance, fuel_used, fuel_words, pair_words, signed
 from rotor.actuator.flight import ActuatorFlight, FlightLeg
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.verdict import Verdict, reference, verdict_sentence
@@ -23,7 +24,6 @@ from rotor.line_chart import round_ticks
 
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
-_SECONDS = 3600.0
 _LEAST = math.radians(1.5)
 """Least height of the chart either way [rad]: with little twist the curves do not fill it."""
 
@@ -99,20 +99,15 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
             "sentence": sentence,
         }  # fmt: skip
     unit, net = units.power[0], verdict.net_saving
-    bars = [
-        _bar(name if not k else f"− {name}", power, units, False) for k, (name, power) in enumerate(verdict.savings)
-    ]
-    bars.append(_bar("= net", net, units, True))
-    first, second = verdict.baseline.pair.advance_ratios
-    fuel, caveats = verdict.fuel_saving, " ".join(text for text in verdict.caveats if "uel" in text)
-    used = None if fuel is None else -_SECONDS * fuel
+    bars = [_bar(name, power, units, name == "= net") for name, power in balance(verdict)]
+    used, caveats = fuel_used(verdict), " ".join(text for text in verdict.caveats if "uel" in text)
     return {
         "kind": kind,
         "unit": unit.symbol,
-        "where": f"mean of µ {first:g} and µ {second:g}",
+        "where": pair_words(verdict),
         "bars": bars,
         "against": reference(verdict).removeprefix("the "),
-        "fuel": "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour",
+        "fuel": fuel_words(verdict),
         "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         "fuel_note": caveats,
         "net": f"{signed(net, units)} {unit.symbol}",
@@ -126,11 +121,6 @@ def _bar(name: str, power: float, units: Units, total: bool) -> dict[str, Any]:
     text = signed(power, units)
     kind = {"−": "loss", "+": "gain"}.get(text[0], "")
     return {"name": name, "value": round(units.power[0].of(power), 3), "text": text, "kind": kind, "total": total}
-
-
-def signed(power: float, units: Units) -> str:
-    """A saving [W] in the main unit, with one decimal."""
-    return number(units.power[0].of(power), 1, sign=True)
 
 
 class FlightBar:

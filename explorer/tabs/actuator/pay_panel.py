@@ -16,7 +16,6 @@ from explorer.model.units import number
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.glossary import hint
-from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import (
     BreakEven,
@@ -27,6 +26,7 @@ from rotor.actuator.pay import (
     search_sentence,
     what_would_pay,
 )
+from rotor.actuator.verdict import Verdict
 from rotor.line_chart import round_ticks, tick_text
 
 _LIMIT = 300.0
@@ -78,8 +78,8 @@ class PayPanel:
             self._html = context.gui.add_html(start_panel())
         self._button.on_click(lambda _: self._ask())
 
-    def show(self, pair: ConditionPair, installed: InstalledActuator, share: float) -> None:
-        """Follow the design; `share` of the nominal twist is counted."""
+    def show(self, pair: ConditionPair, verdict: Verdict | None) -> None:
+        """Follow the design; `verdict` on its actuator, once there is one."""
         now = PayTask(pair)
         if self._wanted:
             self._wanted, self._asked = False, now
@@ -94,7 +94,7 @@ class PayPanel:
         if isinstance(answer, str):
             content = f'<div class="rx rx-small" data-explorer="pay" data-kind="problem">{escape(answer)}</div>'
         elif isinstance(answer, PayAnswer):
-            content = pay_panel(answer, installed, share, stale=task != now)
+            content = pay_panel(answer, verdict, stale=task != now)
         if content != self._sent:
             self._sent = content
             self._html.content = content
@@ -125,14 +125,14 @@ def wait_panel() -> str:
     )
 
 
-def pay_panel(answer: PayAnswer, installed: InstalledActuator, share: float, *, stale: bool = False) -> str:
+def pay_panel(answer: PayAnswer, verdict: Verdict | None, *, stale: bool = False) -> str:
     """Sentences, both charts and the nearest builds."""
     lead, *more = answer.sentences
     old = '<div class="rx-dim">Of an earlier design or pair of conditions: find again.</div>' if stale else ""
     body = "".join(f"<div>{escape(one)}</div>" for one in more)
     charts = ""
     if answer.even.worthwhile:
-        charts = mass_chart(answer.even, installed, share) + drive_chart(answer.even)
+        charts = mass_chart(answer.even, verdict) + drive_chart(answer.even)
     faded = " rx-faded" if stale else ""
     return (
         f'<div class="rx rx-small{faded}" data-explorer="pay" data-kind="ready">{old}<b>{escape(lead)}</b>{body}'
@@ -149,9 +149,9 @@ def _table(builds: tuple[Candidate, ...]) -> str:
         name = one.name.replace(" × ", _KEPT_SPACE.join(("", "×", ""))).replace(" R", f"{_KEPT_SPACE}R")
         rows += f"<tr><td>{escape(name)}</td>"
         rows += "".join(f"<td>{number(value, places)}</td>" for value, places in cells)
-        rows += f'<td class="{"rx-less" if one.estimate > 0.0 else "rxa-bad"}">'
-        rows += f"{number(1e-3 * one.estimate, 1, sign=True)}</td></tr>"
-    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>earns<br>≤ %</th><th>net<br>≤ kW</th></tr>"
+        net = one.estimate.net
+        rows += f'<td class="{"rx-less" if net > 0.0 else "rxa-bad"}">{number(1e-3 * net, 1, sign=True)}</td></tr>'
+    head = "<tr><th>nearest builds</th><th>°</th><th>kg</th><th>earns<br>%</th><th>net<br>kW</th></tr>"
     return f'<table class="rxa-table rxa-pay" data-explorer="pay-builds">{head}{rows}</table>'
 
 
@@ -200,15 +200,18 @@ class _Frame:
         )
 
 
-def mass_chart(even: BreakEven, installed: InstalledActuator, share: float) -> str:
-    """Break-even mass over twist, with the present actuator as a point; mass on a logarithmic scale."""
-    twist, mass = math.degrees(share * installed.attainable), installed.masses.aircraft
+def mass_chart(even: BreakEven, verdict: Verdict | None) -> str:
+    """Break-even mass over twist, with the present actuator as a point; mass on a logarithmic scale.
+
+    The point stands at the linear twist that saves as much over the best fixed blade as the actuator's own twist does,
+    with its stiffness counted: tip twist alone does not say what a shape is worth.
+    """
     largest = float(even.masses[-1])
-    most = max(mass, largest)
+    mass = 0.0 if verdict is None else verdict.installed.masses.aircraft
     frame = _Frame(
-        1.08 * max(math.degrees(float(even.twists[-1])), twist),
+        1.08 * math.degrees(float(even.twists[-1])),
         10.0 ** math.floor(math.log10(0.05 * largest)),
-        2.0 * most,
+        2.0 * max(mass, largest),
         True,
     )
     fine = np.linspace(0.0, float(even.twists[-1]), 60)[1:]
@@ -220,23 +223,33 @@ def mass_chart(even: BreakEven, installed: InstalledActuator, share: float) -> s
     drawn = polygon([*edge, right, *floor], 'fill="#0ca678" fill-opacity=".13"')
     drawn += _path([*edge, right], "") + _path(half, 'stroke-dasharray="4 3"')
     drawn += words(frame.at(0.72 * frame.x_most, 0.28 * largest), "pays")
-    place = frame.at(twist, mass) if mass else frame.at(twist, frame.y_low)
-    paid = mass <= even.mass_allowed(math.radians(twist))
-    name = installed.actuator.id.replace("_", " ")
-    right_half = place[0] > 0.6 * _WIDE
-    colour = "#0ca678" if paid else "var(--rx-bad)"
-    drawn += f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="4.5" fill="{colour}"/>'
-    drawn += words(
-        (place[0] + (-9.0 if right_half else 9.0), place[1] + 4.0),
-        f"{name}: {twist:.1f}°, {mass:.0f} kg",
-        "end" if right_half else "start",
-    )
-    said = f"Mass that pays over twist; {name} {'pays' if paid else 'does not pay'}"
+    said = "Mass that pays over twist"
+    if verdict is not None:
+        drawn += _point(frame, even, verdict)
+        said += f"; {_id(verdict)} {'pays' if verdict.net_saving > 0.0 else 'does not pay'}"
     key = (
         '<div class="rx-dim">Line: no drive power. Dashed: half of what unlimited twist saves goes to the drive. '
+        "Point: the linear twist that saves as much as this actuator, its stiffness counted. "
         "Earns: what its twist saves over what it costs.</div>"
     )
-    return frame.draw("range of tip twist [°]", "mass, all blades [kg]", drawn, "pay-mass", said) + key
+    return frame.draw("range of linear twist [°]", "mass, all blades [kg]", drawn, "pay-mass", said) + key
+
+
+def _id(verdict: Verdict) -> str:
+    return verdict.installed.actuator.id.replace("_", " ")
+
+
+def _point(frame: _Frame, even: BreakEven, verdict: Verdict) -> str:
+    """The present actuator: red where it does not pay, green where it does, as its verdict says."""
+    mass = verdict.installed.masses.aircraft
+    worth = math.degrees(even.twist_for(verdict.baseline.fixed.power - verdict.optimum.power))
+    x, y = frame.at(worth, mass or frame.y_low)
+    inward = -9.0 if x > 0.6 * _WIDE else 9.0
+    colour = "#0ca678" if verdict.net_saving > 0.0 else "var(--rx-bad)"
+    label = f"{_id(verdict)}: worth {worth:.1f}°, {mass:.0f} kg"
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{colour}"/>' + words(
+        (x + inward, y + 4.0), label, "end" if inward < 0.0 else "start"
+    )
 
 
 def drive_chart(even: BreakEven) -> str:
