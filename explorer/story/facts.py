@@ -207,7 +207,7 @@ def _responding_wake(step: LectureStep) -> Facts:
 def _fast_twist(step: LectureStep) -> Facts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
-    rates = tuple(float(rate) for rate in range(-20, 1, 2))
+    rates = tuple(float(rate) for rate in range(0, -21, -2))
     lines, dots = list[ChartLine](), list[list[tuple[float, float]]]()
     for k, (stop, name) in enumerate(zip(blades.stops, ("with fuselage drag", "without"), strict=True)):
         totals = [

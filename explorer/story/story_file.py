@@ -58,7 +58,8 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
         "rate": TURN_RATES["slow"],
     }
     field = FIELDS[steps[0].field]
-    page = still_page(first, view, usual_range(field, first.design.rotor), compared=first)
+    opening = replace(view_of(steps[0], view), wake=False)
+    page = still_page(first, opening, usual_range(field, first.design.rotor), compared=first)
     viewer = embedded_viewer([page])
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
     words = {
