@@ -205,16 +205,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    target = Path(options.out)
-    if target.is_dir():
-        target /= "index.html"
     design = load_design(options.design) if options.design else make_design()
     text = demo_html(design, view=ViewState(field=options.field), quiet=not sys.stderr.isatty())
+    return write_page(options.out, "index.html", text, f"{len(TWISTS)} twists at {len(SPEEDS)} speeds")
+
+
+def write_page(out: str, name: str, text: str, content: str) -> int:
+    """Write one HTML file, in a folder as `name`, and print what it holds. 0, or ValueError where it cannot."""
+    target = Path(out) / name if Path(out).is_dir() else Path(out)
     try:
         write_whole(target, text)
     except OSError as error:
         raise ValueError(f"cannot write {str(target)!r} ({error.strerror}): give a writable file") from None
-    print(f"{target}: {len(TWISTS)} twists at {len(SPEEDS)} speeds, {target.stat().st_size / 1e6:.1f} MB")
+    print(f"{target}: {content}, {target.stat().st_size / 1e6:.1f} MB")
     return 0
 
 

@@ -16,16 +16,19 @@ from explorer.model.units import Units, number
 from explorer.story.steps import FRONT, SPEEDS, STEPS, LectureStep, angle_words, beside, on_one_line, speed_words
 from rotor.actuator.verdict import try_actuator
 from rotor.analysis.vibration import vibration_front
+from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
-from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, least, moving_twist
+from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, built, least, moving_twist
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "rate", "mu", "mass", "count", "words"]
+Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"
 """Of the last step."""
 _FLAT = 0.001
 """Part of the least power within which an optimum is called flat, as everywhere in the program."""
+_HARMONICS, _REACH = (2, 3), 1.0
+"""Active twist of the front: harmonics, and the largest amplitude of each [°]."""
 _BUILT = tuple(RUNGS)
 """The preset `flight`, as the ladder names its assumptions."""
 
@@ -49,8 +52,6 @@ class Number:
                 digits = 2 if self.kind == "fine" else 0 if abs(value) >= 0.095 or (100.0 * value) % 1.0 == 0.0 else 1
                 text = f"{number(100.0 * value, digits, sign=self.kind == 'signed')} %"
             case "angle":
-                text = f"{number(value, 1)}°"
-            case "rate":
                 text = f"{number(value, 1)}°"
             case "mu":
                 text = speed_words(value)
@@ -165,8 +166,8 @@ def _hover_twist(step: LectureStep) -> Facts:
     numbers = {
         **_named(step, a, b), "induced_saving": Number("percent", saving),
         "elastic": Number("angle", float(np.degrees(np.mean(elastic[0] - elastic[-1])))),
-        "best": Number("rate", least(_BUILT, 0.0, None).rate_deg),
-        "best_rigid": Number("rate", least(rigid, 0.0, None).rate_deg),
+        "best": Number("angle", least(_BUILT, 0.0, None).rate_deg),
+        "best_rigid": Number("angle", least(rigid, 0.0, None).rate_deg),
     }  # fmt: skip
     totals = tuple(one.power.total for one in blades.b)
     chart = StepChart(
@@ -206,7 +207,7 @@ def _responding_wake(step: LectureStep) -> Facts:
 def _fast_twist(step: LectureStep) -> Facts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
-    rates = tuple(float(rate) for rate in range(-20, 1, 2))
+    rates = tuple(float(rate) for rate in range(0, -21, -2))
     lines, dots = list[ChartLine](), list[list[tuple[float, float]]]()
     for k, (stop, name) in enumerate(zip(blades.stops, ("with fuselage drag", "without"), strict=True)):
         totals = [
@@ -271,7 +272,8 @@ def _two_segments(step: LectureStep) -> Facts:
         "twist_inner": Number("words", 0.0, angle_words(inputs.two_inner)),
         "twist_outer": Number("words", 0.0, angle_words(inputs.two_outer)),
         "twist_a": Number("words", 0.0, angle_words(_against(step).linear)),
-        "flat": Number("percent", _FLAT), "flat_low": Number("rate", min(flat)), "flat_high": Number("rate", max(flat)),
+        "flat": Number("percent", _FLAT),
+        "flat_low": Number("angle", min(flat)), "flat_high": Number("angle", max(flat)),
     }  # fmt: skip
     chart = StepChart(
         "inboard twist [°/R]", "against A", "percent", step.control.values, "rate",
@@ -284,6 +286,8 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
     best = [least(_BUILT, mu, None) for mu in SPEEDS]
     moving = moving_twist(_BUILT, SPEEDS, None)
     gains = [moving_twist(_BUILT, SPEEDS, wake).gain for wake in INFLOW_MODELS]
+    baseline = built(_BUILT, SPEEDS[0]).twist
+    assert isinstance(baseline, LinearTwist)
     fixed, rates = round(moving.fixed_deg, 2), tuple(round(one.rate_deg, 2) for one in best)
     low, high = zip(*(one.band_deg for one in best), strict=True)
     stops = tuple(
@@ -294,7 +298,7 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
         for mu, rate in zip(SPEEDS, rates, strict=True)
     )  # fmt: skip
     numbers = {
-        "hover_best": Number("rate", rates[0]), "fast_best": Number("rate", rates[-1]),
+        "hover_best": Number("angle", rates[0]), "fast_best": Number("angle", rates[-1]),
         "fast_mu": Number("mu", SPEEDS[-1]), "fixed": Number("words", 0.0, angle_words(round(fixed, 1))),
         "gain": Number("fine", moving.gain), "gain_low": Number("fine", min(gains)),
         "gain_high": Number("fine", max(gains)), "wakes": Number("count", len(gains)),
@@ -303,7 +307,7 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
         "inside": Number("count", sum(a <= fixed <= b for a, b in zip(low, high, strict=True))),
         "speeds": Number("count", len(SPEEDS)),
         "fixed_saving": Number("fine", 1.0 - moving.fixed_kw / moving.baseline_kw),
-        "baseline": Number("words", 0.0, f"a fixed {angle_words(-16.0)}"),
+        "baseline": Number("words", 0.0, f"a fixed {angle_words(round(math.degrees(baseline.rate), 1))}"),
     }  # fmt: skip
     chart = StepChart(
         "advance ratio", "twist [°/R]", "angle", SPEEDS, "mu",
@@ -314,7 +318,7 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
 
 
 def _power_or_vibration(step: LectureStep) -> Facts:
-    front = vibration_front(step.inputs.design(), points=FRONT)
+    front = vibration_front(step.inputs.design(), harmonics=_HARMONICS, reach_deg=_REACH, points=FRONT)
     changes = [(0.01 * power, 0.01 * index) for power, index in front.changes]
     stops = list[Stop]()
     for k, (one, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
@@ -324,7 +328,8 @@ def _power_or_vibration(step: LectureStep) -> Facts:
         stops.append(Stop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
     last, ends = front.points[-1], front.points[-1].over_wakes or (0.0, 0.0)
     numbers = {
-        **_named(step, None, None), "harmonics": Number("words", 0.0, "2 and 3"), "reach": Number("words", 0.0, "1°"),
+        **_named(step, None, None), "harmonics": Number("words", 0.0, " and ".join(map(str, _HARMONICS))),
+        "reach": Number("words", 0.0, f"{_REACH:g}°"),
         "blades": Number("count", last.design.rotor.blades),
         "power_saving": Number("fine", -changes[0][0]), "index_change": Number("signed", changes[0][1]),
         "best_index": Number("signed", changes[-1][1]), "power_cost": Number("fine", changes[-1][0]),
@@ -424,9 +429,9 @@ def _answered(
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:
     """What most texts name: the flight, the twists, powers of A and B and their differences."""
     inputs = step.begin()
-    found = {"mu": Number("mu", inputs.advance_ratio), "twist_b": Number("rate", inputs.linear)}
+    found = {"mu": Number("mu", inputs.advance_ratio), "twist_b": Number("angle", inputs.linear)}
     if step.against is not None:
-        found["twist_a"] = Number("rate", step.against.linear)
+        found["twist_a"] = Number("angle", step.against.linear)
     if a is None or b is None:
         return found
     parts = ("total", "induced", "profile")

@@ -9,13 +9,12 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from html import escape
-from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
 from explorer import web
-from explorer.export.demo import point_record, shape_record
+from explorer.export.demo import point_record, shape_record, write_page
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS, Units
@@ -34,7 +33,6 @@ from rotor.line_chart import round_ticks, tick_text
 from rotor.terminal import run_command
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.user_input import write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""
@@ -60,7 +58,8 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
         "rate": TURN_RATES["slow"],
     }
     field = FIELDS[steps[0].field]
-    page = still_page(first, view, usual_range(field, first.design.rotor), compared=first)
+    opening = replace(view_of(steps[0], view), wake=False)
+    page = still_page(first, opening, usual_range(field, first.design.rotor), compared=first)
     viewer = embedded_viewer([page])
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
     words = {
@@ -155,17 +154,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    target = Path(options.out)
-    if target.is_dir():
-        target /= "story.html"
-    view = ViewState(dark=options.dark, units=options.units)
-    text = story_html(view=view, quiet=not sys.stderr.isatty())
-    try:
-        write_whole(target, text)
-    except OSError as error:
-        raise ValueError(f"cannot write {str(target)!r} ({error.strerror}): give a writable file") from None
-    print(f"{target}: {len(STEPS)} steps, {target.stat().st_size / 1e6:.1f} MB")
-    return 0
+    text = story_html(view=ViewState(dark=options.dark, units=options.units), quiet=not sys.stderr.isatty())
+    return write_page(options.out, "story.html", text, f"{len(STEPS)} steps")
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -126,7 +126,7 @@
   RX.paint('twist', now => {
     for (const place of document.querySelectorAll('[data-curve]')) {
       if (!place.offsetWidth) continue;
-      const stamp = JSON.stringify(now) + place.offsetWidth;
+      const stamp = JSON.stringify([now, place.offsetWidth, place.offsetHeight]);
       if (place.dataset.stamp === stamp && place.childElementCount) continue;
       place.dataset.stamp = stamp;
       const focus = document.activeElement?.dataset?.knot;

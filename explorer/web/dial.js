@@ -85,7 +85,7 @@
         inside += `<path transform="translate(${edge} ${edge}) scale(${step})" d="${path}" stroke-width="${(level ? .9 : 2) / step}" opacity="${level ? .55 : .9}"/>`;
         // Where it is named: inside, away from the dot and from other names.
         const [dx, dy] = at(a, p);
-        const free = places.map(([x, y]) => [edge + step * x, edge + step * y]).filter(([x, y]) => Math.hypot(x - middle, y - middle) < radius - 16 && Math.hypot(x - dx, y - dy) > 30 && words.every(w => Math.hypot(x - w[0], y - w[1]) > 34));
+        const free = places.map(([x, y]) => [edge + step * x, edge + step * y]).filter(([x, y]) => Math.hypot(x - middle, y - middle) < radius - 16 && Math.hypot(x - dx, y - dy) > 30 && found.least.every(one => Math.hypot(x - middle - scale * one.a, y - middle + scale * one.b) > 26) && words.every(w => Math.hypot(x - w[0], y - w[1]) > 34));
         if (free.length) words.push([...free[free.length >> 1], level]);
       }
       inside += '</g>' + words.map(([x, y, level]) => `<text x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle" class="rxd-level">${level > 0 ? '+' : level < 0 ? '−' : ''}${Math.abs(level)} %</text>`).join('');
@@ -144,7 +144,7 @@
     });
     paired.forEach((one, k) => {
       const x = X(one.power), y = Y(one.vibration[0]), before = x > right - 96;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 420 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
+      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 360 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
     });
     if (dots.length) {
       out += `<path d="M${dots.map(one => `${X(one.power).toFixed(1)} ${Y(one.index).toFixed(1)}`).join('L')}" fill="none" stroke="var(--rx-accent)" stroke-width="1.4" opacity=".6"/>`;
@@ -176,9 +176,10 @@
     place.stamp = stamp;
     place.matrix = matrix;
     const focus = place.contains(document.activeElement) ? document.activeElement : null, again = focus?.matches('[data-dot]') ? '[data-dot]' : focus?.dataset.harmonic ? `[data-harmonic="${focus.dataset.harmonic}"]` : focus?.matches('[data-front]') ? `[data-front][data-value="${focus.dataset.value}"]` : null;
-    const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 620) : Math.min(width, 300), wide = large ? width - size - 44 : width, high = large ? size + 20 : 228;
+    const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 780) : Math.min(width, 300), wide = large ? width - size - 44 : width, high = large ? size + 20 : 228;
     if (!place.firstElementChild || place.dataset.size !== `${size} ${wide}`) {
       place.dataset.size = `${size} ${wide}`;
+      place.shaded = null;  // Its canvas is another.
       place.innerHTML = `<div class="rxd-side"><div class="rxd-row"></div><div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div><div class="rxd-read" data-explorer="dial-read"></div></div>
         <div class="rxd-side"><div class="rxd-why"></div><div class="rxd-front" style="height:${high}px"></div>${KEY}${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
     }

@@ -208,7 +208,7 @@
     telling = setTimeout(() => {
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
-      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
+      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
       const high = wide.filter(box => box.top <= stage.top + stage.height / 3), low = [...wide.filter(box => !high.includes(box)), seen('.rxs-wipe > span')].filter(Boolean), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
@@ -217,7 +217,7 @@
     }, 120);
   }
   RX.also('vibration', tellCover);
-  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.

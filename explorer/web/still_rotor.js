@@ -63,14 +63,20 @@ window.stillRotor = data => {
         picture.onload = () => done(picture);
         picture.src = `data:image/webp;base64,${point.disk}`;
       }));
-      if (wanted[root] !== point) return;
-      node(`${root}/disk/field`)?.traverse?.(part => {
-        if (!part.isMesh || !part.material?.map) return;
-        part.material.map.dispose();
-        part.material.map.image = image;
-        part.material.map.needsUpdate = true;
-      });
-      viewer().requestRender?.();
+      const put = () => {
+        if (wanted[root] !== point) return;
+        let there = false;
+        node(`${root}/disk/field`)?.traverse?.(part => {
+          if (!part.isMesh || !part.material?.map) return;
+          there = true;
+          part.material.map.dispose();
+          part.material.map.image = image;
+          part.material.map.needsUpdate = true;
+        });
+        if (there) viewer().requestRender?.();
+        else setTimeout(put, 100);  // The viewer has not decoded its own picture yet, whose place this one takes.
+      };
+      put();
     },
   };
 };

@@ -6,7 +6,7 @@ window.makeStory = (column, figures, report) => {
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const COLOURS = {a: 'pinned', b: 'blade', limit: 'ghost', total: 'ink'};
   const colour = name => `var(--rx-${COLOURS[name] ?? name})`;
-  let steps = [], now = null, drawn = '', aim = null, settle = 0, sweep = 0;
+  let steps = [], now = null, drawn = '', sweep = 0;
   const list = column.querySelector('.rxs-list'), foot = column.querySelector('.rxs-foot');
   const section = k => list.children[k];
 
@@ -91,7 +91,7 @@ window.makeStory = (column, figures, report) => {
     figures.hidden = false;
     const numbers = now.figures.map(([title, value]) => `<div><b class="rxf-num"${value === '?' ? ' data-unknown' : ''}>${text(value)}</b><span>${text(title)}</span></div>`).join('');
     if (figures.innerHTML !== numbers) figures.innerHTML = numbers;
-    if (aim !== at && !near(at)) go(at);
+    keep();
   };
 
   // Lines over what is moved, with the present place on each.
@@ -122,21 +122,33 @@ window.makeStory = (column, figures, report) => {
       <text x="${(left + width - right) / 2}" y="${height - 5}" text-anchor="middle">${text(data.x_title)}</text></svg>`;
   };
 
-  // The column scrolls to the step that stands; where the hand scrolls it, the step in view is asked for.
-  const near = k => Math.abs(section(k).offsetTop - list.scrollTop) < 0.4 * list.clientHeight;
-  const go = k => {
-    aim = k;
-    list.scrollTo({top: section(k).offsetTop, behavior: calm.matches ? 'auto' : 'smooth'});
+  // The step that stands keeps its place in the column, scrolled by `within`, whatever is laid out anew. Another is asked
+  // for only where the hand scrolled to it: what the browser scrolls by itself, for a layout or the focus, asks for none.
+  let hand = false, aiming = false, within = 0, settle = 0;
+  const seen = () => [...list.children].findIndex(part => part.offsetTop + part.offsetHeight - list.scrollTop > 0.5 * list.clientHeight);
+  const rest = () => { clearTimeout(settle); settle = setTimeout(settled, 140); };
+  const keep = () => { if (!hand && !aiming) list.scrollTop = section(now.at).offsetTop + within; };
+  const go = behavior => {
+    if (!steps.length) return;
+    hand = false;
+    aiming = true;
+    within = 0;
+    list.scrollTo({top: section(now.at).offsetTop, behavior: calm.matches ? 'instant' : behavior});
+    rest();
+  };
+  const settled = () => {
+    aiming = false;
+    if (!now || !steps.length) return;
+    const at = seen();
+    if (hand && !now.held && at >= 0 && at !== now.at) report('story', at);
+    else { hand = false; keep(); }
   };
   list.addEventListener('scroll', () => {
-    clearTimeout(settle);
-    settle = setTimeout(() => {
-      if (aim !== null) { if (near(aim)) aim = null; return; }
-      const seen = [...list.children].findIndex((part, k) => part.offsetTop + part.offsetHeight - list.scrollTop > 0.5 * list.clientHeight && k >= 0);
-      if (now && !now.held && seen >= 0 && seen !== now.at) report('story', seen);
-      else if (now?.held && seen !== now.at) go(now.at);
-    }, 140);
+    if (now && !aiming && seen() === now.at) within = list.scrollTop - section(now.at).offsetTop;
+    rest();
   });
+  const byHand = event => { if (event.type === 'wheel' || event.type === 'touchmove' || event.target === list) { hand = true; aiming = false; } };
+  for (const name of ['wheel', 'touchmove', 'pointerdown', 'keydown']) list.addEventListener(name, byHand, {passive: true});
 
   // The control: a slider reports its position once a frame at most; play walks it to the end and back to where it was.
   let moved = null;
@@ -167,16 +179,22 @@ window.makeStory = (column, figures, report) => {
     }, 420);
     show();
   });
-  new ResizeObserver(() => show()).observe(column);
+  new ResizeObserver(() => {
+    if (now && steps.length) within = Math.max(0, Math.min(within, section(now.at).offsetHeight - list.clientHeight));
+    hand = aiming = false;
+    show();
+  }).observe(column);
 
   return {
     steps(next) { steps = next; draw(); show(); },
     show(next) {
-      if (now && next.at !== now.at) { halt(); aim = null; }
+      const first = !now, other = first || next.at !== now.at;
+      if (other) { halt(); aiming = true; }
       now = next;
       show();
+      if (other) go(first ? 'instant' : 'smooth');
     },
     stop: halt,
-    rewind() { list.scrollTop = 0; aim = null; },
+    rewind() { now = null; },
   };
 };

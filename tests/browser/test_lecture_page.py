@@ -96,17 +96,32 @@ def test_its_end_flies_the_actuator(visit: Visit):
     design_in_address(watched, "mu=0.3")
 
 
-def test_a_scroll_of_the_column_is_a_step(visit: Visit):
+def test_a_scroll_by_hand_is_a_step_and_a_new_layout_none(visit: Visit):
     watched = visit()
     page = watched.page
     page.keyboard.press("t")
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
     watched.answered()
-    page.evaluate(
-        "() => { const list = document.querySelector('.rxs-list'); list.scrollTop = list.children[2].offsetTop; }"
-    )
+    page.locator(".rxs-list").hover()
+    page.mouse.wheel(0, page.evaluate("() => document.querySelector('.rxs-list').children[2].offsetTop"))
     page.wait_for_selector('[data-explorer="lecture"][data-step="3"]')
     design_in_address(watched, "inflow=pitt-peters")
+    page.evaluate("() => RX.send('story', 3)")
+    at_its_place = """() => {
+        const list = document.querySelector('.rxs-list'), step = list.children[3];
+        return !step.inert && Math.abs(list.scrollTop - step.offsetTop) < 2;
+    }"""
+    page.wait_for_function(at_its_place)
+    for size in ((820, 1100), (1500, 940), (1180, 640)):
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        page.wait_for_function(f"wide => innerWidth === wide && ({at_its_place})()", arg=size[0])
+        watched.answered()
+        assert page.evaluate(at_its_place)
+    # What scrolls the column by itself, as a focus does, asks for no step and does not last.
+    page.evaluate("() => { document.querySelector('.rxs-list').scrollTop = 0; }")
+    page.wait_for_function(at_its_place)
+    watched.answered()
+    assert page.evaluate("() => RX.state.lecture.at") == 3
 
 
 @pytest.mark.slow
