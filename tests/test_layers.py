@@ -200,7 +200,7 @@ def test_commits_are_checked_by_the_same_ruff():
 
 
 MOST_MODULES = 308
-"""Of both packages together, 171 of them in `rotor`. A further one takes the place of another."""
+"""Of both packages together, 172 of them in `rotor`. A further one takes the place of another."""
 
 
 def test_the_packages_stay_small():
