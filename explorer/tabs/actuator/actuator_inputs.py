@@ -11,7 +11,7 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_ac
 from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, twisted
-from rotor.actuator.section import BladeKind, Host, Placement
+from rotor.actuator.section import BladeKind, Host, Placement, default_placement
 from rotor.actuator.verdict import Against
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
@@ -35,7 +35,7 @@ class ActuatorInputs:
 
     actuator: str = "MFC_P1"
     plies: int = 2
-    span: tuple[float, float] = (0.24, 0.93)
+    span: tuple[float, float] = default_placement().span
     """r/R"""
     chord: tuple[float, float] = (0.05, 0.80)
     """x/c"""
