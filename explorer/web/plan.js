@@ -159,7 +159,9 @@
     const ring = `<circle cx="${layout.x}" cy="${layout.y}" r="${circle * layout.radius}" fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"/>`;
     const point = pointer ? (() => { const [x, y] = xy(pointer.r, pointer.psi); return `<circle cx="${x}" cy="${y}" r="5" fill="none" stroke="#fff" stroke-width="2"/><circle cx="${x}" cy="${y}" r="6.5" fill="none" stroke="#000" stroke-opacity=".5"/>`; })() : '';
     here.innerHTML = ring + dots + point;
-    const shown = Boolean(pointer && tables.alpha);
+    // Where a pin is, its card says the same.
+    const pinned = pointer && pins.some(pin => Math.hypot(...xy(pin.r, pin.psi).map((v, k) => v - xy(pointer.r, pointer.psi)[k])) < 8);
+    const shown = Boolean(pointer && tables.alpha && !pinned);
     reading.hidden = !shown;
     if (shown) { reading.innerHTML = card(pointer.r, pointer.psi, null); put(reading, pointer.r, pointer.psi); }
   }

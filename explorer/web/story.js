@@ -86,6 +86,7 @@ window.makeStory = (column, figures, report) => {
     }
     foot.querySelectorAll('.rxs-dots button').forEach((dot, k) => { dot.ariaCurrent = k === at ? 'step' : 'false'; dot.disabled = held; });
     for (const button of foot.querySelectorAll('[data-do=lecture]')) button.hidden = held;
+    foot.querySelector('[data-held]').hidden = !held;
     foot.querySelector('[data-value=back]').disabled = at === 0;
     foot.querySelector('[data-value=next]').textContent = step.last ? now.finish : 'Next';
     figures.hidden = false;

@@ -335,5 +335,6 @@ def test_presenter_and_follower(browser: "Browser", app: App, scheme: str, watch
     assert moved.count() > len(STEPS)
     assert all(one.is_disabled() for one in moved.all())
     assert not follower.page.get_by_role("button", name="Next", exact=True).is_visible()
+    assert follower.page.locator(".rxs-foot [data-held]").is_visible()
     assert follower.complaints == []
     follower.page.context.close()
