@@ -100,6 +100,24 @@ def _spread(coarse: Any, steps: int, out: Any) -> None:
 
 
 @_compile
+def _around(decay: Any, z: Any) -> None:
+    """z[k + 1] = decay[k] z[k] + given[k], periodic, where z holds what is given: (azimuths, columns), in place."""
+    n, columns = z.shape
+    value, rest = np.zeros(columns), 1.0
+    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+        rest *= decay[k]
+        for j in range(columns):
+            value[j] = decay[k] * value[j] + z[k, j]
+    for j in range(columns):
+        value[j] /= 1.0 - rest
+    for k in range(n):
+        for j in range(columns):
+            given = z[k, j]
+            z[k, j] = value[j]
+            value[j] = decay[k] * value[j] + given
+
+
+@_compile
 def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> None:
     """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step.
 
@@ -116,29 +134,16 @@ def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> Non
             phi, by = 1.0 - 0.5 * h[k], -0.5 + h[k] / 3.0
         rates[k, 0], rates[k, 1], rates[k, 2] = e, phi - e, 1.0 - phi
         rates[k, 3], rates[k, 4] = by + e, -by
-    for turn in range(2):  # First from zero: what is left of a start after one turn is known.
-        value, rest = z[0] if turn else 0.0, 1.0
-        for k in range(n):
-            z[k] = value
-            one = (k + 1) % n
-            value = rates[k, 0] * value + rates[k, 1] * u[k] + rates[k, 2] * u[one]
-            rest *= rates[k, 0]
-        z[0] = value / (1.0 - rest) if turn == 0 else z[0]
-    if seeds == 0:
-        return
-    value, rest = np.zeros(seeds), 1.0
-    for turn in range(2):
-        if turn:
-            for j in range(seeds):
-                value[j] /= 1.0 - rest
-        for k in range(n):
-            one = (k + 1) % n
-            e, a, b = rates[k, 0], rates[k, 1], rates[k, 2]
-            by = (-e * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[one]) * by_mach[k]
-            rest *= e if turn == 0 else 1.0
-            for j in range(seeds):
-                dz[k, j] = value[j]
-                value[j] = e * value[j] + a * du[k, j] + b * du[one, j] + by * (dm[k, j] + dm[one, j])
+        z[k] = rates[k, 1] * u[k] + rates[k, 2] * u[(k + 1) % n]
+    decay = rates[:, 0]
+    _around(decay, z.reshape(n, 1))
+    for k in range(n if seeds else 0):
+        one = (k + 1) % n
+        a, b = rates[k, 1], rates[k, 2]
+        by = (-decay[k] * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[one]) * by_mach[k]
+        for j in range(seeds):
+            dz[k, j] = a * du[k, j] + b * du[one, j] + by * (dm[k, j] + dm[one, j])
+    _around(decay, dz)
 
 
 @_compile
@@ -431,32 +436,16 @@ def _vortex(
             dtau[k, j] = (whole - tau[k] * by_time * dm[k, j]) / time
     steps, by_mach = np.empty(n), np.empty(n)
     _steps(rows[LAG_VORTEX], n, ms, unit, steps, by_mach)
-    for turn in range(2):
-        value, rest = cv[0] if turn else 0.0, 1.0
-        for k in range(n):
-            one = (k + 1) % n
-            cv[k] = value
-            e, root = math.exp(-steps[k]), math.exp(-0.5 * steps[k])
-            value = e * value + root * 0.5 * (h[k] + h[one]) * (feed[one] - feed[k])
-            rest *= e
-        cv[0] = value / (1.0 - rest) if turn == 0 else cv[0]
-    if seeds == 0:
-        return
-    value, rest = np.zeros(seeds), 1.0
-    for turn in range(2):
-        if turn:
-            for j in range(seeds):
-                value[j] /= 1.0 - rest
-        for k in range(n):
-            one = (k + 1) % n
-            e, root = math.exp(-steps[k]), math.exp(-0.5 * steps[k])
-            mean, grown = 0.5 * (h[k] + h[one]), feed[one] - feed[k]
-            by = -(e * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
-            rest *= e if turn == 0 else 1.0
-            for j in range(seeds):
-                dcv[k, j] = value[j]
-                value[j] = (
-                    e * value[j]
-                    + root * (0.5 * (dh[k, j] + dh[one, j]) * grown + mean * (dfeed[one, j] - dfeed[k, j]))
-                    + by * (dm[k, j] + dm[one, j])
-                )
+    decay = np.exp(-steps)
+    for k in range(n):
+        one = (k + 1) % n
+        cv[k] = math.sqrt(decay[k]) * 0.5 * (h[k] + h[one]) * (feed[one] - feed[k])
+    _around(decay, cv.reshape(n, 1))
+    for k in range(n if seeds else 0):
+        one = (k + 1) % n
+        root, mean, grown = math.sqrt(decay[k]), 0.5 * (h[k] + h[one]), feed[one] - feed[k]
+        by = -(decay[k] * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
+        for j in range(seeds):
+            by_mean = 0.5 * (dh[k, j] + dh[one, j])
+            dcv[k, j] = root * (by_mean * grown + mean * (dfeed[one, j] - dfeed[k, j])) + by * (dm[k, j] + dm[one, j])
+    _around(decay, dcv)
