@@ -31,6 +31,8 @@ _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
 
+_MOST_RISES = 3
+"""Steps that raise the residual before the iteration ends. Our choice."""
 _LEAST_PART = 1.0 / 64.0
 """Part of a step below which it is not divided further. Our choice."""
 
@@ -187,9 +189,11 @@ class _Steps:
         system, limits, slow_steps, expected = self._system, self._limits, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
-        part = 1.0
+        part, rises = 1.0, 0
         point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
-        while point.size > goal and self.passes < limits.most_passes and slow_steps < _MOST_SLOW_STEPS:
+        while point.size > goal and self.passes < limits.most_passes:
+            if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
+                break
             fresh = self._corrected is None
             corrected = self._corrected or self._differentiate(point)
             if not corrected.factors.usable:
@@ -217,7 +221,7 @@ class _Steps:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
                 continue
             hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
-            part = min(1.0, 2.0 * part)
+            part, rises = min(1.0, 2.0 * part), rises + nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
             if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
                 point = trial
