@@ -4,7 +4,7 @@ After Leishman and Beddoes (J. AHS 34(3), 1989) and, for sections of any data, H
 2004). x: angle from zero lift; s: travel in semi-chords b; q = b θ'/U; V: speed across the blade over ΩR.
 
     x_E = x + q, where no vortex wake sheds lagged by Jones' function       angle at three quarters of the chord
-    C_nᴵ = π dx_E/ds                                                        apparent mass
+    C_nᴵ = π d(x + ½q)/ds                                                   apparent mass, by the middle of the chord
     x_f = lag(x_E + C_nᴵ/C_nα, T_p)                                         pressure at the leading edge
     f″ = lag(f(x_f), T_f),   m″ = lag(m(x_f), T_f)                          separation point, place of the force
     g(x_f)                                                                  0 below, 1 above the force of static stall
@@ -13,11 +13,12 @@ After Leishman and Beddoes (J. AHS 34(3), 1989) and, for sections of any data, H
 
     C_n − static = C_nα [x_E K(f″) − x K(f)] + C_nᵛ + C_nᴵ
     C_c − static = C_nα [x_E² √f″ − x² √f]                                  along the chord, forward
-    C_m − static = C_nα [x_E K(f″) m″ − x K(f) m] − 0.2 (1 − cos πτ) C_nᵛ − ¼ (C_nᴵ − π q)
+    C_m − static = C_nα [x_E K(f″) m″ − x K(f) m] − 0.2 (1 − cos πτ) C_nᵛ − ¼ (C_nᴵ + ¼π dq/ds − π q)
 
 so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`. Every stage is a linear lag whose
 coefficients the stages before it give: its periodic solution is exact after one turn, and so are its derivatives. The
-last term leaves out the pitch rate, whose moment `rotor.aero.section` has.
+last term leaves out the pitch rate, whose moment `rotor.aero.section` has. Apparent mass and its moment are
+Theodorsen's (NACA Report 496, 1935).
 
 Choices of ours: g rises over ±4 % of x_f, where Leishman and Beddoes switch; T_f and T_v stay the same in all phases;
 one vortex leaves in each stall. Beyond 25° x fades out to 50°, and what is added with it: in deep stall and in reverse
@@ -100,6 +101,24 @@ def _spread(coarse: Any, steps: int, out: Any) -> None:
 
 
 @_compile
+def _around(decay: Any, z: Any) -> None:
+    """z[k + 1] = decay[k] z[k] + given[k], periodic, where z holds what is given: (azimuths, columns), in place."""
+    n, columns = z.shape
+    value, rest = np.zeros(columns), 1.0
+    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+        rest *= decay[k]
+        for j in range(columns):
+            value[j] = decay[k] * value[j] + z[k, j]
+    for j in range(columns):
+        value[j] /= 1.0 - rest
+    for k in range(n):
+        for j in range(columns):
+            given = z[k, j]
+            z[k, j] = value[j]
+            value[j] = decay[k] * value[j] + given
+
+
+@_compile
 def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> None:
     """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step.
 
@@ -116,29 +135,16 @@ def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> Non
             phi, by = 1.0 - 0.5 * h[k], -0.5 + h[k] / 3.0
         rates[k, 0], rates[k, 1], rates[k, 2] = e, phi - e, 1.0 - phi
         rates[k, 3], rates[k, 4] = by + e, -by
-    for turn in range(2):  # First from zero: what is left of a start after one turn is known.
-        value, rest = z[0] if turn else 0.0, 1.0
-        for k in range(n):
-            z[k] = value
-            one = (k + 1) % n
-            value = rates[k, 0] * value + rates[k, 1] * u[k] + rates[k, 2] * u[one]
-            rest *= rates[k, 0]
-        z[0] = value / (1.0 - rest) if turn == 0 else z[0]
-    if seeds == 0:
-        return
-    value, rest = np.zeros(seeds), 1.0
-    for turn in range(2):
-        if turn:
-            for j in range(seeds):
-                value[j] /= 1.0 - rest
-        for k in range(n):
-            one = (k + 1) % n
-            e, a, b = rates[k, 0], rates[k, 1], rates[k, 2]
-            by = (-e * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[one]) * by_mach[k]
-            rest *= e if turn == 0 else 1.0
-            for j in range(seeds):
-                dz[k, j] = value[j]
-                value[j] = e * value[j] + a * du[k, j] + b * du[one, j] + by * (dm[k, j] + dm[one, j])
+        z[k] = rates[k, 1] * u[k] + rates[k, 2] * u[(k + 1) % n]
+    decay = rates[:, 0]
+    _around(decay, z.reshape(n, 1))
+    for k in range(n if seeds else 0):
+        one = (k + 1) % n
+        a, b = rates[k, 1], rates[k, 2]
+        by = (-decay[k] * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[one]) * by_mach[k]
+        for j in range(seeds):
+            dz[k, j] = a * du[k, j] + b * du[one, j] + by * (dm[k, j] + dm[one, j])
+    _around(decay, dz)
 
 
 @_compile
@@ -256,18 +262,19 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
             dm[k, n + c] += 1.0 - w
             dm[k, n + after] += w
     # x_E and apparent mass at the azimuths given.
-    raw, mass = np.empty(n), np.empty(n)
+    raw, mass, turning = np.empty(n), np.empty(n), np.empty(n)
     for k in range(n):
         raw[k] = x[k] + q[k]
     quarter = n / (2.0 * _PI) / 12.0
     for k in range(n):
         v = mach[k] / tip
         slow = b * v / (v * v + SLOWEST * SLOWEST)
-        rise = quarter * (8.0 * (raw[(k + 1) % n] - raw[k - 1]) - raw[(k + 2) % n] + raw[k - 2])
-        mass[k] = _PI * slow * rise
+        turning[k] = _PI * slow * quarter * (8.0 * (q[(k + 1) % n] - q[k - 1]) - q[(k + 2) % n] + q[k - 2])
+        rise = quarter * (8.0 * (x[(k + 1) % n] - x[k - 1]) - x[(k + 2) % n] + x[k - 2])
+        mass[k] = _PI * slow * rise + 0.5 * turning[k]
     _spread(raw, steps, es)
     _spread(mass, steps, ps)
-    dmass = np.zeros((n, seeds))
+    dmass, dturning = np.zeros((n, seeds)), np.zeros((n, seeds))
     if seeds:
         for k in range(n):
             v = mach[k] / tip
@@ -276,9 +283,12 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
             for step, factor in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
                 at = (k + step) % n
                 dmass[k, at] += _PI * slow * quarter * factor
-                dmass[k, 2 * n + at] += _PI * slow * quarter * factor
+                dmass[k, 2 * n + at] += 0.5 * _PI * slow * quarter * factor
+                dturning[k, 2 * n + at] += _PI * slow * quarter * factor
             if v > 1e-12:
-                dmass[k, n + k] += mass[k] / slow * b * (below - 2.0 * v * v) / (below * below) / tip
+                by_mach_number = b * (below - 2.0 * v * v) / (below * below) / tip / slow
+                dmass[k, n + k] += mass[k] * by_mach_number
+                dturning[k, n + k] += turning[k] * by_mach_number
         for k in range(fine):
             c, w = k // steps, (k % steps) / steps
             after = (c + 1) % n
@@ -374,12 +384,13 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
                 _add(by[o, after], w / steps, row[o])
     for k in range(n):
         added[ADDED_N, k] += mass[k]
-        added[ADDED_M, k] -= 0.25 * (mass[k] - _PI * q[k])
+        added[ADDED_M, k] -= 0.25 * (mass[k] + 0.25 * turning[k] - _PI * q[k])
         at = k * steps
         shown[SEPARATION, k], shown[VORTEX, k], shown[POSITION, k], shown[ONSET_GATE, k] = f[at], cv[at], tau[at], g[at]
         if seeds:
             _add(by[ADDED_N, k], 1.0, dmass[k])
             _add(by[ADDED_M, k], -0.25, dmass[k])
+            _add(by[ADDED_M, k], -0.0625, dturning[k])
             by[ADDED_M, k, 2 * n + k] += 0.25 * _PI
 
 
@@ -431,32 +442,16 @@ def _vortex(
             dtau[k, j] = (whole - tau[k] * by_time * dm[k, j]) / time
     steps, by_mach = np.empty(n), np.empty(n)
     _steps(rows[LAG_VORTEX], n, ms, unit, steps, by_mach)
-    for turn in range(2):
-        value, rest = cv[0] if turn else 0.0, 1.0
-        for k in range(n):
-            one = (k + 1) % n
-            cv[k] = value
-            e, root = math.exp(-steps[k]), math.exp(-0.5 * steps[k])
-            value = e * value + root * 0.5 * (h[k] + h[one]) * (feed[one] - feed[k])
-            rest *= e
-        cv[0] = value / (1.0 - rest) if turn == 0 else cv[0]
-    if seeds == 0:
-        return
-    value, rest = np.zeros(seeds), 1.0
-    for turn in range(2):
-        if turn:
-            for j in range(seeds):
-                value[j] /= 1.0 - rest
-        for k in range(n):
-            one = (k + 1) % n
-            e, root = math.exp(-steps[k]), math.exp(-0.5 * steps[k])
-            mean, grown = 0.5 * (h[k] + h[one]), feed[one] - feed[k]
-            by = -(e * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
-            rest *= e if turn == 0 else 1.0
-            for j in range(seeds):
-                dcv[k, j] = value[j]
-                value[j] = (
-                    e * value[j]
-                    + root * (0.5 * (dh[k, j] + dh[one, j]) * grown + mean * (dfeed[one, j] - dfeed[k, j]))
-                    + by * (dm[k, j] + dm[one, j])
-                )
+    decay = np.exp(-steps)
+    for k in range(n):
+        one = (k + 1) % n
+        cv[k] = math.sqrt(decay[k]) * 0.5 * (h[k] + h[one]) * (feed[one] - feed[k])
+    _around(decay, cv.reshape(n, 1))
+    for k in range(n if seeds else 0):
+        one = (k + 1) % n
+        root, mean, grown = math.sqrt(decay[k]), 0.5 * (h[k] + h[one]), feed[one] - feed[k]
+        by = -(decay[k] * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
+        for j in range(seeds):
+            by_mean = 0.5 * (dh[k, j] + dh[one, j])
+            dcv[k, j] = root * (by_mean * grown + mean * (dfeed[one, j] - dfeed[k, j])) + by * (dm[k, j] + dm[one, j])
+    _around(decay, dcv)

@@ -16,7 +16,6 @@ blade for each pair of shapes, one around the azimuth, and two numbers for each 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,7 @@ from scipy.sparse import csr_matrix
 
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
-from rotor.engine.memory import Memory
+from rotor.engine.memory import Memory, on_forces
 from rotor.engine.terms import Shape, Structure, Terms, summed
 from rotor.engine.waves import WaveGrid
 
@@ -173,11 +172,7 @@ class Point:
         (elements, forces, waves, inputs, azimuths)
         """
         assert self.memory is not None
-        left, kernel = self.memory.left, self.memory.kernel
-        forces, outputs, elements, azimuths = left.shape
-        weighted = np.einsum("okei,ip->eopki", left, self.grid.waves.mean).reshape(elements, -1, outputs * azimuths)
-        whole = weighted @ kernel.transpose(2, 0, 3, 1, 4).reshape(elements, outputs * azimuths, -1)
-        return whole.reshape(elements, forces, -1, kernel.shape[1], azimuths)
+        return self.memory.by_inputs(self.grid.waves)
 
     @cached_property
     def size(self) -> float:
@@ -364,8 +359,7 @@ def _measures_by_channel(point: Point, channel: int) -> Array:
         weights = psi[row[own]][:, :, None] * waves.mean.T[wave[own]][:, None, :]
         out[1 + np.flatnonzero(own)] = weights * _force_slope(point, k, channel)
     if point.memory is not None:
-        by_waves = np.einsum("eoplj,lej->opej", point.remembered, point.memory.right[:, channel])
-        out[1:] += psi[row][:, :, None] * by_waves[force, wave]
+        out[1:] += psi[row][:, :, None] * point.memory.by_channel(point.remembered, channel)[force, wave]
     return out.reshape(len(out), -1)
 
 
@@ -399,38 +393,10 @@ def _measure_slopes(point: Point) -> Array:
         blocks.factors, between,
     )  # fmt: skip
     if point.memory is not None:
-        _between_by_memory(point, between)
+        point.memory.add_between(point.remembered, structure, point.phi, system.shapes.psi, grid.waves, between)
     _, i, j, factor = structure.column_arrays
     by_atom.data = np.concatenate([factor * z[j], factor * z[i]])[order]
     return np.ascontiguousarray((by_atom @ between).T)
-
-
-def _between_by_memory(point: Point, out: Array) -> None:
-    """Add what the memory adds to the result of `_between`.
-
-    Derivatives are those of an element at all azimuths, so all products of two waves are formed, not only their sums.
-    """
-    assert point.memory is not None
-    structure, psi, remembered = point.system.structure, point.system.shapes.psi, point.remembered
-    row, wave = np.divmod(structure.coefficient_places, structure.waves)
-    weight, other = np.divmod(structure.measure_places, structure.waves)
-    elements, waves = len(remembered), structure.waves
-    for channel, right in enumerate(point.memory.right.swapaxes(0, 1)):
-        begin, end = structure.first_row[channel : channel + 2].tolist()
-        columns = np.flatnonzero((row >= begin) & (row < end))
-        if not (len(columns) and right.any()):
-            continue
-        onto = (right[:, None] * point.grid.waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, waves)
-        for force, left in enumerate(point.memory.left):
-            first, last = structure.first_weight[force : force + 2].tolist()
-            measures = np.flatnonzero((weight >= first) & (weight < last))
-            if not (len(measures) and left.any()):
-                continue
-            between = remembered[:, force].reshape(elements, waves, -1) @ onto
-            pairs = (psi[first:last, None] * point.phi[None, begin:end]).reshape(-1, elements)
-            found = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, waves, waves)
-            own, shape = weight[measures] - first, (row[columns] - begin)[:, None]
-            out[np.ix_(columns, 1 + measures)] += found[own, shape, other[measures], wave[columns][:, None]]
 
 
 def _by_free(structure: Structure, total: Array, by_roots: Array) -> Array:
@@ -515,7 +481,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     arrays = point.phi, shapes.psi, structure.first_row, structure.first_weight, point.slopes, rows
     forces, channels = _stack(by_force, point.forces.shape), _stack(measure.channels, point.channels.shape)
     if point.memory is not None:
-        whole = _on_forces(shapes.psi, structure.first_weight, around)
+        whole = on_forces(shapes.psi, structure.first_weight, around)
         whole += forces if by_force else 0.0
         remembered = point.memory.transposed(whole)
         channels = remembered if not measure.channels else channels + remembered
@@ -536,11 +502,6 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
         by_nodes = on_nodes + nodes.transposed(field.ravel())
         by_free = np.concatenate([by_free, by_nodes])
     return by_free, by_element
-
-
-def _on_forces(psi: Array, first: Integers, around: Array) -> Array:
-    """Weights on the forces of functions of azimuth by weights, (forces, elements, azimuths)."""
-    return np.array([psi[a:b].T @ around[a:b] for a, b in pairwise(first.tolist())])
 
 
 def _stack(fields: Mapping[int, Array], shape: tuple[int, ...]) -> Array:

@@ -10,10 +10,13 @@ it in pairs, so products of measures and columns are formed at all azimuths of a
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
+from rotor.engine.terms import Structure
+from rotor.engine.waves import WaveGrid
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,3 +43,53 @@ class Memory:
         outputs = np.einsum("oei,okei->kei", forces, self.left)
         inputs = np.einsum("kei,kleij->lej", outputs, self.kernel, optimize=True)
         return np.einsum("lej,lcej->cej", inputs, self.right)
+
+    def by_inputs(self, waves: WaveGrid) -> Array:
+        """∂ of the means of all forces with all waves by the inputs at all azimuths.
+
+        (elements, forces, waves, inputs, azimuths)
+        """
+        forces, outputs, elements, azimuths = self.left.shape
+        weighted = np.einsum("okei,ip->eopki", self.left, waves.mean).reshape(elements, -1, outputs * azimuths)
+        whole = weighted @ self.kernel.transpose(2, 0, 3, 1, 4).reshape(elements, outputs * azimuths, -1)
+        return whole.reshape(elements, forces, -1, self.kernel.shape[1], azimuths)
+
+    def by_channel(self, by_inputs: Array, channel: int) -> Array:
+        """∂ of the same means by one channel at all azimuths, (forces, waves, elements, azimuths)."""
+        return np.einsum("eoplj,lej->opej", by_inputs, self.right[:, channel])
+
+    def add_between(
+        self, by_inputs: Array, structure: Structure, phi: Array, psi: Array, waves: WaveGrid, out: Array
+    ) -> None:  # fmt: skip
+        """Add ∂ of the measures by the coefficients of the shapes, (coefficients, measures).
+
+        phi, psi: shapes and weights along the blade. Derivatives are those of an element at all azimuths, so all
+        products of two waves are formed, not only their sums.
+        """
+        row, wave = np.divmod(structure.coefficient_places, structure.waves)
+        weight, other = np.divmod(structure.measure_places, structure.waves)
+        elements, count = len(by_inputs), structure.waves
+        for channel, right in enumerate(self.right.swapaxes(0, 1)):
+            begin, end = structure.first_row[channel : channel + 2].tolist()
+            columns = np.flatnonzero((row >= begin) & (row < end))
+            if not (len(columns) and right.any()):
+                continue
+            onto = (right[:, None] * waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, count)
+            for force, left in enumerate(self.left):
+                first, last = structure.first_weight[force : force + 2].tolist()
+                measures = np.flatnonzero((weight >= first) & (weight < last))
+                if not (len(measures) and left.any()):
+                    continue
+                between = by_inputs[:, force].reshape(elements, count, -1) @ onto
+                pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
+                found = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
+                own, shape = weight[measures] - first, (row[columns] - begin)[:, None]
+                out[np.ix_(columns, 1 + measures)] += found[own, shape, other[measures], wave[columns][:, None]]
+
+
+def on_forces(psi: Array, first: Integers, around: Array) -> Array:
+    """Weights on the forces of functions of azimuth by weights, (forces, elements, azimuths).
+
+    psi: (weights, elements). first: the first weight of each force. around: (weights, azimuths).
+    """
+    return np.array([psi[a:b].T @ around[a:b] for a, b in pairwise(first.tolist())])

@@ -7,6 +7,10 @@ by Broyden's rank-one change (Math. Comp. 19, 1965), which needs no new factors,
     H ← H + (s − H y)(W s)ᵀ H / (W s)ᵀ H y,    s: step, y: change of R, W: what changes of an unknown do to R.
 
 The residual has to meet the same tolerance, whatever the derivatives of the steps.
+
+Where a whole step raises the residual, part of it is taken: until the residual falls, or the next step with the same
+derivatives is shorter (natural monotonicity; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
+Near stall the residual has to rise on the way to a trim.
 """
 
 import math
@@ -26,6 +30,11 @@ _NEARLY = 10.0
 _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
+
+_MOST_RISES = 3
+"""Steps that raise the residual before the iteration ends. Our choice."""
+_LEAST_PART = 1.0 / 64.0
+"""Part of a step below which it is not divided further. Our choice."""
 
 _MANY = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
@@ -78,7 +87,7 @@ class Factors:
 class NewtonLimits:
     """How hard a solution is tried."""
 
-    most_passes: int = 40
+    most_passes: int = 60
     most_steps: float = 4.0
     """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
     as much as two to four, and one or two steps follow them."""
@@ -180,8 +189,11 @@ class _Steps:
         system, limits, slow_steps, expected = self._system, self._limits, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
+        part, rises = 1.0, 0
         point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
-        while point.size > goal and self.passes < limits.most_passes and slow_steps < _MOST_SLOW_STEPS:
+        while point.size > goal and self.passes < limits.most_passes:
+            if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
+                break
             fresh = self._corrected is None
             corrected = self._corrected or self._differentiate(point)
             if not corrected.factors.usable:
@@ -189,13 +201,18 @@ class _Steps:
             step = corrected.step(point.residual)
             if not np.isfinite(step).all():
                 break
-            step /= max(1.0, float((np.abs(step) / system.limits).max()))
-            fraction, last = 1.0, expected <= _NEARLY
-            trial = self._moved(point, step, last)
-            while fresh and trial.size >= point.size and fraction >= 0.2 and self.passes < limits.most_passes:
-                fraction *= 0.5
-                trial = self._moved(point, fraction * step, last)
-            corrected.taken = fraction * step
+            length = self._length(step)
+            step /= max(1.0, length)
+            part, last = part if fresh else 1.0, expected <= _NEARLY
+            trial, nearer = self._moved(point, part * step, last), False
+            while fresh and trial.size >= point.size:
+                after = self._length(corrected.factors.solve(trial.residual))
+                nearer = after < (1.0 - 0.25 * part / max(1.0, length)) * length
+                if nearer or part <= _LEAST_PART or self.passes >= limits.most_passes:
+                    break
+                part *= 0.5
+                trial = self._moved(point, part * step, last)
+            corrected.taken = part * step
             self.serving = trial.size <= limits.kept_ratio * point.size
             if _steps_left(trial.size, point.size, goal) > most_steps:
                 self._corrected = None
@@ -203,10 +220,16 @@ class _Steps:
             if trial.size >= point.size and not fresh:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
                 continue
-            slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
-            if trial.size < point.size or slow_steps < _MOST_SLOW_STEPS:
+            hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
+            part, rises = min(1.0, 2.0 * part), rises + nearer
+            slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
+            if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
                 point = trial
         return point
+
+    def _length(self, step: Array) -> float:
+        """Of a step, in units of the largest allowed."""
+        return float((np.abs(step) / self._system.limits).max())
 
     def _at(self, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
         self.passes += 1

@@ -15,7 +15,7 @@ from itertools import groupby
 from pathlib import Path
 
 from rotor.line_chart import draw, draw_small
-from rotor.validation import cross_codes, flown, hart2, uh60a
+from rotor.validation import cross_codes, flown, hart2, stall_loops, uh60a
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set
@@ -31,6 +31,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     hart2.SET: hart2.hart2_set,
     flown.AIRLOADS: flown.gazelle_set,
     flown.POWERS: flown.flown_set,
+    stall_loops.SET: stall_loops.loops_set,
     "sc1095": uh60a.section,
     "uh60a-constants": uh60a.constants,
     "uh60a-forward": uh60a.forward,
@@ -53,8 +54,8 @@ _AGAINST = {
 }
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NOT_MODELLED = (
-    "blade bending; torsion where the rotor file has no blade structure",
-    "dynamic stall (steady sections)",
+    "blade bending but as an option; torsion where the rotor file has no blade structure",
+    "dynamic stall but as an option: sections are steady",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "a change of lift slope by the swept tip",
     "the trailing-edge tab of the UH-60A between 0.73 and 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",

@@ -90,7 +90,9 @@ class Outcome:
     trims were found, trimmed from a neighbour; in deep stall: two trims; or what is wrong."""
     said: str = ""
     first: bool = True
-    """Trimmed by the first attempt: no other start, continuation or branch was needed."""
+    """The first attempt finds the trim: no other start, continuation or branch is needed."""
+    alone: bool = True
+    """Nor was one looked for, as it is where much of the disk is stalled."""
     plain: bool = False
     """Level flight within `TRIMMABLE`."""
     stalled: float = 0.0
@@ -108,24 +110,30 @@ def try_design(asked: dict[str, Any]) -> Outcome:
 def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     tries: list[int] = []
     solution = solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: bool(tries.append(1))))
-    first, plain = not tries, _plain(design)
+    alone, plain = not tries, _plain(design)
+    first = alone or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
     if wrong := _wrong(solution):
-        return Outcome(asked, "wrong", wrong, first, plain, solution.stalled_area)
+        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_area)
     mu = design.condition.advance_ratio
     neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
     warm = solve(design, neighbour)
     stalled = max(solution.stalled_area, warm.stalled_area)
     if solution.converged != warm.converged:
         kind = "at the limit" if "of the disk is stalled" in solution.message else "other status"
-        return Outcome(asked, kind, f"cold {solution.message} warm {warm.message}", first, plain, stalled)
+        return Outcome(asked, kind, f"cold {solution.message} warm {warm.message}", first, alone, plain, stalled)
     if not solution.converged:
-        return Outcome(asked, "refused", solution.message, first, plain, stalled)
-    cold, other = solution.last_power.main_rotor, warm.last_power.main_rotor
-    scale = max(abs(cold), solution.last_power.profile)
-    if abs(cold - other) > SAME * scale:
+        return Outcome(asked, "refused", solution.message, first, alone, plain, stalled)
+    if not _same(solution, warm):
+        cold, other = solution.last_power.main_rotor, warm.last_power.main_rotor
         kind = "in deep stall" if stalled > BEYOND else "other power"
-        return Outcome(asked, kind, f"cold {cold:.3f} W, warm {other:.3f} W", first, plain, stalled)
-    return Outcome(asked, "trimmed", "", first, plain, stalled)
+        return Outcome(asked, kind, f"cold {cold:.3f} W, warm {other:.3f} W", first, alone, plain, stalled)
+    return Outcome(asked, "trimmed", "", first, alone, plain, stalled)
+
+
+def _same(one: Solution, other: Solution) -> bool:
+    """Whether both trimmed, with the same power."""
+    power, scale = one.last_power.main_rotor, max(abs(one.last_power.main_rotor), one.last_power.profile)
+    return one.converged and other.converged and abs(power - other.last_power.main_rotor) <= SAME * scale
 
 
 def _plain(design: Design) -> bool:
@@ -195,8 +203,10 @@ def main() -> int:
     print(f"{args.count} designs in {time.perf_counter() - begin:.0f} s: {dict(kinds)}")
     shares = [share(outcomes), share(outcomes, below=BEYOND), share(outcomes, plain=True)]
     whole, attached, plain = (f"{100 * one:.2f} %" for one in shares)
+    alone = sum(one.kind == "trimmed" and one.alone for one in outcomes) / max(kinds["trimmed"], 1)
     print(
-        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter stalled, {plain} of level flight"
+        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter stalled, {plain} of level flight; "
+        f"no other trim was looked for in {100 * alone:.2f} %"
     )
     for one in outcomes:
         if one.kind not in RIGHT or one.kind == "in deep stall":
