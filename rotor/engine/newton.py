@@ -186,10 +186,9 @@ class _Steps:
 
     def __call__(self, grid: Grid, x: Array, goal: float, most_steps: float) -> Point:
         """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
-        system, limits, slow_steps, expected = self._system, self._limits, 0, math.inf
+        system, limits, slow_steps, rises, expected = self._system, self._limits, 0, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
-        part, rises = 1.0, 0
         point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
         while point.size > goal and self.passes < limits.most_passes:
             if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
@@ -203,8 +202,8 @@ class _Steps:
                 break
             length = self._length(step)
             step /= max(1.0, length)
-            part, last = part if fresh else 1.0, expected <= _NEARLY
-            trial, nearer = self._moved(point, part * step, last), False
+            part, last, nearer = 1.0, expected <= _NEARLY, False
+            trial = self._moved(point, step, last)
             while fresh and trial.size >= point.size:
                 after = self._length(corrected.factors.solve(trial.residual))
                 nearer = after < (1.0 - 0.25 * part / max(1.0, length)) * length
@@ -221,7 +220,7 @@ class _Steps:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
                 continue
             hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
-            part, rises = min(1.0, 2.0 * part), rises + nearer
+            rises += nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
             if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
                 point = trial

@@ -15,7 +15,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult,
 
 LINEAR = "pitt-peters"
 """The linear inflow along whose trim the wake of a lifting line lies, and from which it starts below `FAST`."""
-FAST = 0.4
+FAST = 0.25
 """µ from which simple estimates are the better start: with linear inflow more of the disk stalls there. Our choice."""
 
 
@@ -81,22 +81,13 @@ def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:
 
 
 def first_guess(problem: Problem) -> Guess:
-    """A state from momentum theory and mean blade angles.
-
-    Of an untwisted blade in uniform flow λ through the disk, to which it does not flap (moments along and across zero):
-
-        2C_T/σa = θ(1 + 3/2 µ²)/3 + µθ_1s/2 − λ/2
-        θ_1s = −8/3 µ (θ − ¾λ)/(1 + 3/2 µ²),    θ_1c = 4/3 µ β_0/(1 + ½ µ²)
-
-    W. Johnson, Helicopter Theory, 1980, section 5-5.
-    """
+    """A state from momentum theory and mean blade angles."""
     design = problem.design
     mu = design.condition.advance_ratio
     ct = math.hypot(problem.weight, problem.drag)
     wake = problem.expected
-    through = wake.axial if design.models.disk_axial_flow else wake.lambda0
-    lift, spread = 2.0 * ct / (design.rotor.solidity * 5.9), 1.0 + 1.5 * mu**2  # a near 2π·0.95
-    collective = 3.0 * (lift + through * (0.5 - mu**2 / spread)) / (spread - 4.0 * mu**2 / spread)
+    # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
+    collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.droop
     state = TrimState(
         collective=collective,
@@ -109,12 +100,10 @@ def first_guess(problem: Problem) -> Guess:
         state = replace(state, shaft_tilt=math.atan2(wake.mu_z, wake.mu_x))
     if stand is not None and stand.collective is not None:
         state = replace(state, collective=stand.collective)
-    sine = -8.0 / 3.0 * mu * (state.collective - 0.75 * through) / spread
-    cosine = 4.0 / 3.0 * mu * coning / (1.0 + 0.5 * mu**2)
     if "cyclic_1c" in unknowns_of(design):
-        flapping = {"flap_1c": design.condition.flap_1c, "flap_1s": design.condition.flap_1s}
-        return Guess(replace(state, cyclic_1s=sine, cyclic_1c=cosine, **flapping))
-    return Guess(replace(state, flap_1c=sine, flap_1s=-cosine))
+        cyclic = {"cyclic_1s": -8.0 / 3.0 * mu * collective, "cyclic_1c": 4.0 / 3.0 * mu * coning}
+        return Guess(replace(state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s))
+    return Guess(replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning))
 
 
 def _easier(design: Design, t: float) -> Design:
