@@ -318,7 +318,10 @@ def pay_record(search: PaySearch) -> dict[str, Any]:
 
 
 def _show(table: ActuatorTable, as_json: bool) -> None:
-    print(json.dumps(asdict(table), indent=2) if as_json else table.text())
+    if as_json:
+        print(json.dumps({key: value for key, value in asdict(table).items() if key != "keys"}, indent=2))
+    else:
+        print(table.text())
 
 
 def _kw(power: float) -> str:
