@@ -190,7 +190,7 @@ def _page(*parts: str) -> str:
     """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
     text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(parts))
     text = re.sub(r"\b1e-0*(\d+)\b", lambda found: "10⁻" + found[1].translate(_RAISED), text).replace(" %", "\u00a0%")
-    return re.sub(r"\b([CU])_(\w)\b", r"\1<sub>\2</sub>", text) + "\n"
+    return re.sub(r"\b([CUc])_(\w)\b", r"\1<sub>\2</sub>", text) + "\n"
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
