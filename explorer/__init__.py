@@ -21,9 +21,9 @@ __all__ = ("show",)
 def show(design: "Design", *, port: int = 0, browser: bool | None = None, hub: str | None = None) -> "RunningPage":
     """Start the page on a design in the background of this process, on this machine only.
 
-    port: where it listens; 0 takes a free one. browser: whether to open a browser; by default yes, but not in Jupyter,
-    where the value returned shows the page inline. hub: name of a JupyterHub with jupyter-server-proxy, as in
-    "hub.example"; the page answers to it, and is shown by its path there.
+    port: where it listens; 0 takes a free one.
+    browser: whether to open a browser; by default yes, but not in Jupyter, where the value returned shows the page.
+    hub: name of a JupyterHub with jupyter-server-proxy, "hub.example": the page is shown by its path there.
 
     The page ends with the process or with `.stop()` of the value returned; its address is `.address`.
     Raises TypeError for anything but a design, and ValueError for one that the page cannot show.

@@ -69,7 +69,7 @@ def test_moment_of_apparent_mass_is_theodorsens(k: float):
     own = data(k, 0.35)
     own.tables[..., 1, :, :] = 0.0  # The normal force acts at the quarter chord.
     wave = np.exp(2j * np.pi * np.arange(96) / 96)
-    alpha, q = math.radians(0.1) * wave.imag, k * math.radians(0.1) * wave.real
+    alpha, q = math.radians(0.1) * np.imag(wave), k * math.radians(0.1) * np.real(wave)
     added = followed(alpha, np.full(96, 0.35), q, own)[0][ADDED_M] - 0.5 * math.pi * q
     found = (added @ wave.conj()) / (alpha @ wave.conj())
     assert found == pytest.approx(-0.5 * math.pi * (1j * k + 0.375 * (1j * k) ** 2), rel=0.01)
