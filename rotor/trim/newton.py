@@ -52,7 +52,7 @@ class SolverOptions:
     """Difference at which hover counts as converged, as a fraction of C_W."""
     continuation_steps: int = 40
     """Most steps of continuation from an easier condition."""
-    most_passes: int = 400
+    most_passes: int = 600
     """Evaluations of the blade elements in one solve, after which continuation gives up."""
     stop: Callable[[], bool] | None = None
     """Asked between two runs of Newton's method; True ends a solve that has not converged."""
