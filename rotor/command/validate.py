@@ -73,7 +73,11 @@ def run(args: argparse.Namespace) -> int:
         tables += [airload_report(curves)] if curves else []
         tables += [power_report(powers)] if powers else []
         for one in others:
-            tables.append("\n".join([one.title, *(f"{row.what:<62}{row.shown:<16}{row.verdict}" for row in one.rows)]))
+            what, shown = (
+                max(map(len, words)) for words in zip(*((row.what, row.shown) for row in one.rows), strict=True)
+            )
+            lines = [f"{row.what:<{what}}  {row.shown:<{shown}}  {row.verdict}" for row in one.rows]
+            tables.append("\n".join([one.title, *lines]))
         if tables:
             print(("\n" if found else "") + "\n\n".join(tables))
     if args.plot:

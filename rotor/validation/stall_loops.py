@@ -138,10 +138,10 @@ def loops_set() -> TrustSet:
 
 def _chart(loop: StallLoop, k: int) -> LineChart:
     """Measured, static and with dynamic stall over the angle of attack."""
-    alpha = tuple(np.degrees(loop.alpha).tolist())
-    measured, static, dynamic = (tuple(one[k].tolist()) for one in (loop.measured, loop.static, loop.dynamic))
+    parts = np.degrees(loop.alpha), loop.static[k], loop.dynamic[k]
+    alpha, static, dynamic = (tuple(np.append(one, one[0]).tolist()) for one in parts)  # Closed loops.
     series = (
-        Series("measured", alpha, measured),
+        Series("measured", alpha[:-1], tuple(loop.measured[k].tolist())),
         Series("dynamic stall", alpha, dynamic, "line", 1),
         Series("static data", alpha, static, "line", 2),
     )
