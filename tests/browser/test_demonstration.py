@@ -13,7 +13,7 @@ import pytest
 from test_lecture_page import FIGURES, LONG, section, stands_at
 from test_plan import _READY as PLAN_READY
 from test_plan import _point as on_the_plan
-from watched import MEDIUM, PASSIVE, Watched
+from watched import MEDIUM, Watched
 
 from explorer.app import App
 from explorer.model.inputs import OPENING, ViewState
@@ -113,7 +113,7 @@ def _opened(browser: "Browser", address: str, scheme: Any) -> Watched:
 def watched(browser: "Browser", app: App, scheme: str) -> Iterator[Watched]:
     watched = _opened(browser, app.address, scheme)
     yield watched
-    assert [said for said in watched.complaints if PASSIVE not in said] == []
+    assert watched.complaints == []
     watched.page.context.close()
 
 

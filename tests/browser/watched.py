@@ -30,18 +30,20 @@ ON_SCREEN = """r => {
 }"""
 """Pixel of a point of the reference blade, so far from its hinge [m]."""
 PASSIVE = "Unable to preventDefault inside passive event listener"
-"""What the browser says of viser's own listener when a node is dragged."""
+"""What the browser says of viser's own listener when a node that can be dragged, as a blade, is pressed."""
 
 
 class Watched:
-    """A page and everything it complained about."""
+    """A page and everything it complained about, except of what viser does itself."""
 
     def __init__(self, page: "Page") -> None:
         self.page = page
         page.set_default_timeout(WAIT)
         self.complaints: list[str] = []
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
+        page.on(
+            "console", lambda m: self.complaints.append(m.text) if m.type == "error" and PASSIVE not in m.text else None
+        )
 
     def open(self, address: str, query: str = COARSE) -> None:
         self.page.goto(address + query)
