@@ -16,9 +16,9 @@ from rotor.actuator.section import Host, default_placement
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import axial_inflow, vortex_ring_edge
 from rotor.airfoil.sections import load_section
-from rotor.analysis.series import waterfall
 from rotor.assets import asset_path
 from rotor.line_chart import AZIMUTH, COLOURS, LineChart
+from rotor.study.series import waterfall
 from rotor.trim.adjoint import power_gradient
 
 SPEEDS = np.arange(0.08, 0.361, 0.04)

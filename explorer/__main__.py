@@ -7,7 +7,8 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.hosting.limits import SESSIONS, host_name
+from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
+from explorer.hosting.limits import SESSIONS
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command
@@ -47,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.hosting.limits import ServerLimits, few_pools, is_loopback, limit_log, warning
+    from explorer.hosting.limits import ServerLimits, few_pools, limit_log
     from explorer.model.inputs import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.compiled import tell_in_a_log

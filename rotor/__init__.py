@@ -26,8 +26,6 @@ from importlib.metadata import PackageNotFoundError, version
 
 from rotor import actuator
 from rotor.aero.elements import TrimState
-from rotor.analysis.series import SweepTable, plot_power, schedule, sweep
-from rotor.analysis.vibration import t_matrix, vibration_front
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
@@ -38,6 +36,8 @@ from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
+from rotor.optimisation.vibration import t_matrix, vibration_front
+from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
 from rotor.trim.solve import solve

@@ -12,10 +12,10 @@ from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
 from explorer.model.stand import as_measured, flight_powers
 from explorer.model.units import Units, number
 from explorer.text.status import validated
-from rotor.analysis.series import between_drag_areas
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
 from rotor.design.stand import Stand
+from rotor.study.series import between_drag_areas
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare_point, design_at, quantity_of

@@ -11,9 +11,9 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
-from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.design.design import Design
+from rotor.study.series import between_drag_areas
 from rotor.trim.low_speed import passes_over
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution

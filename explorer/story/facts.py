@@ -15,9 +15,9 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.story.steps import FRONT, SPEEDS, STEPS, LectureStep, angle_words, beside, on_one_line, speed_words
 from rotor.actuator.verdict import try_actuator
-from rotor.analysis.vibration import vibration_front
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
+from rotor.optimisation.vibration import vibration_front
 from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, built, least, moving_twist
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

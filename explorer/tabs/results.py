@@ -20,7 +20,7 @@ from explorer.text import readout
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, status_panel, trust_page, validated
 from explorer.text.why import why
-from rotor.analysis.series import between_drag_areas
+from rotor.study.series import between_drag_areas
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
 

@@ -10,9 +10,8 @@ from explorer.text import readout
 from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
 from rotor.aero.switches import SWITCHES, with_switches
-from rotor.analysis.series import WaterfallStep, switch_off_steps, switch_on_steps
 from rotor.design.design import Design
-from rotor.trim.solution import Solution
+from rotor.study.series import WaterfallStep, waterfall_steps
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""
@@ -194,7 +193,7 @@ class WaterfallPanel(Tab):
         """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
         design = with_switches(state.solution.design, ())
         if design != self._design:
-            self._design, self._coming, self._steps = design, _all_steps(design), []
+            self._design, self._coming, self._steps = design, waterfall_steps(design), []
             self._fade()
         units, self._units = self._units, UNITS[state.view.units]
         if units is not self._units and len(self._steps) == _ALL:
@@ -206,6 +205,7 @@ class WaterfallPanel(Tab):
             self._steps.append(next(self._coming))
             if len(self._steps) == _ALL:
                 self._draw()
+                self._coming = iter(())  # It keeps the last trims with their factors.
 
     def show_failure(self) -> None:
         self._design = None
@@ -230,13 +230,3 @@ def _cost(step: WaterfallStep, units: Units) -> str:
     if step.added is None:
         return "does not trim without it"
     return f"{units.watts(-step.added, 1, sign=True)} here"
-
-
-def _all_steps(design: Design) -> Iterator[WaterfallStep]:
-    """All switches on one after another, then each switch off alone."""
-    full: Solution | None = None
-    for step in switch_on_steps(design):
-        full = step.solution
-        yield step
-    assert full is not None
-    yield from switch_off_steps(design, full)

@@ -10,8 +10,8 @@ from explorer.model.inputs import baseline_title
 from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
 from explorer.theme.colours import PARTS, PINNED, THIS
-from rotor.analysis.ideal_bound import ideal_factor, not_bounded
 from rotor.design.design import Design
+from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.trim.solution import PowerBudget, Solution
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}

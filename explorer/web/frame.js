@@ -37,7 +37,7 @@
     send(name, value = null) {
       const client = window.__viserMutable;
       if (!client?.sendMessage || bridge === null) return;
-      client.sendMessage({type: 'GuiUpdateMessage', uuid: bridge, updates: {value: JSON.stringify([++serial, name, value])}});
+      client.sendAfterEdits({type: 'GuiUpdateMessage', uuid: bridge, updates: {value: JSON.stringify([++serial, name, value])}});
     },
     // For tests: true once all that was sent is answered and drawn, and nothing more was sent meanwhile; wholly, once the
     // server computes nothing more for this page, searches apart. It gives the number back that it is sent.

@@ -29,11 +29,46 @@
     }
   };
 
+  // The client keeps an edit back that follows another within 50 ms, and has one place for what it keeps: of three widgets
+  // that change within that time, as under a hand that is ahead of a busy page, the second was lost. So the client does
+  // not wait, and an edit waits here, only for its own widget.
+  const INTERVAL = 50;  // [ms]
+  const later = window.setTimeout;
+  let kept = null, last = null, lastAt = 0, editing = false;
+  window.setTimeout = (call, delay, ...rest) => {
+    if (!editing || delay !== INTERVAL) return later.call(window, call, delay, ...rest);
+    editing = false;
+    call();
+  };
+  function sendKept(send) {
+    const edit = kept;
+    kept = null;
+    if (edit) sendEdit(edit, send);
+  }
+  function sendEdit(edit, send) {
+    last = edit.uuid;
+    lastAt = performance.now();
+    send(edit);
+  }
+  function pace(edit, send) {
+    if (kept?.uuid !== edit.uuid) sendKept(send());
+    const rest = edit.uuid === last ? INTERVAL - (performance.now() - lastAt) : 0;
+    if (rest <= 0) { kept = null; sendEdit(edit, send()); }
+    else {
+      if (!kept) later.call(window, () => sendKept(send()), rest);
+      kept = edit;
+    }
+    editing = true;
+    queueMicrotask(() => { editing = false; });
+  }
+
   // The client replaces the function that sends when its connection opens and when it ends: then we hear of it.
   let client;
   function watch(next) {
     let send = next.sendMessage;
-    Object.defineProperty(next, 'sendMessage', {get: () => send, set: other => {
+    const paced = message => message.type === 'GuiUpdateMessage' ? pace(message, () => send) : send(message);
+    next.sendAfterEdits = message => { sendKept(send); send(message); };
+    Object.defineProperty(next, 'sendMessage', {get: () => send && paced, set: other => {
       send = other;
       window.dispatchEvent(new CustomEvent('rx-connection', {detail: !/not connected/.test(String(other))}));
     }});

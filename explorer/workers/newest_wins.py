@@ -107,8 +107,10 @@ class NewestWins:
         self._steps: Iterator[float] | None = None
         self._answered = False
         """Whether what the last update was for is shown."""
-        self._pause = self._took = 0.0
-        """[s] before the next step, and of processor time that the last frame took."""
+        self._pause = 0.0
+        """[s] before the next step."""
+        self._took = 0.0, 0.0
+        """[s] of processor time that each of the last two frames took. A page's first is always slow."""
 
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
@@ -172,7 +174,7 @@ class NewestWins:
                 self._wanted.clear()
                 begun = time.thread_time()
                 self._pause, steps = 0.0, self._update()
-                self._took = time.thread_time() - begun
+                self._took = self._took[1], time.thread_time() - begun
                 if steps is None:
                     self._answered = answered
                 else:
@@ -198,6 +200,6 @@ class NewestWins:
 
     def _line_up_for_frame(self) -> None:
         """Frames of a page whose trims take long are steps: only one of these is computed at a time."""
-        slow = self._took > _SLOW
+        slow = min(self._took) > _SLOW
         self._state = "step" if slow else "frame"
         self._ticket = self._pool.queue(self, time.monotonic() if slow else None)

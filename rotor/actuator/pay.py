@@ -242,6 +242,8 @@ class PaySearch:
     """Those that earn most of their cost first; empty where the blade's structure is not known."""
     verdicts: tuple[Verdict, ...]
     """Of the first candidates, best net saving first."""
+    untrimmed: int = 0
+    """Builds that are none of the candidates because they do not trim."""
 
 
 PLIES = (1, 2, 4)
@@ -262,6 +264,7 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
         return PaySearch(even, (), ())
     base = baseline(pair, find_concept("linear"))
     found: list[Candidate] = []
+    untrimmed = 0
     for host in HOSTS:
         blade = host_blade(base, host)
         for actuator, plies, span in product(actuators().values(), PLIES, SPANS):
@@ -270,8 +273,11 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
             try:
                 made = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
                 one = estimate(made, blade, derating=made.derating if derated else 1.0)
-            except (ValueError, RuntimeError):
-                continue  # The plies alone are stiffer than the blade, or it does not trim.
+            except ValueError:
+                continue  # The plies alone are stiffer than the blade.
+            except RuntimeError:
+                untrimmed += 1
+                continue
             found.append(Candidate(made, one))
     found.sort(key=lambda one: -one.earned)
     firsts: dict[str, Candidate] = {}
@@ -281,20 +287,21 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
         judge(one.installed.actuator, pair, base.concept, one.installed.placement, one.installed.host, derated=derated)
         for one in list(firsts.values())[:judged]
     ]
-    return PaySearch(even, tuple(found), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)))
+    return PaySearch(even, tuple(found), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)), untrimmed)
 
 
 def search_sentence(search: PaySearch) -> str:
     """How near the best build comes, in one line; empty without a search."""
     if not search.candidates:
-        return ""
+        return f"None of {search.untrimmed} builds trims." if search.untrimmed else ""
     best = search.candidates[0]
     twist = math.degrees(best.installed.attainable)
     what = f"{best.name}: {twist:.1f}° for {best.mass:.0f} kg"
     count, paying = len(search.candidates), sum(one.pays for one in search.candidates)
+    more = f" {search.untrimmed} more did not trim." if search.untrimmed else ""
     if paying:
-        return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost."
-    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost."
+        return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost.{more}"
+    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost.{more}"
 
 
 def pay_sentence(even: BreakEven) -> str:

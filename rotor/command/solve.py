@@ -5,9 +5,9 @@ import json
 import math
 from typing import Any
 
-from rotor.analysis.series import between_drag_areas
 from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
 from rotor.design.design import Design
+from rotor.study.series import between_drag_areas
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.hub_loads import why_no_hub_loads

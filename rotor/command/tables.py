@@ -13,9 +13,6 @@ from typing import Any
 
 from tqdm import tqdm
 
-from rotor.analysis.ideal_bound import Bound, find_bound
-from rotor.analysis.series import COLUMNS, PARTS, VIBRATION, Waterfall, WaterfallStep, sweep, waterfall
-from rotor.analysis.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import (
     add_command,
@@ -32,6 +29,9 @@ from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
+from rotor.optimisation.ideal_bound import Bound, find_bound
+from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
+from rotor.study.series import COLUMNS, PARTS, VIBRATION, Waterfall, WaterfallStep, sweep, waterfall
 from rotor.terminal import wrapped
 from rotor.user_input import check_writable, parse_range
 

@@ -13,12 +13,12 @@ from functools import cache
 import numpy as np
 
 from rotor.aero.momentum import glauert_inflow
-from rotor.analysis.series import between_drag_areas
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.line_chart import AZIMUTH, LineChart, Series
+from rotor.study.series import between_drag_areas
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.airloads import (

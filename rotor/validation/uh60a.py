@@ -73,7 +73,7 @@ def hover() -> TrustSet:
     """Every point counts, whatever the test's own tolerance leaves out."""
     ct, cp, ours = beside_hover_points()
     ratio = np.array(ours) / np.array(cp) - 1.0
-    test = "rotor/analysis/test_comparison.py::test_hover_points"
+    test = "rotor/validation/test_comparison.py::test_hover_points"
     against = "digitised UH-60 rotor measurements, provenance incomplete"
     rows = (
         share("uh60a-hover", "validation", "Hover C_P, worst of ten points", against, float(ratio.min()), 3e-3, test),

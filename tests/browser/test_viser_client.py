@@ -5,6 +5,9 @@ from collections.abc import Iterator
 import pytest
 from watched import Watched
 
+from explorer.app import App
+from rotor.aero.switches import SWITCHES
+
 pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
 
@@ -28,17 +31,37 @@ def test_the_docks_stay_in_a_narrow_window(watched: Watched):
 def test_the_client_says_when_it_can_send(watched: Watched):
     """It replaces `sendMessage` by a function that says "not connected" while it is not."""
     heard = """() => {
-        const client = window.__viserMutable, send = client.sendMessage, heard = [];
+        const client = window.__viserMutable, heard = [];
         const hear = event => heard.push(event.detail);
         addEventListener('rx-connection', hear);
         client.sendMessage = () => console.debug('not connected');
-        client.sendMessage = send;
+        client.sendMessage = () => {};
         removeEventListener('rx-connection', hear);
         return heard;
     }"""
     assert watched.page.evaluate(heard) == [False, True]
     watched.page.wait_for_function("() => !document.querySelector('#rx-gone')")
+    watched.page.reload()  # The client has its own function again.
     watched.ready()
+
+
+def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App):
+    """The client has one place for what it keeps back: of three widgets that change within 50 ms it lost the second."""
+    titles = {name: switch.title for name, switch in SWITCHES.items()}
+    watched.page.get_by_text("Model", exact=True).click()
+    boxes = [watched.row(title).locator("input[type=checkbox]") for title in titles.values()]
+    boxes[-1].wait_for()
+
+    def held() -> list[bool]:
+        inputs = app.sessions[-1].page.controls.inputs()
+        return [getattr(inputs, name) for name in titles]
+
+    before = held()
+    for _ in range(2):
+        watched.page.evaluate("boxes => boxes.forEach(box => box.click())", [box.element_handle() for box in boxes])
+        watched.answered()
+        before = [not one for one in before]
+        assert held() == before == [box.is_checked() for box in boxes]
 
 
 def test_a_chart_that_is_drawn_anew_draws_its_axes(watched: Watched):

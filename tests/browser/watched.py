@@ -18,7 +18,6 @@ COARSE = "?fixedDpr=0.5"
 OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
     && !document.documentElement.classList.contains('rx-veiled')"""
 _DRAWN = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
-_TAKEN = "() => new Promise(done => requestAnimationFrame(() => setTimeout(done, 80)))"
 
 
 ON_SCREEN = """r => {
@@ -57,11 +56,6 @@ class Watched:
         """Wait until what has arrived is drawn: `RX.state` is ahead of what is seen by a frame."""
         self.page.evaluate(_DRAWN)
 
-    def taken(self) -> None:
-        """Wait until the page has sent the last edit: viser keeps one back that follows another within 50 ms, and
-        loses it to a third. Counted by the page's own clock, as a busy page is late."""
-        self.page.evaluate(_TAKEN)
-
     def close(self) -> None:
         self.page.close()
 
@@ -73,17 +67,14 @@ class Watched:
         self.row(label).get_by_role("slider").focus()
         for _ in range(times):
             self.page.keyboard.press(key)
-            self.taken()
 
     def choose(self, label: str, option: str) -> None:
         self.row(label).locator("input").first.click()
         self.page.get_by_role("option", name=option, exact=True).click()
-        self.taken()
 
     def type(self, label: str, value: float) -> None:
         self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
         self.page.keyboard.press("Enter")
-        self.taken()
 
     def mode(self, name: str) -> None:
         """Explore, Optimise or Actuate: what the rail holds."""

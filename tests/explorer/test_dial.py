@@ -19,9 +19,9 @@ from explorer.tabs.actuator.dial import (
     with_wave,
 )
 from rotor.actuator.programmes import programmes
-from rotor.analysis.vibration import with_harmonics
 from rotor.design.active_twist import Harmonic
 from rotor.files.make_design import make_design
+from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import hub_index, hub_loads
 from rotor.trim.solve import solve

@@ -20,7 +20,7 @@ from explorer.tabs.probe.probe_drawing import probe_panel
 from explorer.tabs.probe.probe_measured import beside_measured, correlation, measured_panel
 from explorer.text.readout import drag_band_words, open_drag_area
 from explorer.text.status import cautions, validated
-from rotor.analysis.series import between_drag_areas
+from rotor.study.series import between_drag_areas
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve
 

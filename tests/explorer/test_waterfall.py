@@ -13,9 +13,9 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from explorer.tabs.waterfall import WaterfallPanel, alone_table, waterfall_chart
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.series import Waterfall, WaterfallStep, waterfall
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.study.series import Waterfall, WaterfallStep, waterfall
 from rotor.trim.solution import Solution, Status
 from rotor.trim.solve import solve
 

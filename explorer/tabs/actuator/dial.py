@@ -17,9 +17,9 @@ from explorer.tabs.context import TabContext
 from explorer.text.design_words import harmonic_words
 from rotor.actuator.programmes import Programme, programmes
 from rotor.aero.bending import can_bend
-from rotor.analysis.vibration import t_matrix, vibration_front, with_harmonics
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
+from rotor.optimisation.vibration import t_matrix, vibration_front, with_harmonics
 from rotor.trim.hub_loads import index_gains, why_no_hub_loads
 
 HARMONICS = (2, 3, 4, 5)

@@ -240,13 +240,13 @@ class TestCrowd:
         def update(k: int) -> None:
             nonlocal now, most
             with lock:
-                now += rounds[k] > 0
+                now += rounds[k] > 1
                 most = max(most, now)
             begun = time.thread_time()
             while time.thread_time() - begun < 0.02:
                 pass
             with lock:
-                now -= rounds[k] > 0
+                now -= rounds[k] > 1
                 rounds[k] += 1
             if not ended.is_set():
                 slow[k].wake()
@@ -257,6 +257,32 @@ class TestCrowd:
         until(lambda: min(rounds) >= 5)
         ended.set()
         assert most == 1
+
+    def test_one_slow_frame_does_not_put_a_page_behind_the_charts_of_others(self, monkeypatch: pytest.MonkeyPatch):
+        """The first frame of each page is slow: who moves a slider then does not wait for what others still compute."""
+        monkeypatch.setattr(newest_wins, "_SLOW", 0.01)
+        pool, go, begun, ended, frames = UpdatePool(2), threading.Event(), threading.Event(), list[bool](), [0]
+
+        def opened() -> None:
+            end = time.thread_time() + (0.02 if frames[0] == 0 else 0.0)
+            while time.thread_time() < end:
+                pass
+            frames[0] += 1
+
+        def charts() -> Iterator[float]:
+            yield 0.0
+            begun.set()
+            ended.append(go.wait(LONG))
+
+        page, other = NewestWins(opened, fail, pool), NewestWins(charts, fail, pool)
+        page.wake()
+        until(lambda: frames[0] == 1)
+        other.wake()
+        assert begun.wait(LONG)
+        page.wake()
+        until(lambda: frames[0] == 2 or bool(ended))
+        assert not ended
+        go.set()
 
 
 class TestAnswers:

@@ -141,9 +141,24 @@ def test_the_search_agrees_with_the_verdict():
     assert_allclose(judged.net_saving, one.estimate.net, atol=0.03 * one.estimate.mass_cost + 20.0)
     said = search_sentence(found)
     assert f"of {len(found.candidates)} builds pays" in said
+    assert search_sentence(replace(found, untrimmed=2)) == f"{said} 2 more did not trim."
     rows = builds_table(found.candidates[:5]).rows
     assert [row[0] for row in rows] == [build.name for build in found.candidates[:5]]
     assert float(rows[0][-2]) == pytest.approx(1e-3 * one.estimate.net, abs=0.051)
+
+
+def test_builds_that_do_not_trim_are_counted(monkeypatch: pytest.MonkeyPatch):
+    def fails(*_: object, **__: object) -> None:
+        raise RuntimeError("Not trimmed.")
+
+    monkeypatch.setattr("rotor.actuator.pay.baseline", lambda *_: None)
+    monkeypatch.setattr("rotor.actuator.pay.host_blade", lambda *_: None)
+    monkeypatch.setattr("rotor.actuator.pay.estimate", fails)
+    monkeypatch.setattr("rotor.actuator.pay.break_even", lambda _: line())
+    found = what_would_pay(pair())
+    assert found.candidates == ()
+    assert found.untrimmed > 100
+    assert search_sentence(found) == f"None of {found.untrimmed} builds trims."
 
 
 @pytest.mark.slow

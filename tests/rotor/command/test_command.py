@@ -16,11 +16,11 @@ from rotor import __version__
 from rotor.__main__ import main
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.ideal_bound import ideal_factor
-from rotor.analysis.series import COLUMNS
 from rotor.command.optimise import digits_of_band
 from rotor.design.design import HOVER_INFLOWS
 from rotor.files.make_design import make_design
+from rotor.optimisation.ideal_bound import ideal_factor
+from rotor.study.series import COLUMNS
 from rotor.user_input import parse_range
 
 KEYS = [

@@ -11,11 +11,11 @@ from numpy.testing import assert_allclose
 
 from rotor import Design, make_design
 from rotor.__main__ import main
-from rotor.analysis.ideal_bound import bound_line, find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.ideal_bound import bound_line, find_bound, ideal_factor
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve

@@ -10,7 +10,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.problem import build_problem
-from rotor.analysis.series import sweep
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
@@ -35,6 +34,7 @@ from rotor.optimisation.search import (
     even_change_limit,
     run_search,
 )
+from rotor.study.series import sweep
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve

@@ -60,6 +60,7 @@ class Dragger:
         try:
             await visitor.open(address)
             await visitor.until(lambda: visitor.text("status") == "converged", _PATIENCE)
+            await visitor.idle()  # So that what a page keeps for its charts is there before memory is judged.
             await asyncio.sleep(max(begin - time.monotonic(), 0.0))
             end += time.monotonic() - begin  # Who comes late drags as long as the others.
             self._measuring, bytes_before = True, visitor.bytes
@@ -84,12 +85,13 @@ class Dragger:
 
     async def _drag(self, until: float, period: float) -> None:
         """To and fro as a hand does, in steps of the slider, one edit a period."""
-        middle, swing = self._random.uniform(-14.0, -4.0), self._random.uniform(2.0, 6.0)
+        swing = self._random.uniform(2.0, 6.0)
+        middle = self._random.uniform(_LOW + swing, _HIGH - swing)
         pace, begin = self._random.uniform(0.2, 0.6), time.monotonic()
         due = begin
         while (now := time.monotonic()) < until:
             wanted = middle + swing * math.sin(2.0 * math.pi * pace * (now - begin))
-            value = round(round(min(max(wanted, _LOW), _HIGH) / _STEP) * _STEP, 1)
+            value = round(round(wanted / _STEP) * _STEP, 1)
             if value != self._value:
                 await self._edit(value)
             due += period

@@ -19,6 +19,8 @@ _END = 10.0
 """[s] a server may take to end."""
 _WATCH = 2.0
 """[s] between looks at memory, less in a short run."""
+_FIRST = 2.0
+"""[s] for each visitor, until its page has all its charts."""
 _ARRIVAL = 0.05
 """[s] between one visitor's coming and the next one's."""
 
@@ -68,7 +70,7 @@ def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> SoakRep
 
 
 async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None]) -> SoakReport:
-    begin = time.monotonic() + 2.0 + 0.3 * plan.browsers + 5.0 * plan.real
+    begin = time.monotonic() + _FIRST * (1 + plan.browsers) + 5.0 * plan.real
     end = begin + 60.0 * plan.minutes
     tell(f"{address}: {plan.browsers} browsers for {plan.minutes:g} min")
     samples: list[tuple[float, float]] = []

@@ -16,6 +16,8 @@ from tests.tools.soak import wire
 Result = TypeVar("Result")
 BLADE = "/rotor/blade_0"
 """The reference blade: its vertices tell which twist a frame shows."""
+BRIDGE = "frame"
+"""Label of the text widget that takes the messages of the page's own scripts."""
 _CAMERA = {
     "wxyz": (1.0, 0.0, 0.0, 0.0),
     "position": (20.0, 0.0, 20.0),
@@ -92,6 +94,12 @@ class Visitor:
         uuid = self.find(label)
         self.widgets[uuid]["value"] = value
         await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+
+    async def idle(self, patience: float = 240.0) -> None:
+        """Wait until the server computes nothing more for this page, as `RX.idle(true)` does."""
+        uuid = next(uuid for uuid, widget in self.widgets.items() if widget.get("label") == BRIDGE)
+        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": json.dumps([1, "idle", [1, True]])})
+        await self.until(lambda: self.frame.get("idle") == 1, patience)
 
     def find(self, label: str) -> str:
         """Identity of the visible widget of a label; LookupError where none is shown."""

@@ -334,27 +334,27 @@ class WaterfallStep:
         return None if change is None else sum(change.values())
 
 
-def switch_on_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
-    """The steps of the waterfall, each trimmed when requested. The design's own switches have no effect.
+def waterfall_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
+    """All switches on one after another, then each one off alone, each step trimmed when requested.
 
-    A step that does not trim is skipped: the next is compared with the last that did.
+    The design's own switches have no effect. A step that does not trim is skipped: the next is compared with the last
+    that did. The steps keep no factors.
     """
     left = list(order)
-    solution = solve(with_switches(design, left))
-    yield WaterfallStep(None, solution, None)
-    last = solution if solution.converged else None
+    start = full = solve(with_switches(design, left))
+    kept = full.without_factors()
+    yield WaterfallStep(None, kept, None)
+    last = kept if full.converged else None
     for name in order:
         left.remove(name)
-        solution = solve(with_switches(design, left), last)
-        yield WaterfallStep(SWITCHES[name], solution, last, no_effect(solution.design, name))
-        last = solution if solution.converged else last
-
-
-def switch_off_steps(design: Design, full: Solution) -> Iterator[WaterfallStep]:
-    """The full model with one switch off at a time. `full`: the same design's solution with everything on."""
-    for name, switch in SWITCHES.items():
-        alone = with_switches(design, (name,))
-        yield WaterfallStep(switch, solve(alone, full), full if full.converged else None, no_effect(alone, name))
+        full = solve(with_switches(design, left), start if start.converged else None)
+        kept = full.without_factors()
+        yield WaterfallStep(SWITCHES[name], kept, last, no_effect(full.design, name))
+        start, last = (full, kept) if full.converged else (start, last)
+    against = kept if kept.converged else None
+    for name in order:
+        alone = solve(with_switches(design, (name,)), full)
+        yield WaterfallStep(SWITCHES[name], alone.without_factors(), against, no_effect(alone.design, name))
 
 
 @dataclass(frozen=True, eq=False)
@@ -377,8 +377,8 @@ class Waterfall:
 
 def waterfall(design: Design) -> Waterfall:
     """Thirteen trims: all switches on one after another, then each one off alone."""
-    steps = tuple(switch_on_steps(design))
-    return Waterfall(steps, tuple(switch_off_steps(design, steps[-1].solution)))
+    steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
+    return Waterfall(steps[:on], steps[on:])
 
 
 def between_drag_areas(solution: Solution) -> tuple[Solution, Solution] | None:

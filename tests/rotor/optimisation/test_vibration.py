@@ -12,8 +12,8 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.__main__ import main
-from rotor.analysis.vibration import TMatrix, with_harmonics
 from rotor.design.design import Design
+from rotor.optimisation.vibration import TMatrix, with_harmonics
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import HubLoads, Solution

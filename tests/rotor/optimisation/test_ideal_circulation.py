@@ -11,7 +11,9 @@ from numpy.testing import assert_allclose
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line
 from rotor.aero.problem import build_problem
-from rotor.analysis.ideal_bound import (
+from rotor.arrays import Array
+from rotor.files.make_design import make_design
+from rotor.optimisation.ideal_bound import (
     AZIMUTHS,
     PANELS,
     InducedPower,
@@ -20,8 +22,6 @@ from rotor.analysis.ideal_bound import (
     least_induced_power,
     least_twisted_power,
 )
-from rotor.arrays import Array
-from rotor.files.make_design import make_design
 from rotor.trim.wake_course import with_course
 
 COARSE = Line(4, 0.13, 16, 36)

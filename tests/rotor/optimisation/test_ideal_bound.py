@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.analysis.ideal_bound import find_bound, ideal_factor, not_bounded
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.optimisation.ideal_bound import find_bound, ideal_factor, not_bounded
 from rotor.trim.solve import solve
 
 
