@@ -136,7 +136,7 @@ class Page:
             self.lecture, self._presence,
         )  # fmt: skip
         """Everything that only follows."""
-        self.scene.on_press(lambda metres: self._curve.take(metres / self.camera.radius))
+        self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())

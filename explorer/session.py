@@ -15,7 +15,8 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 10. follow, step by step, given up when a newer update comes: `page.show_results` updates status, numbers, charts and
    the panels of long work.
 11. follow: `page.follow` updates all other tabs.
-12. follow: once nothing moves, `page.settle` draws finely; the power curve is swept; `page.rest` does what can wait.
+12. follow: once nothing moves, `page.draw_finely` draws the disk again, the power curve is swept, and
+   `page.solve_deferred` does what can wait.
 """
 
 import logging

@@ -48,7 +48,9 @@ def grabbed_inputs(inputs: Inputs) -> Inputs:
     for name, ends in (("two_inner", (root, division)), ("two_outer", (division, 1.0))):
         r = np.linspace(*ends, 30)
         rates[name] = _onto(name, math.degrees(np.polyfit(r, twist(r), 1)[0]))
-    return replace(inputs, law="two", two_division=division, given=None, found=None, airfoils=inputs.airfoils, **rates)
+    return replace(
+        inputs, law="two", two_division=division, given=None, optimised=None, airfoils=inputs.airfoils, **rates
+    )
 
 
 def stations(inputs: Inputs) -> tuple[Station, ...]:

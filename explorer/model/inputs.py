@@ -120,7 +120,7 @@ class Inputs:
     """Whether sections stall with lags and vortices."""
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
-    found: TwistLaw | None = None
+    optimised: TwistLaw | None = None
     """A twist from the optimiser that none of the laws holds."""
     airfoils: str = ""
     """SPEC of the airfoils that go with `given` or `found`; empty: the preset's."""
@@ -237,7 +237,7 @@ LAWS: dict[str, Law] = {
     ),
     "ideal": Law("Ideal (θtip/r)", lambda i: "ideal"),
     "given": Law("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
-    "found": Law("From the optimiser", lambda i: i.found or i.aircraft.twist_for(i.preset)),
+    "found": Law("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
 }
 NOT_ALWAYS = ("given", "found")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
@@ -309,14 +309,14 @@ def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs
         mu = OPENING.advance_ratio
     changed = replace(changed, advance_ratio=mu, stand=stand)
     waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None}
-    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="", **plain, **waves)
+    return replace(changed, law="builtin", mass_t=mass, given=None, optimised=None, airfoils="", **plain, **waves)
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
     """The same inputs with the blade of an optimum: on the sliders of a law where one holds it."""
     airfoils = _own_airfoils(design)
     held = None if airfoils else _with_law(inputs, design.twist)
-    return held or replace(inputs, law="found", found=design.twist, airfoils=airfoils)
+    return held or replace(inputs, law="found", optimised=design.twist, airfoils=airfoils)
 
 
 def _own_airfoils(design: Design) -> str:

@@ -40,16 +40,16 @@ class TwistCurveEditor:
         self._presses = 0
         bridge = context.bridge
         bridge.on("knot", self._act)
-        bridge.on("grab_at", lambda r: self.take(float(r)))
-        bridge.on("twist_by_hand", lambda r: self.take(float(r), by_key=True))
-        context.keyboard.bind("twist", partial(self.take, 1.0, by_key=True))
+        bridge.on("grab_at", lambda r: self.grab(float(r)))
+        bridge.on("twist_by_hand", lambda r: self.grab(float(r), by_key=True))
+        context.keyboard.bind("twist", partial(self.grab, 1.0, by_key=True))
 
     @property
     def place(self) -> str:
         """The station that is held, in words; empty while none is."""
         return self._place if self._grab is not None else ""
 
-    def take(self, r: float, by_key: bool = False) -> None:
+    def grab(self, r: float, by_key: bool = False) -> None:
         """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
         grab = None if self._context.held else begin(self._context.inputs(), r)
         if grab is None:

@@ -141,7 +141,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         raise ValueError("a flight needs a leg: give at least one FlightLeg")
     installed, base, pair = verdict.installed, verdict.baseline, verdict.baseline.pair
     segments = _segments(verdict)
-    window, rest = [one.window for one in segments], np.array([one.rest for one in segments])
+    window, undriven = [one.window for one in segments], np.array([one.undriven for one in segments])
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = verdict.derating * installed.shapes_in(pair.design)[:, -1]
@@ -176,7 +176,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         designs.append(driven)
     made = {name: np.array(values) for name, values in powers.items()}
     counted = made["built" if verdict.against == "as-built" else "fixed"]
-    ends = np.sort((np.array(window) - rest[:, None]) * shapes[:, None], axis=1).sum(axis=0)
+    ends = np.sort((np.array(window) - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     engines = engines_of(pair.design.aircraft)
     saved = None
     if engines is not None:
@@ -184,8 +184,8 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         saved = np.array([engines.flow(before) - engines.flow(after) for before, after in pairs])
     return ActuatorFlight(
         legs=tuple(legs),
-        wanted=(np.array(wanted) - rest) @ shapes,
-        reached=(np.array(swings) - rest) @ shapes,
+        wanted=(np.array(wanted) - undriven) @ shapes,
+        reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),
         swings=tuple(swings),
         voltages=tuple(_volts(verdict, segments, one) for one in swings),
@@ -201,9 +201,9 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
 
 @dataclass(frozen=True)
 class _Segment:
-    """How a segment's swing follows its drive: swing = rest + per_unit × drive."""
+    """How a segment's swing follows its drive: swing = undriven + per_unit × drive."""
 
-    rest: float
+    undriven: float
     """Swing undriven."""
     per_unit: float
     """Swing per volt; per whole stroke where there is no voltage."""
@@ -213,12 +213,12 @@ class _Segment:
     @property
     def window(self) -> tuple[float, float]:
         """Lowest and highest swing."""
-        first, second = (self.rest + self.per_unit * end for end in self.ends)
+        first, second = (self.undriven + self.per_unit * end for end in self.ends)
         return min(first, second), max(first, second)
 
     def drive(self, swing: float) -> float:
         """[V], or the share of the stroke."""
-        return (swing - self.rest) / self.per_unit
+        return (swing - self.undriven) / self.per_unit
 
 
 def _segments(verdict: Verdict) -> list[_Segment]:

@@ -26,7 +26,7 @@ FLAPPING = (("coning", STEADY), ("flap_1c", COS), ("flap_1s", SIN))
 
 def add_rigid_blade(s: Structure, *, bends: bool = False) -> None:
     """Collective, cyclic, and flapping where it is not a mode of bending."""
-    z, mu_x = s.states, s.made["mu_x"]
+    z, mu_x = s.states, s.derived["mu_x"]
     s.column(TH, "one", STEADY, 1.0, z["collective"])
     for name, wave in CYCLIC:
         s.column(TH, "one", wave, 1.0, z[name])

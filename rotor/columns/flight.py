@@ -93,22 +93,22 @@ def _structure(key: _StructureKey) -> Structure:
     for freedom in key.freedoms:
         freedom.declare(s)
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
-    made = {name: s.quantity(name) for name in _MADE}
+    derived = {name: s.quantity(name) for name in _DERIVED}
     add_rigid_blade(s, bends=bends(s))
     if key.follows_rate and not any(isinstance(own, Torsion) for own in key.freedoms):
         add_pitch_rates(s)
-    s.column(UT, "one", SIN, 1.0, made["mu_x"])
-    s.column(UR, "one", COS, 1.0, made["mu_x"])
-    s.column(UP, "one", STEADY, 1.0, made["mu_z"])
+    s.column(UT, "one", SIN, 1.0, derived["mu_x"])
+    s.column(UR, "one", COS, 1.0, derived["mu_x"])
+    s.column(UP, "one", STEADY, 1.0, derived["mu_z"])
     add_equations(s, key.trim)
     free = [s.states[name] for name in key.trim.unknowns]
     for freedom in key.freedoms:
         free += freedom.build(s)
     terms.build(s)
-    s.column(UT, SWIRL_SLOPE, STEADY, 1.0, made["change of swirl"])
+    s.column(UT, SWIRL_SLOPE, STEADY, 1.0, derived["change of swirl"])
     for channel, name in terms.live:
-        s.column(channel, (name, "tilt"), STEADY, 1.0, made["change of tilt"])
-        s.column(channel, (name, "inflow"), STEADY, 1.0, made["change of lambda0"])
+        s.column(channel, (name, "tilt"), STEADY, 1.0, derived["change of tilt"])
+        s.column(channel, (name, "inflow"), STEADY, 1.0, derived["change of lambda0"])
     for channel, name in ((UT, SWIRL), *terms.live):  # Last, for their columns do not change.
         s.column(channel, name, STEADY, 1.0, ONE)
     for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
@@ -117,7 +117,7 @@ def _structure(key: _StructureKey) -> Structure:
     return s.finish(free)
 
 
-_MADE = (
+_DERIVED = (
     "cos", "sin", "mu_x", "mu_z", "speed", "wake_x", "wake_z", "change of tilt", "change of lambda0", "change of swirl",
 )  # fmt: skip
 """Made atoms: cos α, sin α, µ_x and µ_z as the blade elements see them, V, µ_x and µ_z of the wake, and three that are
@@ -227,7 +227,7 @@ class _Flow:
         self._mu, self._climb, self._sees_tilt = condition.advance_ratio, problem.climb, models.disk_axial_flow
         self._swirls, self._r, self._terms = models.has("swirl"), problem.disk.r, terms
         self._tilt, self._lambda0 = structure.roots
-        self._atoms = {name: k for k, name in enumerate(structure.made)}
+        self._atoms = {name: k for k, name in enumerate(structure.derived)}
 
     def wake(self, x: Array) -> Wake:
         """The wake of momentum theory, in axes of the shaft."""

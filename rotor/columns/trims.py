@@ -155,7 +155,7 @@ def drag_terms(s: Structure) -> list[tuple[float, int, int]]:
 
 def add_equations(s: Structure, trim: Trim) -> None:
     """The equations of a trim; see the head of this file."""
-    z, q, drag = {**s.numbers, **s.states, **s.made}, s.measure, drag_terms(s)
+    z, q, drag = {**s.numbers, **s.states, **s.derived}, s.measure, drag_terms(s)
     thrust = q(FZ, "one", STEADY)
     for name in trim.equations:
         if name in FLAPPING_STATES and bends(s):  # With the equations of bending.

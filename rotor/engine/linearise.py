@@ -120,7 +120,7 @@ class System:
     section: Callable[[Array, Any, bool, bool], tuple[Array, Array, Array]]
     """Channels and the data of the grid → forces, partial derivatives and flow; the last two where asked for."""
     make: Callable[[Array], tuple[Array, Array, Live]]
-    """x → made atoms, their slopes by the roots (made, roots), live shapes."""
+    """x → derived atoms, their slopes by the roots (derived, roots), live shapes."""
     numbers: Array
     tolerance: Array
     """Of each equation, (equations,)."""
@@ -185,8 +185,8 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     """R(x); with the partial derivatives of the section, and the flow at the sections, where asked for."""
     structure, shapes = system.structure, system.shapes
     states, y = x[: structure.given], x[structure.given :]
-    made, by_roots, live = system.make(states)
-    z = np.concatenate([states, made])
+    derived, by_roots, live = system.make(states)
+    z = np.concatenate([states, derived])
     phi = shapes.phi
     if live:
         phi = phi.copy()
@@ -384,7 +384,7 @@ def _field_slopes(point: Point, force: int) -> Array:
 
 
 def _measure_slopes(point: Point) -> Array:
-    """∂ of the measures by states and made atoms, (measures, atoms)."""
+    """∂ of the measures by states and derived atoms, (measures, atoms)."""
     system, structure, grid, z = point.system, point.system.structure, point.grid, point.z
     by_atom, order = structure.by_atom
     between, blocks = np.zeros((by_atom.shape[1], len(point.q))), structure.blocks
@@ -400,7 +400,7 @@ def _measure_slopes(point: Point) -> Array:
 
 
 def _by_free(structure: Structure, total: Array, by_roots: Array) -> Array:
-    """Slopes by the states solved for, from those by states and made atoms, (rows, …)."""
+    """Slopes by the states solved for, from those by states and derived atoms, (rows, …)."""
     first, given = structure.first_state, structure.given
     states = total[:, : given - first]
     if structure.roots:

@@ -1,6 +1,6 @@
 """The structure of a rotor's equations as lists of terms; their numbers come with each design.
 
-    atoms     z = (1, numbers, states, made)          numbers: given by the design; made: of states, by formulas
+    atoms     z = (1, numbers, states, derived)          numbers: given by the design; derived: of states, by formulas
     columns   channel(r, ψ) += factor z_i z_j Φ(r) w(ψ)
     measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
     terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
@@ -122,9 +122,9 @@ class Structure:
     numbers: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
     """Atoms by name."""
     states: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    made: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
+    derived: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
     roots: tuple[int, ...] = ()
-    """States that made atoms follow."""
+    """States that derived atoms follow."""
     shapes: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
     """By channel."""
     weights: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
@@ -150,12 +150,12 @@ class Structure:
 
     def state(self, name: Hashable) -> int:
         """The atom of a quantity that may be solved for."""
-        assert not self.made, "states come before what is made of them"
+        assert not self.derived, "states come before what is derived from them"
         return self.states.setdefault(name, 1 + len(self.numbers) + len(self.states))
 
     def quantity(self, name: Hashable) -> int:
         """The atom of a quantity made of states."""
-        return self.made.setdefault(name, 1 + len(self.numbers) + len(self.states) + len(self.made))
+        return self.derived.setdefault(name, 1 + len(self.numbers) + len(self.states) + len(self.derived))
 
     def column(
         self, channel: int, shape: Shape, wave: int, factor: float, i: int, j: int = ONE, times: int = STEADY
@@ -197,7 +197,7 @@ class Structure:
 
     @property
     def atoms(self) -> int:
-        return self.given + len(self.made)
+        return self.given + len(self.derived)
 
     @cached_property
     def first_state(self) -> int:
@@ -268,7 +268,7 @@ class Structure:
 
     @cached_property
     def by_atom(self) -> tuple[csr_matrix, Integers]:
-        """∂(wave coefficients)/∂z in rows of states and made atoms, whose values change while places do not.
+        """∂(wave coefficients)/∂z in rows of states and derived atoms, whose values change while places do not.
 
         Beside it where its values stand among the columns by their z_i, then by their z_j.
         """

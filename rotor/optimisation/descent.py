@@ -90,13 +90,13 @@ class Model:
     def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
         """others: trims that the second derivatives are made of; those of other rotors are left out."""
         self.evaluate = evaluate
-        made = centre.made
+        made = centre.measured
         value, by_pitch = _known(made)
         metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
         pairs = [
-            (one.made, step, length)
+            (one.measured, step, length)
             for one in others
-            if one.rotor == centre.rotor and _known(one.made)[0] < 1.5 * value
+            if one.rotor == centre.rotor and _known(one.measured)[0] < 1.5 * value
             for step in [(one.pitch - centre.pitch) * metric]
             if (length := float(np.linalg.norm(step))) > _SAME
         ]

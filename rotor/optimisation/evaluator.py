@@ -33,7 +33,7 @@ class TrimmedBlade:
     rotor: Rotor
     pitch: Array
     """Twist at the elements [rad], (elements,)."""
-    made: Measured
+    measured: Measured
     """Without the solutions, which are kept for the last trims only."""
 
 
@@ -74,17 +74,17 @@ class Evaluation:
     @property
     def power(self) -> float | None:
         """[W]; None when it does not trim."""
-        return self.blade.made.power
+        return self.blade.measured.power
 
     @property
     def feasible(self) -> bool:
         """Whether it trims and meets all limits."""
-        return self.blade.made.value is not None and bool((self.margins >= -FEASIBLE).all())
+        return self.blade.measured.value is not None and bool((self.margins >= -FEASIBLE).all())
 
     @property
     def cost(self) -> float:
         """The objective, infinite where it does not trim, for comparing."""
-        value = self.blade.made.value
+        value = self.blade.measured.value
         return math.inf if value is None else value
 
     @property
@@ -158,7 +158,7 @@ class Evaluator:
     def baseline(self) -> Measured:
         """Of the design as given; its trim is where the first start begins."""
         self._check()
-        return self._trim(self.design).made
+        return self._trim(self.design).measured
 
     def __call__(self, x: Array) -> Evaluation:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
@@ -167,8 +167,8 @@ class Evaluator:
         values = self.values(x)
         blade = self._trim(self.concept.apply(self.design, values))
         margins = self.cheap_margins(x)[0]
-        if blade.made.power is not None:
-            margins = np.concatenate([margins, self.largest - np.asarray(blade.made.limited)])
+        if blade.measured.power is not None:
+            margins = np.concatenate([margins, self.largest - np.asarray(blade.measured.limited)])
         record = Evaluation(x, blade, margins)
         self.records.append(record)
         if record.feasible and (self.best is None or record.cost < self.best.cost):
@@ -206,6 +206,6 @@ class Evaluator:
                 best_parameters=None if self.best is None else self.values(self.best.x),
                 best_power=None if self.best is None else self.best.power,
                 elapsed=self.elapsed,
-                best_index=None if self.best is None else self.best.blade.made.index,
+                best_index=None if self.best is None else self.best.blade.measured.index,
             )
         )

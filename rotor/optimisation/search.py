@@ -293,7 +293,7 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
         active.append("stalled area")
     if limits.index is not None and trimmed[-conditions:].any():
         active.append("vibration index")
-    made, twist = record.blade.made, evaluate.concept.twist(values).spec()
+    made, twist = record.blade.measured, evaluate.concept.twist(values).spec()
     assert made.power is not None
     return Minimum(values, made.power, twist, tuple(starts), tuple(active), made.index)
 

@@ -245,8 +245,8 @@ def _power_terms(s: Structure) -> Terms:
     From U dD = U_T dF_x − U_P dF_z + U_R dF_r, r = U_T + u − µ_x sin ψ and U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ.
     """
     rows = [(0, measure, i, j, share) for share, i, j, measure in torque_terms(s)]
-    if "mu_x" in s.made:
-        mu_x, mu_z = s.made["mu_x"], s.made["mu_z"]
+    if "mu_x" in s.derived:
+        mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
         rows += [(0, measure, mu_x, atom, share) for share, atom, measure in drag_terms(s)]
         rows += [
             (0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0),
@@ -275,7 +275,7 @@ def _on(field: Array | float, shape: tuple[int, int]) -> Array:
 @lru_cache(maxsize=4)
 def _difference_adjoint(difference: HoverDifference) -> _Linear:
     """The same for all measures, and for all conditions that share the hovering rotor."""
-    return _Linear(difference.found.linear)
+    return _Linear(difference.hover.linear)
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:

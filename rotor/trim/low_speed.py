@@ -33,7 +33,7 @@ FASTEST = 1.5
 class HoverDifference:
     """The hovering rotor of a design, and what the forward-flight model lacks there; over ΩR, (elements,)."""
 
-    found: HoverResult
+    hover: HoverResult
     axial: Array
     """A_0, from the load of hover to the mean inflow, (elements, elements)."""
     by_speed: Array
@@ -48,16 +48,16 @@ class HoverDifference:
 def hover_difference(design: Design) -> HoverDifference | None:
     """The difference for a hovering design; None where hover does not converge."""
     problem = build_problem(design)
-    found = hover(problem)
-    if not found.converged:
+    hovering = hover(problem)
+    if not hovering.converged:
         return None
-    elements, disk = found.linear.elements, problem.disk
+    elements, disk = hovering.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
     axial, slope = with_slow_course(problem).inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     inflow = elements.induced[:, 0] - axial @ load
-    return HoverDifference(found, axial, slope * load, inflow, elements.swirl - uniform)
+    return HoverDifference(hovering, axial, slope * load, inflow, elements.swirl - uniform)
 
 
 def axial_share(mu: float, thrust: float) -> float:

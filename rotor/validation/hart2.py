@@ -129,11 +129,11 @@ class Attempt:
     """What was tried on the misses, one input changed in both cases."""
 
     words: str
-    found: tuple[CurveAgreement, CurveAgreement, CurveAgreement]
+    agreements: tuple[CurveAgreement, CurveAgreement, CurveAgreement]
     """C_n M² of BL and of MN, twist of the tip of BL."""
 
     def __str__(self) -> str:
-        baseline, moved, twist = self.found
+        baseline, moved, twist = self.agreements
         rigid = twist.amplitude(2) == 0.0
         torsion = "" if rigid else f", twist of BL {twist.mean:.2f}° mean, {twist.amplitude(2):.2f}° at 2/rev"
         return f"- {self.words}: {baseline.correlation:.2f} (BL), {moved.correlation:.2f} (MN){torsion}."
@@ -149,9 +149,9 @@ def hart2_set() -> TrustSet:
     """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
     curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
-    found = {key: agreement(one, solutions[key[0]]) for key, one in curves.items()}
-    rows = (*_load_rows(found), *_twist_rows(found), *_motion_rows(found), *_vortex_rows(solutions))
-    normal = [found[name, "cn_m2"].correlation for name in solutions]
+    agreements = {key: agreement(one, solutions[key[0]]) for key, one in curves.items()}
+    rows = (*_load_rows(agreements), *_twist_rows(agreements), *_motion_rows(agreements), *_vortex_rows(solutions))
+    normal = [agreements[name, "cn_m2"].correlation for name in solutions]
     tried = "\n".join([*map(str, attempts()), _GRID])
     return TrustSet(
         name=SET,
@@ -162,7 +162,7 @@ def hart2_set() -> TrustSet:
         rows=rows,
         charts=(*_charts(curves, solutions), _vortex_chart(solutions["BL"])),
         text=(*_WORDS, "## What was tried", "Correlations of C_n M²; nothing is fitted.", tried),
-        points=_points(found),
+        points=_points(agreements),
     )
 
 
@@ -247,7 +247,7 @@ def _harmonic(n: int, of: complex) -> Harmonic:
     return Harmonic(n, abs(of), cmath.phase(of))
 
 
-_Found = Mapping[tuple[str, str], CurveAgreement]
+_Agreements = Mapping[tuple[str, str], CurveAgreement]
 
 
 def _row(what: str, shown: str, error: float, allowed: float, test: str, **more: str) -> TrustRow:
@@ -262,9 +262,9 @@ def _yes(met: bool) -> str:
     return "yes" if met else "no"
 
 
-def _load_rows(found: _Found) -> Iterator[TrustRow]:
+def _load_rows(agreements: _Agreements) -> Iterator[TrustRow]:
     for name in ("BL", "MN"):
-        one = found[name, "cn_m2"]
+        one = agreements[name, "cn_m2"]
         met = one.correlation >= LEAST_CORRELATION
         yield _row(
             f"{name}: C_n M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.02,
@@ -272,14 +272,14 @@ def _load_rows(found: _Found) -> Iterator[TrustRow]:
             note="" if met else _MISSED["cn"],
         )  # fmt: skip
     for name in ("BL", "MN"):
-        one = found[name, "cm_m2"]
+        one = agreements[name, "cm_m2"]
         yield _row(
             f"{name}: C_m M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.03, "test_moments"
         )
 
 
-def _twist_rows(found: _Found) -> Iterator[TrustRow]:
-    moved, base = found["MN", "tip_twist_deg"], found["BL", "tip_twist_deg"]
+def _twist_rows(agreements: _Agreements) -> Iterator[TrustRow]:
+    moved, base = agreements["MN", "tip_twist_deg"], agreements["BL", "tip_twist_deg"]
     size, late = moved.ratio(3), moved.late_deg(3)
     yield _row(
         "MN: twist of the tip at 3/rev", f"{100 * size:+.0f} %, {late:+.0f}°", size, 0.03, "test_twist",
@@ -300,9 +300,9 @@ def _twist_rows(found: _Found) -> Iterator[TrustRow]:
         )
 
 
-def _motion_rows(found: _Found) -> Iterator[TrustRow]:
+def _motion_rows(agreements: _Agreements) -> Iterator[TrustRow]:
     for name in ("BL", "MN"):
-        one = found[name, "tip_flap"]
+        one = agreements[name, "tip_flap"]
         yield _row(
             f"{name}: flap deflection of the tip", f"mean {one.mean - one.measured_mean:+.4f} R, rms {one.rms:.4f} R",
             one.rms, 3e-4, "test_flapping", note=_NOTES["flap"],
@@ -376,10 +376,10 @@ def _closed(psi: Array, values: Array) -> tuple[tuple[float, ...], tuple[float, 
     return (*_degrees(psi), 360.0), (*values.tolist(), float(values[0]))
 
 
-def _points(found: _Found) -> tuple[tuple[str, ...], ...]:
+def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
     """Means and harmonics."""
     rows: list[tuple[str, ...]] = [("Case", "Quantity", "n", "Measured", "φ [°]", "Ours", "φ [°]")]
-    for (name, quantity), one in found.items():
+    for (name, quantity), one in agreements.items():
         form = ".2f" if quantity == "tip_twist_deg" else ".5f"
         rows.append((name, QUANTITIES[quantity], "mean", f"{one.measured_mean:{form}}", "", f"{one.mean:{form}}", ""))
         for n in range(1, len(one.waves) // 2 + 1):

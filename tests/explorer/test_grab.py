@@ -237,7 +237,7 @@ class TestTwistCurve:
 
     def test_a_pressed_blade_is_shown_from_the_tip_and_its_station_held_at_the_best_angle(self):
         editor, bridge, now, took = editor_of(TWO)
-        editor.take(0.9)
+        editor.grab(0.9)
         assert bridge.state["rubber"]["knot"] == "2"
         assert bridge.state["rubber"]["stations"] == pytest.approx([ROOT, 0.5, 1.0])
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
@@ -257,7 +257,7 @@ class TestTwistCurve:
 
     def test_a_blade_without_stations_is_pressed_as_the_nearest_two_segments(self):
         editor, bridge, now, _ = editor_of(replace(TWO, law="ideal"))
-        editor.take(1.0)
+        editor.grab(1.0)
         bridge.actions["knot"](["2", [None, 5.0]])
         assert now[0].law == "two"
 

@@ -223,9 +223,9 @@ class ActuatorControls:
     def reset(self) -> None:
         """Nothing driven."""
         self._handles["per_rev"].value = next(iter(HARMONICS))
-        self.rest()
+        self.undrive()
 
-    def rest(self) -> None:
+    def undrive(self) -> None:
         """No steady voltage."""
         self.drive((0.0,) * MOST_SEGMENTS)
 

@@ -169,7 +169,7 @@ class FlightBar:
         self._context.bridge.set(flight=None, earns=None)
         if self._flown is not None:
             self.leave_to_hand()
-            self._controls.rest()
+            self._controls.undrive()
 
     def leave_to_hand(self) -> None:
         """A hand moved a voltage: it stays until the bar moves again."""

@@ -244,14 +244,14 @@ class SearchRun:
                     if self.state != "stopping":
                         self.state = "running"
                 case JobProgress(item):
-                    self._take(item)
+                    self._note(item)
                 case JobEnded(result, stopped, late):
                     self.state = "late" if late else "stopped" if stopped else "done"
                     self._finish(result)
                 case JobFailed(message):
                     self.state, self.sentence = "broken", message
 
-    def _take(self, item: object) -> None:
+    def _note(self, item: object) -> None:
         match item:
             case StartPower(power):
                 self.start_power = power

@@ -47,7 +47,7 @@ class Followed(NamedTuple):
     """What a model makes of a wake, each with slopes by (µ_x, µ_z, λ0)."""
 
     atoms: Mapping[Hashable, tuple[float, tuple[float, float, float]]]
-    """Values of its made atoms."""
+    """Values of its derived atoms."""
     live: Mapping[tuple[int, Shape], tuple[Array, Array]]
     """Functions along the blade that follow the wake, by channel and name: (elements,) and (3, elements)."""
 
@@ -104,7 +104,7 @@ class InflowTerms(Protocol):
         ...
 
     def build(self, structure: Structure) -> None:
-        """Add made atoms and columns."""
+        """Add derived atoms and columns."""
         ...
 
     def shapes(self) -> dict[Shape, Array]:

@@ -185,7 +185,7 @@ def any_measures(point: Point) -> list[Measure]:
     fields = {force: random.standard_normal(shape) for force, _ in structure.pairs if force != M or found[M]}
     channels = {channel: random.standard_normal(shape) for _, channel in structure.pairs}
     parts = [(c, list(own), random.standard_normal(shape)) for c, own in enumerate(structure.shapes) if own]
-    known = [atom for name, atom in (structure.states | structure.made).items() if "change" not in str(name)]
+    known = [atom for name, atom in (structure.states | structure.derived).items() if "change" not in str(name)]
     terms = [
         (int(random.integers(2)), int(random.integers(len(point.q))), *random.choice(known, 2).tolist(),
          float(random.standard_normal())) for _ in range(12)

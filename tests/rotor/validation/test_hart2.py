@@ -89,10 +89,10 @@ def test_normal_force(found: dict[tuple[str, str], CurveAgreement]):
     assert_allclose(found["BL", "cn_m2"].correlation, 0.58, atol=0.03)
     assert_allclose(found["MN", "cn_m2"].correlation, 0.85, atol=0.03)
     made = list(hart2.attempts())
-    tried = [one.found[0].correlation for one in made]
+    tried = [one.agreements[0].correlation for one in made]
     assert_allclose(tried, [0.58, 0.60, 0.56, 0.61, 0.54, 0.45, 0.69, 0.70], atol=0.03)
     assert max(tried) < hart2.LEAST_CORRELATION
-    *_, twisted, moving = (one.found[1].correlation for one in made)
+    *_, twisted, moving = (one.agreements[1].correlation for one in made)
     assert_allclose((twisted, moving), (0.91, 0.95), atol=0.02)
 
 
