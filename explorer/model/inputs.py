@@ -237,9 +237,9 @@ LAWS: dict[str, Law] = {
     ),
     "ideal": Law("Ideal (θtip/r)", lambda i: "ideal"),
     "given": Law("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
-    "found": Law("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
+    "optimised": Law("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
 }
-NOT_ALWAYS = ("given", "found")
+NOT_ALWAYS = ("given", "optimised")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
 
@@ -316,7 +316,7 @@ def with_optimum(inputs: Inputs, design: Design) -> Inputs:
     """The same inputs with the blade of an optimum: on the sliders of a law where one holds it."""
     airfoils = _own_airfoils(design)
     held = None if airfoils else _with_law(inputs, design.twist)
-    return held or replace(inputs, law="found", optimised=design.twist, airfoils=airfoils)
+    return held or replace(inputs, law="optimised", optimised=design.twist, airfoils=airfoils)
 
 
 def _own_airfoils(design: Design) -> str:

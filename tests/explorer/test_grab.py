@@ -45,7 +45,7 @@ class TestStations:
         assert places == sorted(places)
         assert len(places) == len(PIECES[law][0]) + 1
 
-    @pytest.mark.parametrize("law", ["ideal", "found"])
+    @pytest.mark.parametrize("law", ["ideal", "optimised"])
     def test_a_law_without_sliders_becomes_the_nearest_two_segments(self, law: str):
         inputs = Inputs(law=law)
         ready = grabbed_inputs(inputs)

@@ -56,7 +56,7 @@ def test_the_weight_slider_is_about_the_reference_mass():
 
 
 def test_another_rotor_comes_as_it_is_built():
-    inputs = with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0, law="found", airfoils="sc1095"), "s61")
+    inputs = with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0, law="optimised", airfoils="sc1095"), "s61")
     assert (inputs.law, inputs.airfoils, inputs.advance_ratio, inputs.altitude_m) == ("builtin", "", 0.3, 1000.0)
     design = inputs.design()
     assert design.aircraft is shipped_aircraft("s61")
