@@ -50,9 +50,9 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.limits import ServerLimits, few_pools, limit_log
     from explorer.model.inputs import OPENING, inputs_of
+    from rotor import load_design
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.compiled import tell_in_a_log
-    from rotor.files.design_file import load_design
 
     few_pools()
     keep_one_blas_thread()

@@ -9,7 +9,8 @@ from explorer.app import App
 from explorer.hosting.allowed_hosts import host_name
 from explorer.hosting.limits import ServerLimits
 from explorer.model.inputs import inputs_of
-from rotor.design.design import Design, require_design
+from rotor import Design
+from rotor.design.design import require_design
 
 _LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")
 """Where notebooks on this machine are shown."""

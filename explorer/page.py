@@ -47,9 +47,7 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
-from rotor.design.design import Design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)

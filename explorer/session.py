@@ -39,10 +39,9 @@ from explorer.tabs.context import SharedServices
 from explorer.tabs.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
+from rotor import Solution, solve
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.newton import DEFAULT_OPTIONS
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim import DEFAULT_OPTIONS
 
 _log = logging.getLogger(__name__)
 _STILL = 0.25

@@ -2,6 +2,7 @@
 
 import ast
 import graphlib
+import importlib
 import re
 import sys
 import tomllib
@@ -11,10 +12,15 @@ from pathlib import Path
 
 import pytest
 
+import rotor
+from rotor import actuator, design, optimisation, trim, validation
+
 ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
 KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
+PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
+"""Packages with public names, the first one first."""
 ORDER = {
     "rotor": (
         "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "spawn", "blas_threads", "plots",
@@ -85,6 +91,17 @@ def test_rotor_imports_only_numerics(path: Path):
 )
 def test_only_some_folders_of_the_page_import_viser(path: Path):
     assert "viser" not in imports(path, lazy=True), f"{name(path)}: only {KNOW_VISER} may import viser"
+
+
+@pytest.mark.parametrize("path", sources("explorer"), ids=name)
+def test_the_page_imports_public_names_from_where_they_are_public(path: Path):
+    for node in nodes(path):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("rotor."):
+            module = importlib.import_module(node.module)
+            for alias in node.names:
+                places = [one.__name__ for one in PUBLIC if alias.name in one.__all__ and one is not module]
+                same = [one for one in places if getattr(sys.modules[one], alias.name) is getattr(module, alias.name)]
+                assert not same, f"{name(path)}: import {alias.name} from {same[0]}"
 
 
 def test_the_model_of_the_page_is_far_from_viser():

@@ -12,15 +12,12 @@ from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
 from explorer.model.stand import as_measured, flight_powers
 from explorer.model.units import Units, number
 from explorer.text.status import validated
-from rotor.design.aircraft import FlightCondition
-from rotor.design.design import Design
-from rotor.design.stand import Stand
+from rotor import Design, FlightCondition, Solution, solve
+from rotor.design import Stand
 from rotor.study.series import between_drag_areas
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
-from rotor.validation.compare import ComparedPoint, Comparison, compare_point, design_at, quantity_of
+from rotor.validation import Comparison, MeasuredSet, compare_point, design_at
+from rotor.validation.compare import ComparedPoint, quantity_of
 from rotor.validation.flown import POWER_REPORTS, MeasuredPower
-from rotor.validation.measured import MeasuredSet
 
 _AT_ONCE = ("cp", "cq_over_sigma", "cp_drag")
 """Quantities that a solution has by itself; the others need further trims."""

@@ -8,8 +8,8 @@ import numpy as np
 from explorer.model.units import KILOWATT, Unit
 from explorer.picture.polar import stall_angles
 from explorer.picture.poses import at_azimuth
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
 

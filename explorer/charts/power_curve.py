@@ -11,13 +11,11 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
+from rotor import Design, Solution, solve
 from rotor.arrays import Array
-from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
+from rotor.trim import Guess
 from rotor.trim.low_speed import passes_over
-from rotor.trim.newton import Guess
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.trim.validity import LOW_SPEED, vortex_ring
 
 PATIENCE = 0.6

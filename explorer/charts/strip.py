@@ -12,11 +12,10 @@ import numpy as np
 
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
+from rotor import Aircraft, Solution
 from rotor.arrays import Array
-from rotor.design.aircraft import Aircraft
 from rotor.line_chart import round_ticks
-from rotor.trim.adjoint import PitchGradient
-from rotor.trim.solution import Solution
+from rotor.trim import PitchGradient
 
 Role = Literal["this", "reference", "limit", "saving", "earlier", "flown"]
 """What a line stands for; the page chooses its colour.

@@ -15,15 +15,12 @@ from explorer.charts.plots import SWEEP, Range, held_range
 from explorer.charts.strip import StripChart, StripDot, StripGap, StripLine
 from explorer.charts.svg import line, text
 from explorer.model.units import number
+from rotor import Design, Rotor, Solution, solve
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
-from rotor.trim.hub_loads import SLOWEST, hub_loads, why_no_hub_loads
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.design import TwistLaw
+from rotor.trim import DEFAULT_OPTIONS, Guess, hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import SLOWEST
 
 SPEEDS = tuple(mu for mu in SWEEP if mu >= SLOWEST)
 """Advance ratios of the index over speed."""

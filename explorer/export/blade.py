@@ -34,14 +34,10 @@ from explorer.picture.poses import (
 )
 from explorer.picture.solids import Faces
 from explorer.theme import colours
+from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
-from rotor.files.design_file import load_design
-from rotor.files.make_design import make_design
+from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import run_command
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""

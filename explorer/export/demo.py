@@ -29,15 +29,10 @@ from explorer.scene.scene import ROTOR
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
+from rotor import Design, Solution, load_design, make_design, parse_twist, solve
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import parse_twist
-from rotor.files.design_file import load_design
-from rotor.files.make_design import make_design
 from rotor.terminal import run_command
 from rotor.trim.low_speed import passes_over
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.trim.validity import LOW_SPEED
 from rotor.units import KNOT
 from rotor.user_input import write_whole

@@ -13,8 +13,8 @@ from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_code
 from explorer.picture.scene_theme import DiskInk
 from explorer.text.design_words import flight_words, title_words
 from explorer.theme.colours import RIM, VOID, colour_map, css
+from rotor import Solution
 from rotor.line_chart import round_ticks, tick_text
-from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
 

@@ -16,11 +16,11 @@ from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.poses import flown_twist
 from explorer.text.design_words import inflow_words, physics_words
+from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.arrays import Array
 from rotor.assets import commit
-from rotor.design.design import Design
-from rotor.trim.solution import DiskFields, Solution
+from rotor.trim import DiskFields
 from rotor.units import KNOT
 
 PROGRAM = "rotor explorer"

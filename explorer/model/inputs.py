@@ -9,15 +9,23 @@ from itertools import pairwise
 from typing import Any
 
 from explorer.model.stand import StandInputs, stand_of, tested
+from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.aircraft import Aircraft
+from rotor.design import (
+    ActiveTwist,
+    Harmonic,
+    IdealTwist,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    QuadraticTwist,
+    SumTwist,
+    TwistLaw,
+)
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import FLIGHT_MODELS, Design, preset_models
-from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, SumTwist, TwistLaw
-from rotor.files.make_design import change_airfoils, make_design
+from rotor.design.design import FLIGHT_MODELS, preset_models
+from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.units import KNOT
 

@@ -6,10 +6,8 @@ from typing import Literal
 
 from explorer.model.inputs import Inputs
 from explorer.workers.solver import BaselineCache
-from rotor.design.design import Design
-from rotor.design.twist import SumTwist
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor import Design, Solution, solve
+from rotor.design import SumTwist
 
 Order = Literal["pin", "unpin", "swap", "back"]
 FLIGHT = ("advance_ratio", "mass_t", "altitude_m", "climb_m_s")

@@ -4,8 +4,7 @@ from dataclasses import dataclass, replace
 
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.pinned import Pinned
-from rotor.design.design import Design
-from rotor.trim.solution import Solution
+from rotor import Design, Solution
 
 
 @dataclass(frozen=True, eq=False)

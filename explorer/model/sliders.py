@@ -16,13 +16,12 @@ import numpy as np
 from explorer.model.inputs import LAWS, Inputs, mass_range
 from explorer.model.pinned import FLIGHT
 from explorer.model.units import AVIATION, FOOT, FOOT_PER_MINUTE, POUND, SI, Unit, Units, number
+from rotor import Aircraft, Solution, solve
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.aircraft import FASTEST_CLIMB, Aircraft
+from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.optimisation.concepts import CONCEPTS, Concept
-from rotor.trim.adjoint import PitchGradient
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.optimisation import CONCEPTS, Concept
+from rotor.trim import PitchGradient
 
 _CONCEPTS: dict[str, Concept] = {
     "builtin": CONCEPTS["two-segment-free"],

@@ -6,17 +6,11 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from rotor.design.active_twist import Harmonic
-from rotor.design.aircraft import Aircraft
-from rotor.design.design import Design
-from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.validation import inflow
-from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, measured_curves
-from rotor.validation.compare import design_at
+from rotor import Aircraft, Design, Solution, make_design
+from rotor.design import Flapping, Harmonic, Stand
+from rotor.design.stand import LOAD_KEYS, StandTrim, read_stand
+from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
 from rotor.validation.flown import MeasuredPower, measured_powers
-from rotor.validation.measured import sets_of
 
 TRIM_TITLES: dict[str, str] = {
     "flight": "Flight",

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field, fields
 
 from explorer.model.inputs import Inputs
-from rotor.trim.solution import Solution
+from rotor import Solution
 
 STEPS = 100
 """Most steps that can be undone."""

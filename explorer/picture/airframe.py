@@ -12,8 +12,8 @@ import numpy as np
 import trimesh
 
 from explorer.picture.solids import Mesh, joined, revolved, tube
+from rotor import Rotor
 from rotor.assets import asset_path
-from rotor.design.blade import Rotor
 
 _DRAWN_FOR = 8.1788
 """Radius [m] that the fixed measures are given for; on other rotors they grow and shrink with it."""

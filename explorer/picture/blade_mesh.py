@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from explorer.picture.solids import Faces, sides
+from rotor import Rotor
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.design.twist import REFERENCE_RADIUS, TwistLaw
+from rotor.design import REFERENCE_RADIUS, TwistLaw
 
 
 @lru_cache(maxsize=32)

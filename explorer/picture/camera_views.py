@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from explorer.picture.picture import disk_drop
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
 
 View = Literal["3d", "disk", "top", "blade", "side"]
 """The aircraft from behind and starboard; the disk from behind and above; the plan; along the reference blade; level,

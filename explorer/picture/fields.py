@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from explorer.model.inputs import ViewState
 from explorer.picture.polar import PolarGrid, polar_grid, refined
 from explorer.theme.colours import Scheme
+from rotor import Rotor, Solution
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.line_chart import round_up
-from rotor.trim.solution import DiskFields, Solution
+from rotor.trim import DiskFields
 
 
 @dataclass(frozen=True)

@@ -25,11 +25,8 @@ from explorer.picture.poses import (
 )
 from explorer.picture.regions import NO_MARKS, Marks, region_codes
 from explorer.picture.scene_theme import DiskInk, scene_theme
+from rotor import Rotor, Solution, make_design, solve
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""

@@ -16,8 +16,8 @@ from explorer.picture.fields import FIELDS, Field
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
 from explorer.picture.regions import divergence_margin, region_masks
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
 
 _OUTLINED = 80, 240
 """Radii and azimuths between which an outline is looked for."""

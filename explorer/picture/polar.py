@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
 from rotor.arrays import Array
 from rotor.compiled import compiled
-from rotor.trim.solution import DiskFields, Solution
+from rotor.trim import DiskFields
 
 Single = NDArray[np.float32]
 Places = NDArray[np.int32]

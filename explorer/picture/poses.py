@@ -7,13 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.picture.airframe import SHAFT_FORWARD
-from rotor.aero.elements import TrimState
+from rotor import Design, Solution, TrimState
 from rotor.arrays import Array
-from rotor.design.active_twist import ActiveTwist
-from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
-from rotor.trim.hub_loads import deflections
-from rotor.trim.solution import Solution
+from rotor.design import ActiveTwist, TwistLaw
+from rotor.trim import deflections
 
 BENDING_SHOWN = 10.0
 """Times its bending that a blade is drawn with."""

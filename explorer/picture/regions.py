@@ -11,9 +11,9 @@ from scipy import ndimage
 
 from explorer.picture.fields import filled
 from explorer.picture.polar import PolarGrid, Single, Sums, refined
+from rotor import Solution
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
-from rotor.trim.solution import Solution
 
 Bytes = NDArray[np.uint8]
 _compile = compiled(error_model="numpy", fastmath={"contract"})

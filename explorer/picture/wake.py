@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from explorer.model.units import number
+from rotor import Design, Solution
 from rotor.aero.disk import azimuths_of
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.trim.solution import DiskFields, HubLoads, Solution
+from rotor.trim import DiskFields, HubLoads
 from rotor.units import GRAVITY
 
 _TURNS = 0.8

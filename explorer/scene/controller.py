@@ -20,8 +20,7 @@ from explorer.scene.camera import FittedCamera
 from explorer.scene.overlays import AirLines, Ghost, HubLoadLines, OtherBlade
 from explorer.scene.page_scene import PageScene
 from explorer.scene.scene import Scene
-from rotor.design.blade import Rotor
-from rotor.trim.solution import Solution
+from rotor import Rotor, Solution
 
 Range = tuple[float, float]
 

@@ -19,11 +19,10 @@ from explorer.picture.solids import Mesh
 from explorer.picture.wake import HubLines, hub_lines, inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from explorer.theme import colours
+from rotor import Design, Rotor, Solution
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
-from rotor.trim.solution import HubLoads, Solution
+from rotor.design import TwistLaw
+from rotor.trim import HubLoads
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 _LEAST = math.radians(0.25)

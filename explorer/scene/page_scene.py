@@ -17,7 +17,7 @@ from explorer.picture.poses import pitch_series
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.overlays import VORTICES
 from explorer.scene.scene import COMPARED, ROTOR
-from rotor.trim.solution import Solution
+from rotor import Solution
 
 TURN_RATES = {"slow": math.radians(18.0), "normal": math.radians(54.0), "fast": math.radians(162.0)}
 """[rad/s] at which a played rotor turns; at the normal one flapping and pitching of one blade can be followed."""

@@ -25,8 +25,8 @@ from explorer.picture.poses import Pose, about
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Faces, Mesh, joined
 from explorer.theme.colours import Rgb
+from rotor import Rotor
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
 
 ROTOR, COMPARED = "/rotor", "/compared"
 """Names of the rotor of the sliders and of the one beside it."""

@@ -15,8 +15,8 @@ from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
 from explorer.picture.picture import make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.scene import ROTOR, Scene
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
 
 _SEAMS = re.compile(
     r'(?P<before>.*window\.__VISER_EMBED_DATA__=")(?P<scene>[^"]*)'

@@ -14,13 +14,10 @@ import numpy as np
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.story.steps import FRONT, SPEEDS, STEPS, LectureStep, angle_words, beside, on_one_line, speed_words
-from rotor.actuator.verdict import try_actuator
-from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
-from rotor.optimisation.vibration import vibration_front
+from rotor import Solution, make_design, solve, vibration_front
+from rotor.actuator import try_actuator
+from rotor.design import LinearTwist
 from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, built, least, moving_twist
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"

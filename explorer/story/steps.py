@@ -13,7 +13,7 @@ from explorer.model.inputs import INPUT_NAMES, LAWS, Inputs, ViewState
 from explorer.model.units import Units, degrees, number
 from explorer.picture.camera_views import Shot
 from explorer.text.readout import PART_TITLES
-from rotor.trim.solution import Solution
+from rotor import Solution
 
 _TEXT = Path(__file__).parent / "text"
 _HEADINGS = ("Compare", "Guess", "Answer", "Try")

@@ -28,11 +28,9 @@ from explorer.story.facts import Facts, facts_of
 from explorer.story.steps import STEPS, LectureStep, quantities, view_of
 from explorer.story.telling import answer_record, step_record
 from explorer.theme.colours import colour_map, css
-from rotor.design.blade import Rotor
+from rotor import Rotor, Solution, solve
 from rotor.line_chart import round_ticks, tick_text
 from rotor.terminal import run_command
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""

@@ -16,12 +16,11 @@ from explorer.sharing.address import Address
 from explorer.sharing.share import VIEW, view_code
 from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
+from rotor import Aircraft, Design
 from rotor.airfoil.c81 import parse_c81
 from rotor.airfoil.contour import parse_contour
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import parse_polar_file
-from rotor.design.aircraft import Aircraft
-from rotor.design.design import Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft, rotor_toml
 from rotor.user_input import refusing, shorten

@@ -32,7 +32,7 @@ from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.glossary import hint
 from explorer.text.readout import fineness
-from rotor.actuator.verdict import Verdict
+from rotor.actuator import Verdict
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0

@@ -19,8 +19,7 @@ from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, NOW, THIS
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor import Solution, solve
 
 FIELD = "Take step"
 """Label of the text field that clicks are written to: `step 3`, `take 1`, `drop 1`."""

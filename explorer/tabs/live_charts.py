@@ -24,9 +24,8 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.text import readout
 from explorer.theme.colours import PINNED, PINNED_DASH, THIS
-from rotor.design.design import Design
-from rotor.trim.adjoint import PitchGradient
-from rotor.trim.solution import Solution
+from rotor import Design, Solution
+from rotor.trim import PitchGradient
 
 _GRID = uplot.Axis_Grid(show=True, width=1)
 _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)

@@ -20,9 +20,9 @@ from explorer.text import readout
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, status_panel, trust_page, validated
 from explorer.text.why import why
+from rotor import Solution
 from rotor.study.series import between_drag_areas
-from rotor.trim.adjoint import PitchGradient, power_gradient
-from rotor.trim.solution import Solution
+from rotor.trim import PitchGradient, power_gradient
 
 _HALF = 6e3
 """Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""

@@ -15,10 +15,11 @@ from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS, colour_map
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.design.twist import TwistLaw
-from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
-from rotor.trim.solution import Solution
+from rotor.design import TwistLaw
+from rotor.trim import PitchGradient
+from rotor.trim.adjoint import Adjoint, power_along
 
 _KILOWATT_PER_DEGREE = math.radians(1.0) / 1e3
 _ALONG, _ACROSS = 150, 9

@@ -22,8 +22,9 @@ from explorer.model.stand import (
 )
 from explorer.tabs.layout import by_hand, key_of
 from explorer.text.glossary import hint
-from rotor.design.aircraft import Aircraft, FlightCondition
-from rotor.design.stand import STAND_TRIMS, Flapping
+from rotor import Aircraft, FlightCondition
+from rotor.design import Flapping
+from rotor.design.stand import STAND_TRIMS
 
 _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""

@@ -12,10 +12,9 @@ from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of,
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.tabs.context import TabContext
+from rotor import Design, Solution
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import REFERENCE_RADIUS as DATUM
-from rotor.trim.solution import Solution
+from rotor.design import REFERENCE_RADIUS as DATUM
 
 _POINTS = 70
 _LEAST_RESPONSE = 0.15

@@ -29,11 +29,11 @@ from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import ChartStrip
 from explorer.text.readout import faded
+from rotor import Solution, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.trim.hub_loads import BAND, deflections, hub_loads, why_no_hub_loads
-from rotor.trim.solution import HubLoads, Solution
-from rotor.trim.solve import solve
+from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import BAND
 
 _NOTICEABLE = 0.5
 """Changes of the index below this [% of itself] have no colour."""

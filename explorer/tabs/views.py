@@ -21,8 +21,7 @@ from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, pinned_name
 from explorer.text.glossary import hint
-from rotor.design.design import Design
-from rotor.trim.solution import Solution
+from rotor import Design, Solution
 
 
 class TopBar(Tab):

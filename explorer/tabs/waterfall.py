@@ -9,8 +9,8 @@ from explorer.tabs.context import Tab, TabContext
 from explorer.text import readout
 from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
+from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
-from rotor.design.design import Design
 from rotor.study.series import WaterfallStep, waterfall_steps
 
 WIDTH = 312

@@ -1,7 +1,7 @@
 """What an actuator saves and costs, in words: one place for card, rail and report."""
 
 from explorer.model.units import Units, number
-from rotor.actuator.verdict import Verdict
+from rotor.actuator import Verdict
 
 _SECONDS = 3600.0
 

@@ -6,12 +6,12 @@ from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
 from explorer.model.pinned import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
+from rotor import Design
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.design.active_twist import Harmonic
-from rotor.design.design import Design
-from rotor.design.twist import (
+from rotor.design import (
+    Harmonic,
     IdealTwist,
     LinearTwist,
     PiecewiseLinearTwist,

@@ -10,9 +10,8 @@ from explorer.model.inputs import baseline_title
 from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
 from explorer.theme.colours import PARTS, PINNED, THIS
-from rotor.design.design import Design
+from rotor import Design, PowerBudget, Solution
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
-from rotor.trim.solution import PowerBudget, Solution
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 _ON_A_STAND = {"induced": "Induced", "profile": "Profile", "parasite": "Propulsive"}

@@ -12,14 +12,14 @@ from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.readout import open_drag_area
+from rotor import Solution
 from rotor.aero.problem import grid_of
 from rotor.compiled import compiling
 from rotor.reproduce.report import typographic
-from rotor.trim.solution import Solution
+from rotor.validation import MeasuredSet, SensitivityRow, TrustRow, sensitivity_rows, sets_of, trust_rows
 from rotor.validation.airloads import REPORTS
 from rotor.validation.flown import POWER_REPORTS
-from rotor.validation.measured import MeasuredSet, sets_of
-from rotor.validation.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
+from rotor.validation.trust import KINDS
 
 
 def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:

@@ -12,11 +12,10 @@ import numpy as np
 from explorer.model.inputs import INFLOW_MENUS
 from explorer.model.units import SI, Units, number
 from explorer.text.readout import part_titles
+from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.arrays import Array, Booleans
-from rotor.design.design import Design
-from rotor.trim.solution import Solution
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""

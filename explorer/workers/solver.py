@@ -2,11 +2,9 @@
 
 from dataclasses import dataclass
 
-from rotor.design.design import PRESETS, Design
-from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor import Design, Solution, make_design, solve
+from rotor.design.design import PRESETS
+from rotor.trim import power_gradient
 
 
 def warm() -> None:

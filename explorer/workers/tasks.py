@@ -4,12 +4,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from rotor.design.design import Design
-from rotor.optimisation.concepts import Concept
-from rotor.optimisation.objective import Objective, at_condition, measure
-from rotor.optimisation.schedule import Cell, Plan, Schedule
-from rotor.optimisation.search import Optimum, Search, SearchStatus, run_search
-from rotor.trim.solution import Solution
+from rotor import Design, Optimum, Solution
+from rotor.optimisation import (
+    Cell,
+    Concept,
+    Objective,
+    Plan,
+    Schedule,
+    Search,
+    SearchStatus,
+    at_condition,
+    measure,
+    run_search,
+)
 
 
 @dataclass(frozen=True)

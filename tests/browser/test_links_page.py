@@ -82,11 +82,11 @@ def there_and_back(app: App, watched: Watched, designs: list[Inputs]) -> None:
 
     def arrived(inputs: Inputs, before: object) -> bool:
         """Whether a new session and the address of its page hold this design."""
-        session = app.sessions[-1] if app.sessions else None
+        session = next(reversed(app.sessions), None)
         return session is not None and session is not before and holds(app, watched, inputs)
 
     def goes(step: Callable[[], object], inputs: Inputs) -> None:
-        before = app.sessions[-1] if app.sessions else None
+        before = next(reversed(app.sessions), None)
         step()
         watched.until(lambda: arrived(inputs, before))
 

@@ -9,8 +9,8 @@ from explorer.export.report.contents import JudgedActuator
 from explorer.export.report.figures import figure, series
 from explorer.model.units import Units, number
 from explorer.text.balance import balance, fuel_words, pair_words, signed
-from rotor.actuator.flight import ActuatorFlight
-from rotor.actuator.verdict import Verdict, count, verdict_details, verdict_sentence
+from rotor.actuator import ActuatorFlight, Verdict, verdict_details, verdict_sentence
+from rotor.actuator.verdict import count
 from rotor.line_chart import LineChart
 
 _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0

@@ -12,9 +12,8 @@ from explorer.model.units import UNITS, Units
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
 from explorer.theme.colours import BASELINE
-from rotor.actuator.flight import ActuatorFlight, fly
-from rotor.actuator.verdict import Verdict
-from rotor.trim.solution import Solution
+from rotor import Solution
+from rotor.actuator import ActuatorFlight, Verdict, fly
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
 """Colours of the designs in charts and badges, in turn."""

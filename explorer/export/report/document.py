@@ -24,13 +24,10 @@ from explorer.text.design_words import flight_words, model_words, title_words, w
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
-from rotor.actuator.verdict import try_actuator
-from rotor.design.design import Design
+from rotor import Design, Solution, load_design, solve
+from rotor.actuator import try_actuator
 from rotor.dynamics.structure import check_blade
-from rotor.files.design_file import load_design
 from rotor.terminal import run_command
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.user_input import write_whole
 
 

@@ -16,9 +16,9 @@ from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_en
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.picture.fields import Field
 from explorer.theme.colours import BASELINE, IDEAL
+from rotor import Solution
 from rotor.arrays import Array
 from rotor.line_chart import LineChart, Mark, Series, draw
-from rotor.trim.solution import Solution
 
 PIXELS = 480
 """Pixels of a disk along each edge: the labels of its regions can be read."""

@@ -14,10 +14,9 @@ from explorer.text.design_words import inflow_words, physics_words, stand_words,
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from explorer.theme.colours import PARTS
+from rotor import Design, Solution
 from rotor.aero.problem import grid_of
-from rotor.design.design import Design
-from rotor.trim.hub_loads import why_no_hub_loads
-from rotor.trim.solution import Solution
+from rotor.trim import why_no_hub_loads
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""

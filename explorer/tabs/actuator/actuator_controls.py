@@ -26,11 +26,19 @@ from explorer.tabs.actuator.electrodes import ElectrodesPanel
 from explorer.tabs.live_charts import Chart, line, points
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator import (
+    Actuator,
+    ExtensionTwist,
+    InstalledActuator,
+    PiezoPly,
+    TorqueTube,
+    Verdict,
+    actuators,
+    find_actuator,
+    verdict_sentence,
+)
 from rotor.actuator.pictures import twist_comparison
-from rotor.actuator.verdict import Verdict, verdict_sentence
-from rotor.optimisation.concepts import find_concept
+from rotor.optimisation import find_concept
 
 
 def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> str:

@@ -7,18 +7,28 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
-from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
-from rotor.actuator.installation import InstalledActuator, install
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, twisted
-from rotor.actuator.section import BladeKind, Host, Placement, default_placement
+from rotor import Design, Rotor
+from rotor.actuator import (
+    Actuator,
+    ConditionPair,
+    DynamicTwist,
+    ExtensionTwist,
+    Host,
+    InstalledActuator,
+    PiezoPly,
+    Placement,
+    default_placement,
+    find_actuator,
+    install,
+)
+from rotor.actuator.harmonic import dynamic_twist, with_harmonic
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, twisted
+from rotor.actuator.section import BladeKind
 from rotor.actuator.verdict import Against
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.design.design import Design
-from rotor.design.twist import PiecewiseLinearTwist
+from rotor.design import PiecewiseLinearTwist
 from rotor.dynamics.structure import KNOWN_BLADE
-from rotor.optimisation.concepts import find_concept
+from rotor.optimisation import find_concept
 
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Those whose divisions an actuator can be laid out for before any optimum is known."""

@@ -18,13 +18,10 @@ from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
-from rotor.actuator.harmonic import PowerMap
-from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.verdict import Verdict
-from rotor.design.design import Design
+from rotor import Design, Solution
+from rotor.actuator import InstalledActuator, PowerMap, Verdict
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
-from rotor.trim.solution import Solution
 
 _STILL = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""

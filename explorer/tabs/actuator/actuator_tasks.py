@@ -10,12 +10,20 @@ from typing import Any, Protocol
 
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
-from rotor.actuator.catalogue import actuators, find_actuator
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
-from rotor.actuator.harmonic import PowerMap, power_map
-from rotor.actuator.verdict import Verdict, judge
-from rotor.design.design import Design
-from rotor.optimisation.concepts import find_concept
+from rotor import Design
+from rotor.actuator import (
+    ActuatorFlight,
+    FlightLeg,
+    PowerMap,
+    Verdict,
+    actuators,
+    find_actuator,
+    fly,
+    judge,
+    power_map,
+    standard_flight,
+)
+from rotor.optimisation import find_concept
 
 Outcome = Verdict | str
 """A verdict, or the sentence that says why there is none."""

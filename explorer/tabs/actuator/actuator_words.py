@@ -11,15 +11,21 @@ from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
 from explorer.theme.colours import css
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
-from rotor.actuator.harmonic import PowerMap, tip_response
-from rotor.actuator.installation import InstalledActuator
+from rotor import Design, Solution
+from rotor.actuator import (
+    Actuator,
+    ExtensionTwist,
+    InstalledActuator,
+    PiezoPly,
+    PowerMap,
+    Verdict,
+    verdict_details,
+    verdict_sentence,
+)
+from rotor.actuator.harmonic import tip_response
 from rotor.actuator.limits import Limit
-from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.arrays import Array
-from rotor.design.design import Design
 from rotor.reproduce.report import typographic
-from rotor.trim.solution import Solution
 
 _NONE = "–"
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}

@@ -15,12 +15,13 @@ from explorer.model.units import number
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.design_words import harmonic_words
-from rotor.actuator.programmes import Programme, programmes
+from rotor import Design, t_matrix, vibration_front
+from rotor.actuator import Programme, programmes
 from rotor.aero.bending import can_bend
-from rotor.design.active_twist import Harmonic
-from rotor.design.design import Design
-from rotor.optimisation.vibration import t_matrix, vibration_front, with_harmonics
-from rotor.trim.hub_loads import index_gains, why_no_hub_loads
+from rotor.design import Harmonic
+from rotor.optimisation.vibration import with_harmonics
+from rotor.trim import why_no_hub_loads
+from rotor.trim.hub_loads import index_gains
 
 HARMONICS = (2, 3, 4, 5)
 """Of the dial: those at which a blade of four passes vibration on to the hub, and 2/rev, which saves power."""

@@ -16,10 +16,9 @@ from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.actuator_tasks import flight_legs
 from explorer.tabs.context import TabContext
 from explorer.text.balance import balance, fuel_used, fuel_words, pair_words, signed
-from rotor.actuator.flight import ActuatorFlight, FlightLeg
-from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.verdict import Verdict, reference, verdict_sentence
-from rotor.design.design import Design
+from rotor import Design
+from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict, verdict_sentence
+from rotor.actuator.verdict import reference
 from rotor.line_chart import round_ticks
 
 HALVES = 2

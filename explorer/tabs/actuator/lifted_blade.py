@@ -12,12 +12,11 @@ import numpy as np
 from explorer.picture.camera_views import Camera, framed
 from explorer.picture.poses import Pose, about, compose, rotate
 from explorer.picture.solids import Mesh
-from rotor.actuator.catalogue import PiezoPly, TorqueTube
-from rotor.actuator.installation import InstalledActuator
+from rotor import Rotor
+from rotor.actuator import InstalledActuator, PiezoPly, TorqueTube
 from rotor.actuator.pictures import electronics_station
 from rotor.actuator.section import SectionSpec, section_spec, skin
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
 from rotor.dynamics.structure import structure_data, uh60a_structure
 
 WIDER = 2.7

@@ -17,11 +17,9 @@ from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.theme.colours import Rgb, css
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.installation import InstalledActuator
+from rotor import Design, Solution
+from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.trim.solution import Solution
 
 NODE = "/lifted"
 """Name of the lifted blade in the scene."""

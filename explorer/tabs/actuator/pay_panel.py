@@ -16,17 +16,8 @@ from explorer.model.units import number
 from explorer.tabs.actuator.actuator_tasks import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.glossary import hint
-from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import (
-    BreakEven,
-    Candidate,
-    PaySearch,
-    break_even,
-    pay_sentence,
-    search_sentence,
-    what_would_pay,
-)
-from rotor.actuator.verdict import Verdict
+from rotor.actuator import BreakEven, ConditionPair, PaySearch, Verdict, break_even, pay_sentence, what_would_pay
+from rotor.actuator.pay import Candidate, search_sentence
 from rotor.line_chart import round_ticks, tick_text
 
 _LIMIT = 300.0

@@ -16,7 +16,8 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.design_words import harmonic_words
 from explorer.text.glossary import hint
-from rotor.design.active_twist import HIGHEST, LARGEST_PITCH, Harmonic
+from rotor.design import Harmonic
+from rotor.design.active_twist import HIGHEST, LARGEST_PITCH
 
 _WAVES = {"pitch_per_rev": ("Pitch", 2), "twist_per_rev": ("Twist", 1)}
 """By the field of `Inputs`: title, and the lowest harmonic."""

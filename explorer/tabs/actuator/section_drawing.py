@@ -5,8 +5,7 @@ from html import escape
 
 from explorer.tabs.actuator.lifted_picture import drive_colour
 from explorer.theme.colours import css
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator import InstalledActuator, PiezoPly
 from rotor.actuator.pictures import Part, section_picture
 
 _WIDTH, _HEIGHT = 312.0, 92.0

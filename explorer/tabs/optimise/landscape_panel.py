@@ -26,11 +26,11 @@ from explorer.tabs.optimise.map_panel import COLOURS_END, Map, MapPanel
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
 from explorer.theme.colours import START_COLOURS, colour_map, css
+from rotor import Design
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
+from rotor.design import TwistLaw
 from rotor.line_chart import round_ticks, tick_text
-from rotor.optimisation.concepts import Parameter
+from rotor.optimisation import Parameter
 from rotor.optimisation.descent import BAND
 
 ROOT = "/landscape"

@@ -21,11 +21,11 @@ from explorer.text.glossary import hint
 from explorer.theme.colours import NOW, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.tasks import MapLevel, MapTask
+from rotor import Design
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
+from rotor.design import TwistLaw
 from rotor.line_chart import round_ticks, tick_text
-from rotor.optimisation.concepts import Concept, Parameter, nearest
+from rotor.optimisation import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND as _BAND
 
 CONTOURS = (0.005, 0.01, 0.02, 0.04, 0.08)

@@ -17,9 +17,8 @@ from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
 from explorer.workers.pool import Job, JobEvent, JobProgress
 from explorer.workers.tasks import SearchTask
-from rotor.design.design import Design
-from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import WeightedCondition
+from rotor import Design
+from rotor.optimisation import CONCEPTS, WeightedCondition
 
 TIME_LIMIT = 60.0
 """[s] a search may take."""

@@ -15,9 +15,8 @@ from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, ScheduleTask
-from rotor.design.design import Design
-from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import Cell, Plan
+from rotor import Design
+from rotor.optimisation import Cell, Plan, WeightedCondition
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""

@@ -9,12 +9,11 @@ import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.model.units import SI, Units, number
+from rotor import Design, Optimum
 from rotor.arrays import Array
-from rotor.design.design import Design
-from rotor.design.twist import TableTwist, TwistLaw
+from rotor.design import TableTwist, TwistLaw
+from rotor.optimisation import Cell, Plan, Schedule
 from rotor.optimisation.objective import MISSION_COLUMNS
-from rotor.optimisation.schedule import Cell, Plan, Schedule
-from rotor.optimisation.search import Optimum
 
 LEGS = 6
 """Rows of the mission table, so traces of the twist chart."""

@@ -11,11 +11,21 @@ from typing import Literal
 from explorer.model.units import SI, Units
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import ReferencePower, StartPower
-from rotor.design.design import Design
-from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
+from rotor import Design, Limits, Optimum
+from rotor.optimisation import (
+    CONCEPTS,
+    Concept,
+    Objective,
+    Progress,
+    Search,
+    WeightedCondition,
+    at_condition,
+    even_change_limit,
+    find_concept,
+    hover_and_cruise,
+)
 from rotor.optimisation.concepts.catalogue import AIRFOIL_BREAKS, DIVISION
-from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, hover_and_cruise
-from rotor.optimisation.search import STARTS, Limits, Optimum, Progress, Search, even_change_limit
+from rotor.optimisation.search import STARTS
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,10 @@ from explorer.charts.strip import round_ticks
 from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun, StartTrace
 from explorer.theme.colours import NOW, START_COLOURS, THIS, css
-from rotor.design.twist import PiecewiseLinearTwist
-from rotor.optimisation.concepts import Concept, Handle
-from rotor.optimisation.search import Optimum
+from rotor import Optimum
+from rotor.design import PiecewiseLinearTwist
+from rotor.optimisation import Concept
+from rotor.optimisation.concepts import Handle
 
 _WIDTH, _HEIGHT, _EDGE = 272, 62, 8
 _MIDDLE, _AMPLITUDE = 28, 15

@@ -7,11 +7,12 @@ from enum import Enum
 import numpy as np
 
 from explorer.picture.regions import DRAG_DIVERGENCE
+from rotor import Solution
 from rotor.aero.display import STALLED, Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
-from rotor.trim.solution import DiskFields, Solution
+from rotor.trim import DiskFields
 
 
 class FlowRegion(Enum):

@@ -15,8 +15,8 @@ from explorer.tabs.probe.probe_measured import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.theme.colours import NOW, THIS
+from rotor import Solution
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
 
 WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"

@@ -13,11 +13,12 @@ from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.theme.colours import LIMIT, NOW, THIS
+from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, PublicPoint, nearest_points, points_near
 from rotor.arrays import Array
 from rotor.line_chart import round_ticks
-from rotor.trim.solution import Solution
-from rotor.validation.airloads import REPORTS, FlownCase, MeasuredCurve, harmonics, our_curve
+from rotor.validation import FlownCase, MeasuredCurve, our_curve
+from rotor.validation.airloads import REPORTS, harmonics
 
 LIFT, MARK = THIS, "#099268"
 _WIDTH, _HEIGHT = 312.0, 96.0

@@ -26,9 +26,8 @@ from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, 
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
 from explorer.theme import colours
+from rotor import Rotor, Solution
 from rotor.arrays import Array
-from rotor.design.blade import Rotor
-from rotor.trim.solution import Solution
 
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
 """Casing and line."""
