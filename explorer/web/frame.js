@@ -72,6 +72,16 @@
     if (near.closest('[data-part=menu]') && near.dataset.do !== 'along') menu.hidden = true;
     RX.send(near.dataset.do, near.type === 'checkbox' ? near.checked : near.dataset.value ?? null);
   });
+  // The browser makes no click where what was pressed is drawn anew before the release, as a card is with every answer:
+  // then the same control under the pointer is clicked here.
+  let pressed = null;
+  const control = target => target instanceof Element ? target.closest('#rx [data-do]') : null;
+  document.addEventListener('pointerdown', event => { pressed = {target: event.target, control: control(event.target)}; }, true);
+  document.addEventListener('pointerup', event => {
+    const was = pressed?.control?.dataset, now = control(event.target), gone = !pressed?.target.isConnected;
+    pressed = null;
+    if (was && now && gone && now.dataset.do === was.do && now.dataset.value === was.value) now.click();
+  }, true);
   // A link to be passed on, not followed.
   document.addEventListener('click', event => {
     const link = event.target instanceof Element && event.target.closest('a[data-copy]');

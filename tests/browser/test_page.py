@@ -42,6 +42,19 @@ def test_the_strip_has_four_charts_with_axes(watched: Watched):
     watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
 
 
+def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
+    """Cards are drawn with every answer, also between the press and the release; then the browser makes no click."""
+    button, page = watched.page.locator("[data-do=region][data-value=stall]"), watched.page
+    watched.answered(wholly=True)
+    before = button.get_attribute("aria-pressed")
+    for _ in range(2):
+        button.hover()
+        page.mouse.down()
+        page.evaluate("() => { RX.again('field'); return new Promise(done => setTimeout(done, 100)); }")
+        page.mouse.up()
+        before = watched.until_changed(lambda: button.get_attribute("aria-pressed"), before)
+
+
 def test_sliders_of_twist_and_speed_move_power_blade_and_disk(watched: Watched):
     def shown() -> tuple[str, str, str]:
         return watched.text("total-power"), watched.node("/rotor/blade_0"), watched.node("/rotor/disk/field")
