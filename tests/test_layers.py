@@ -20,7 +20,7 @@ PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
 KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
-"""Packages with public names, the first one first."""
+"""Packages with public names: a name is imported from the first that has it."""
 ORDER = {
     "rotor": (
         "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "spawn", "blas_threads", "plots",

@@ -75,12 +75,13 @@
   // The browser makes no click where what was pressed is drawn anew before the release, as a card is with every answer:
   // then the same control under the pointer is clicked here.
   let pressed = null;
-  const control = target => target instanceof Element ? target.closest('#rx [data-do]') : null;
-  document.addEventListener('pointerdown', event => { pressed = {target: event.target, control: control(event.target)}; }, true);
+  const control = target => target instanceof Element ? target.closest('[data-do], [data-page], [data-harmonic]') : null;
+  const same = (one, other) => ['do', 'value', 'page', 'harmonic'].every(name => one.dataset[name] === other.dataset[name]);
+  document.addEventListener('pointerdown', event => { pressed = event.button === 0 ? {target: event.target, control: control(event.target)} : null; }, true);
   document.addEventListener('pointerup', event => {
-    const was = pressed?.control?.dataset, now = control(event.target), gone = !pressed?.target.isConnected;
+    const was = pressed, now = control(event.target);
     pressed = null;
-    if (was && now && gone && now.dataset.do === was.do && now.dataset.value === was.value) now.click();
+    if (was?.control && now && !was.target.isConnected && same(was.control, now)) now.click();
   }, true);
   // A link to be passed on, not followed.
   document.addEventListener('click', event => {

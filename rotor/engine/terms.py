@@ -1,6 +1,6 @@
 """The structure of a rotor's equations as lists of terms; their numbers come with each design.
 
-    atoms     z = (1, numbers, states, derived)          numbers: given by the design; derived: of states, by formulas
+    atoms     z = (1, numbers, states, derived)       numbers: given by the design; derived: from states, by formulas
     columns   channel(r, ψ) += factor z_i z_j Φ(r) w(ψ)
     measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
     terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
@@ -154,7 +154,7 @@ class Structure:
         return self.states.setdefault(name, 1 + len(self.numbers) + len(self.states))
 
     def quantity(self, name: Hashable) -> int:
-        """The atom of a quantity made of states."""
+        """The atom of a quantity derived from states."""
         return self.derived.setdefault(name, 1 + len(self.numbers) + len(self.states) + len(self.derived))
 
     def column(

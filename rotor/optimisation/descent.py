@@ -90,8 +90,8 @@ class Model:
     def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
         """others: trims that the second derivatives are made of; those of other rotors are left out."""
         self.evaluate = evaluate
-        made = centre.measured
-        value, by_pitch = _known(made)
+        measured = centre.measured
+        value, by_pitch = _known(measured)
         metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
         pairs = [
             (one.measured, step, length)
@@ -112,11 +112,11 @@ class Model:
         size = np.maximum(size, _FLATTEST * max(size[-1], first))
         self.objective = Quadratic(centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric)
         self.limited: list[Quadratic] = []
-        if made.limited_by_pitch is not None:
-            for k, slope in enumerate(made.limited_by_pitch):
+        if measured.limited_by_pitch is not None:
+            for k, slope in enumerate(measured.limited_by_pitch):
                 slopes = [other.limited_by_pitch[k] for other, _, _ in pairs if other.limited_by_pitch is not None]
                 second = metric[:, None] * fit(slope, slopes, 0.0) * metric
-                self.limited.append(Quadratic(centre.pitch, made.limited[k], slope, second))
+                self.limited.append(Quadratic(centre.pitch, measured.limited[k], slope, second))
 
     def cost(self, x: Array) -> float:
         """The objective."""

@@ -53,12 +53,12 @@ class TrimmedBlades:
         gap = min(self._solved, key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()), default=None)
         return () if gap is None else gap[1]
 
-    def add(self, rotor: Rotor, pitch: Array, made: Measured) -> TrimmedBlade:
+    def add(self, rotor: Rotor, pitch: Array, measured: Measured) -> TrimmedBlade:
         """Keep what was trimmed."""
-        blade = TrimmedBlade(rotor, pitch, replace(made, solutions=()))
-        if made.power is not None:
+        blade = TrimmedBlade(rotor, pitch, replace(measured, solutions=()))
+        if measured.power is not None:
             self.all.append(blade)
-            self._solved.append((blade, tuple(solution.without_linear() for solution in made.solutions)))
+            self._solved.append((blade, tuple(solution.without_linear() for solution in measured.solutions)))
         return blade
 
 
@@ -183,8 +183,8 @@ class Evaluator:
         if known is not None:
             return known
         self.count += 1
-        made = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
-        return self.trimmed.add(design.rotor, pitch, made)
+        measured = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
+        return self.trimmed.add(design.rotor, pitch, measured)
 
     def _check(self) -> None:
         if self._stop is not None and self._stop():

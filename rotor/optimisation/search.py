@@ -293,9 +293,9 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
         active.append("stalled area")
     if limits.index is not None and trimmed[-conditions:].any():
         active.append("vibration index")
-    made, twist = record.blade.measured, evaluate.concept.twist(values).spec()
-    assert made.power is not None
-    return Minimum(values, made.power, twist, tuple(starts), tuple(active), made.index)
+    measured, twist = record.blade.measured, evaluate.concept.twist(values).spec()
+    assert measured.power is not None
+    return Minimum(values, measured.power, twist, tuple(starts), tuple(active), measured.index)
 
 
 def optimise(

@@ -376,7 +376,7 @@ class Waterfall:
 
 
 def waterfall(design: Design) -> Waterfall:
-    """Thirteen trims: all switches on one after another, then each one off alone."""
+    """All switches on one after another, then each one off alone; a trim for each."""
     steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
     return Waterfall(steps[:on], steps[on:])
 
