@@ -7,8 +7,7 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
-from explorer.hosting.limits import SESSIONS
+from explorer.hosting.limits import SESSIONS, host_name, is_loopback, warning
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command

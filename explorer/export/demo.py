@@ -24,7 +24,7 @@ from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices,
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import flown_twist, follows_azimuth
-from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of
+from explorer.scene.controller import SURFACES, TURN_RATES, motion_of
 from explorer.scene.scene import ROTOR
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.text.readout import part_titles

@@ -4,6 +4,8 @@ The words and the shadow are masks 0…255, coloured when they are encoded: ligh
 """
 
 import math
+import struct
+import zlib
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,7 +14,6 @@ from numpy.typing import NDArray
 from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
 from explorer.picture.airframe import Airframe
-from explorer.picture.png import encode_png
 from explorer.picture.polar import Places, PolarGrid
 from explorer.picture.regions import Bytes, MarkedRegion
 from explorer.picture.scene_theme import DiskInk
@@ -199,6 +200,32 @@ def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
     if faded:
         entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
     return entries
+
+
+def encode_png(pixels: Bytes, entries: Bytes, effort: int = 1) -> bytes:
+    """A palette PNG: `pixels` of shape (rows, columns), `entries` RGBA of shape (256, 4), `effort` of zlib 0…9.
+
+    A quarter of the size and a tenth of the time of a true-colour PNG. Pillow would take half as long again,
+    and hold the interpreter lock while it packs.
+    """
+    rows, columns = pixels.shape
+    lines = np.zeros((rows, columns + 1), dtype=np.uint8)  # Each begins with its filter: none.
+    lines[:, 1:] = pixels
+    return b"".join(
+        (
+            b"\x89PNG\r\n\x1a\n",
+            _chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 3, 0, 0, 0)),
+            _chunk(b"PLTE", entries[:, :3].tobytes()),
+            _chunk(b"tRNS", entries[:, 3].tobytes()),
+            _chunk(b"IDAT", zlib.compress(lines.tobytes(), effort)),
+            _chunk(b"IEND", b""),
+        )
+    )
+
+
+def _chunk(kind: bytes, content: bytes) -> bytes:
+    """Length, kind, content and check sum."""
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(content, zlib.crc32(kind)))
 
 
 def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:

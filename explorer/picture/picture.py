@@ -10,8 +10,8 @@ from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.disk_image import encode_png
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.png import encode_png
 from explorer.picture.polar import polar_grid, refined
 from explorer.picture.poses import (
     Pose,

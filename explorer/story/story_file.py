@@ -21,7 +21,7 @@ from explorer.model.units import UNITS, Units
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import Cover, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
-from explorer.scene.page_scene import SURFACES, TURN_RATES
+from explorer.scene.controller import SURFACES, TURN_RATES
 from explorer.scene.scene import COMPARED, ROTOR
 from explorer.scene.still_scene import embedded_viewer, still_page
 from explorer.story.facts import Facts, facts_of

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import viser
 
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.pinned import Pinboard
 from explorer.model.session_state import SessionState

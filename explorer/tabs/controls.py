@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import viser
 
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 from explorer.hosting.viser_compat import quick
 from explorer.model.inputs import (
     INFLOW_MENUS,

@@ -6,12 +6,12 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, Field
-from explorer.scene.page_scene import TURN_RATES
+from explorer.scene.controller import TURN_RATES
 from explorer.theme.colours import Scheme, colour_map, css
 from rotor.line_chart import round_ticks, tick_text
 

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import viser
 
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 
 Mode = Literal["explore", "optimise", "actuate"]
 MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")

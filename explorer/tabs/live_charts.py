@@ -18,7 +18,7 @@ from explorer.charts.strip import (
     total_power_chart,
     where_to_twist_chart,
 )
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from explorer.hosting.bridge import Bridge
+from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities

@@ -1,9 +1,26 @@
-"""The solver as the page uses it: warmed at the start, with a cached baseline."""
+"""The solver as the page uses it: warmed at the start, with a cached baseline, and in tasks of the worker processes.
 
+Tasks are values that can be pickled. Nothing here imports viser.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
-from rotor import Design, Solution, make_design, solve
+from rotor import Design, Optimum, Solution, make_design, solve
 from rotor.design.design import PRESETS
+from rotor.optimisation import (
+    Cell,
+    Concept,
+    Objective,
+    Plan,
+    Schedule,
+    Search,
+    SearchStatus,
+    at_condition,
+    measure,
+    run_search,
+)
 from rotor.trim import power_gradient
 
 
@@ -33,3 +50,144 @@ class BaselineCache:
             self.solution = solve(design, self.solution if self.solution and self.solution.converged else None)
             self.design = design
         return self.solution
+
+
+@dataclass(frozen=True)
+class ReferencePower:
+    """Power of the reference design by the objective of a search [W]; None if it does not trim."""
+
+    power: float | None
+
+
+@dataclass(frozen=True)
+class StartPower:
+    """Power of the design a search starts from [W]."""
+
+    power: float | None
+
+
+@dataclass(frozen=True)
+class SearchTask:
+    """A search for the twist of least power."""
+
+    search: Search
+    reference: Design
+    """The second reference of the saving."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
+        """Reports `StartPower`, `ReferencePower`, then every `Progress`."""
+        search = self.search
+        objective = search.objective or at_condition(search.design)
+        begin = measure(objective, search.design, gradient=False)
+        tell(StartPower(begin.power))
+        if self.reference == search.design:
+            tell(ReferencePower(begin.power))
+        elif not stop():
+            tell(ReferencePower(measure(objective, self.reference, gradient=False).power))
+        return run_search(search, tell, stop)
+
+
+@dataclass(frozen=True)
+class MapTask:
+    """Power over two parameters of a concept, the others held: on a coarse grid, then on finer ones."""
+
+    design: Design
+    concept: Concept
+    objective: Objective
+    axes: tuple[int, int]
+    """Which parameters run along x and y."""
+    values: tuple[float, ...]
+    """All parameters; those of the axes are replaced."""
+    steps: tuple[int, ...] = (8, 16, 32)
+    """Intervals along each axis, each a multiple of the one before."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
+        """Reports a `MapLevel` for each grid; True when all were done."""
+        known: dict[tuple[int, int], float | None] = {}
+        finest = self.steps[-1]
+        for steps in self.steps:
+            stride = finest // steps
+            near: tuple[Solution, ...] = ()
+            for row in range(0, finest + 1, stride):
+                columns = range(0, finest + 1, stride)
+                # Back and forth, so that each trim starts from its neighbour.
+                for column in columns if row // stride % 2 == 0 else reversed(columns):
+                    if (row, column) in known:
+                        continue
+                    if stop():
+                        return False
+                    made = measure(self.objective, self.at(column / finest, row / finest), near, gradient=False)
+                    known[row, column] = made.power
+                    near = made.solutions if made.power is not None else ()
+            places = range(0, finest + 1, stride)
+            tell(MapLevel(tuple(tuple(known[row, column] for column in places) for row in places)))
+        return True
+
+    def at(self, x: float, y: float) -> Design:
+        """The design at a point of the map, 0…1 along each axis."""
+        values = list(self.values)
+        for axis, part in zip(self.axes, (x, y), strict=True):
+            parameter = self.concept.parameters[axis]
+            values[axis] = parameter.low + part * (parameter.high - parameter.low)
+        return self.concept.apply(self.design, values)
+
+
+@dataclass(frozen=True)
+class MapLevel:
+    """Powers [W] on a square grid, rows along y from low to high; None where a design does not trim."""
+
+    powers: tuple[tuple[float | None, ...], ...]
+
+
+@dataclass(frozen=True)
+class ScheduleTask:
+    """The best twist for each leg of a mission, and the best fixed blade."""
+
+    plan: Plan
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
+        """Reports every `Cell`, then `FixedPowers`. Every leg uses all its starts."""
+        plan, concept = self.plan, self.plan.concepts[0]
+        cells: list[Cell] = []
+        guesses: tuple[tuple[float, ...], ...] = ()
+        for k, leg in enumerate((*plan.conditions, None)):
+            if leg is None:
+                guesses = _middle(cells, plan)
+            search = Search(
+                design=plan.design_at(None if leg is None else k),
+                concept=concept,
+                objective=Objective(plan.quantity, plan.conditions if leg is None else (leg,)),
+                limits=plan.limits,
+                starts=plan.starts if leg is not None else min(plan.starts, 3),
+                seed=plan.seed,
+                guesses=guesses,
+                band=False,
+            )
+            optimum = run_search(search, stop=stop)
+            if optimum.status is SearchStatus.STOPPED:
+                return Schedule(plan, tuple(cells))
+            guesses = () if optimum.best is None else (optimum.best.parameters,)
+            cells.append(Cell(None if leg is None else k, concept.name, optimum))
+            tell(cells[-1])
+        powers = [measure(Objective(plan.quantity, (leg,)), cells[-1].optimum.design, gradient=False).power
+                  for leg in plan.conditions]  # fmt: skip
+        tell(FixedPowers(tuple(powers)))
+        return Schedule(plan, tuple(cells))
+
+
+def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
+    """The mean of the best moving blades, weighted by hours: the start of the search for a fixed one."""
+    shares = Objective(plan.quantity, plan.conditions).shares
+    found = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
+    total = sum(share for share, _ in found)
+    if not found:
+        return ()
+    return (tuple(sum(share * best.parameters[k] for share, best in found) / total
+                  for k in range(len(plan.concepts[0].parameters))),)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FixedPowers:
+    """Power of the best fixed blade on each leg [W]; None where it does not trim."""
+
+    powers: tuple[float | None, ...]

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from explorer.picture.disk_image import levels_of
-from explorer.picture.png import encode_png
+from explorer.picture.disk_image import encode_png, levels_of
 from explorer.picture.polar import Sums, angles_of_attack, polar_grid
 from explorer.picture.regions import mark_line
 from rotor.trim.solution import Solution

@@ -8,7 +8,7 @@ import pytest
 from fake_bridge import Bridge
 
 from explorer.model.inputs import ViewState
-from explorer.scene.page_scene import TURN_RATES
+from explorer.scene.controller import TURN_RATES
 from explorer.tabs.display import Display
 from explorer.tabs.probe.probe_panel import ProbePanel
 

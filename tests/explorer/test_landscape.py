@@ -15,7 +15,7 @@ from explorer.tabs.optimise.landscape_panel import half_widths, paths_on, valley
 from explorer.tabs.optimise.map_panel import Map
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.workers.pool import JobEnded, JobProgress
-from explorer.workers.tasks import MapTask, StartPower
+from explorer.workers.solver import MapTask, StartPower
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition

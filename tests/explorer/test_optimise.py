@@ -25,7 +25,7 @@ from explorer.tabs.optimise.map_panel import default_axes
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun, StartTrace
 from explorer.tabs.optimise.search_words import concept_picture, starts_chart
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
-from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
+from explorer.workers.solver import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition

@@ -8,7 +8,7 @@ import pytest
 import viser
 
 from explorer.hosting import viser_compat
-from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import AllowedHosts
 from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 
 CLIENT = (

@@ -17,7 +17,7 @@ from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.poses import blade_pose, pitch_series
-from explorer.scene.page_scene import motion_of
+from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.per_rev import PerRevControls

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from explorer.export.report import document
-from explorer.export.report.actuator import actuator_section
 from explorer.export.report.contents import JudgedActuator, ReportEntry, judged_actuator, report_of
 from explorer.export.report.document import main, report_html
+from explorer.export.report.figures import actuator_section
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.tabs.actuator.actuator_words import verdict_panel

@@ -15,8 +15,8 @@ from explorer import web
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
-from explorer.export.report.actuator import actuator_section
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, judged_actuator, report_of
+from explorer.export.report.figures import actuator_section
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage

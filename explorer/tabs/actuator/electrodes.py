@@ -9,7 +9,7 @@ import viser
 
 from explorer.charts.plots import Plot, held_range
 from explorer.model.units import number
-from explorer.picture.png import encode_png
+from explorer.picture.disk_image import encode_png
 from explorer.tabs.live_charts import Chart, line, points
 from explorer.theme.colours import BASELINE, IDEAL, NOW, THIS, colour_map
 from rotor.actuator import Actuator, PiezoPly, actuators, find_actuator

@@ -10,8 +10,7 @@ import viser
 from numpy.typing import NDArray
 
 from explorer.hosting import viser_compat
-from explorer.hosting.bridge import Bridge
-from explorer.hosting.browser import call
+from explorer.hosting.browser import Bridge, call
 from explorer.model.units import number
 from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import lifted_blade as lifted

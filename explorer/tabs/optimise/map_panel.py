@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from explorer.model.inputs import with_optimum
 from explorer.model.units import SI, Units, number
+from explorer.picture.disk_image import encode_png
 from explorer.picture.landscape import refined
-from explorer.picture.png import encode_png
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.theme.colours import NOW, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress
-from explorer.workers.tasks import MapLevel, MapTask
+from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.arrays import Array
 from rotor.design import TwistLaw

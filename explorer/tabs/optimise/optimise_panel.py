@@ -16,7 +16,7 @@ from explorer.tabs.optimise.search_run import FRAME, OBJECTIVES, TRACES, SearchR
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
 from explorer.workers.pool import Job, JobEvent, JobProgress
-from explorer.workers.tasks import SearchTask
+from explorer.workers.solver import SearchTask
 from rotor import Design
 from rotor.optimisation import CONCEPTS, WeightedCondition
 

@@ -14,7 +14,7 @@ from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFli
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
-from explorer.workers.tasks import FixedPowers, ScheduleTask
+from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.optimisation import Cell, Plan, WeightedCondition
 

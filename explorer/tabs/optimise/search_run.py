@@ -10,7 +10,7 @@ from typing import Literal
 
 from explorer.model.units import SI, Units
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
-from explorer.workers.tasks import ReferencePower, StartPower
+from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
     CONCEPTS,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from explorer.hosting.allowed_hosts import AllowedHosts, host_name, is_loopback, warning
+from explorer.hosting.limits import AllowedHosts, host_name, is_loopback, warning
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:8080", "localhost:8080", "LOCALHOST", "[::1]:8080", "localhost."])

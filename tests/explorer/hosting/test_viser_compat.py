@@ -28,7 +28,7 @@ from websockets.streams import StreamReader
 from explorer.hosting import request_filter, viser_compat
 from explorer.hosting.viser_compat import ThreadedBuffer
 from explorer.picture import disk_image
-from explorer.picture.png import encode_png
+from explorer.picture.disk_image import encode_png
 
 MESSAGES, THREADS = 300, 4
 

@@ -268,6 +268,6 @@ def test_closing_ends_every_process():
 
 @pytest.mark.slow
 def test_worker_processes_load_no_page():
-    code = "import sys, explorer.workers.pool, explorer.workers.tasks; print('viser' in sys.modules)"
+    code = "import sys, explorer.workers.pool, explorer.workers.solver; print('viser' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
