@@ -15,7 +15,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import PageFacts, set_query
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.pinned import Pinned
-from explorer.model.session_state import Failure, Frame, Reading, SessionState
+from explorer.model.session_state import Failure, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
@@ -195,18 +195,20 @@ class Page:
         """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
         return self.top.solve(present, hurried)
 
-    def show_frame(self, frame: Frame) -> None:
-        """Draw the 3D picture and send it. Nothing else belongs here: it is the delay that the user feels."""
-        reading, solution = frame.reading, frame.solution
+    def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
+        """Draw a converged solution and send it. Nothing else belongs here: it is the delay that the user feels.
+
+        `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
+        """
         ghost = ghost_of(reading.sliders if reading.previewed else None, self.pin)
         self.camera.resize(solution.design.rotor.radius)
-        self.scene.draw(solution, reading.view, ghost, frame.pinned)
-        if not frame.only_azimuth:
+        self.scene.draw(solution, reading.view, ghost, pinned)
+        if not only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
         turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
-        if self._actuator_in_frame and (not frame.only_azimuth or turning):
+        if self._actuator_in_frame and (not only_azimuth or turning):
             self._show_actuator(reading, solution)
 
     def show_power_number(self, state: SessionState) -> None:

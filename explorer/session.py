@@ -1,6 +1,6 @@
 """One browser's session: its page, its worker thread, and the path from a slider to the picture.
 
-A slider step takes these steps; `_update` is the path, the page implements `explorer.model.session_state.SessionPage`:
+A slider step takes these steps; `_update` is the path:
 
 1. A widget's callback calls `wake`, on a thread of viser's. Nothing else happens there.
 2. `NewestWins` runs `_update` on one of a few threads; wakes in between need only one more run.
@@ -33,7 +33,7 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
-from explorer.model.session_state import Failure, Frame, Reading, SessionState
+from explorer.model.session_state import Failure, Reading, SessionState
 from explorer.page import Page
 from explorer.tabs.context import SharedServices
 from explorer.tabs.controls import SessionCallbacks
@@ -153,7 +153,7 @@ class Session:
         """Solution → the frame. A is solved before the frame only where the scene shows it."""
         wanted = reading.view.difference or reading.view.beside or reading.view.wipe
         pinned = self.page.solve_pinned(solution.design, self._overtaken()) if wanted else None
-        self.page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
+        self.page.show_frame(reading, solution, pinned, only_azimuth=not everything)
 
     def _follow(self, reading: Reading, state: SessionState, dragged: bool) -> Iterator[float]:
         """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one."""

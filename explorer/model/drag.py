@@ -67,7 +67,12 @@ def stations(inputs: Inputs) -> tuple[Station, ...]:
 
 def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
     """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
-    return _stepped(inputs, turn_slopes(inputs, station), degrees)
+    slopes = turn_slopes(inputs, station)
+    for name, slope in slopes.items():  # All stop when the first meets its limit.
+        ends = sorted((end - getattr(inputs, name)) / slope for end in limits(name))
+        degrees = min(max(degrees, ends[0]), ends[1])
+    values: dict[str, Any] = {name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()}
+    return replace(inputs, **values)
 
 
 def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
@@ -95,16 +100,6 @@ def place_of(inputs: Inputs, station: Station) -> str:
     law = inputs.design().twist if isinstance(twist, str) else twist
     angle = math.degrees(float(law(np.array([station.r]))[0]))
     return f"{station.title} {station.r:.2f} R · θ {angle:+.1f}°".replace("-", "−")
-
-
-def _stepped(inputs: Inputs, slopes: dict[str, float], degrees: float) -> Inputs:
-    """Every named input moved by `slopes` times `degrees`; all stop when the first meets its limit."""
-    for name, slope in slopes.items():
-        low, high = limits(name)
-        ends = sorted(((low - getattr(inputs, name)) / slope, (high - getattr(inputs, name)) / slope))
-        degrees = min(max(degrees, ends[0]), ends[1])
-    values: dict[str, Any] = {name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()}
-    return replace(inputs, **values)
 
 
 def slid(inputs: Inputs, station: Station, r: float) -> Inputs:

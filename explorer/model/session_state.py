@@ -57,19 +57,6 @@ class Reading:
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
-    """What the 3D picture shows."""
-
-    reading: Reading
-    solution: Solution
-    """Converged."""
-    pinned: Solution | None
-    """A, where the disk shows the difference to it."""
-    only_azimuth: bool
-    """Whether nothing but the azimuth of the reference blade can have changed since the last frame."""
-
-
-@dataclass(frozen=True, eq=False)
 class Failure:
     """Inputs without a solution."""
 

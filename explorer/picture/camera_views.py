@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from explorer.picture.airframe import size
 from explorer.picture.picture import disk_drop
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from rotor import Solution
@@ -19,8 +20,6 @@ from the advancing side."""
 FIELD_OF_VIEW = math.radians(26.0)
 """Vertical [rad]: narrow, so that the near side of the disk is not blown up."""
 _MARGIN = 0.955
-_DRAWN_FOR = 8.1788
-"""Radius [m] that the fixed measures below are given for."""
 _USUAL_TILT = math.radians(3.0)
 _FOLLOWS_TILT = 0.8
 """How much of a further shaft tilt the camera rises with, so that it keeps its angle to the disk."""
@@ -97,11 +96,15 @@ class Shot:
 
     def fit(self, radius: float, aspect: float) -> Camera:
         """For a rotor of this radius [m] and a canvas of this width over height, without cards."""
-        azimuth, elevation = math.radians(self.azimuth_deg), math.radians(self.elevation_deg)
-        level = math.cos(elevation)
-        backward = np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
+        backward = direction(math.radians(self.azimuth_deg), math.radians(self.elevation_deg))
         corners = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
         return framed(radius * (np.array(self.centre) + corners * np.array(self.half)), backward, aspect)
+
+
+def direction(azimuth: float, elevation: float) -> Array:
+    """From the rotor towards a camera, a unit vector; azimuth and height above the horizon [rad]."""
+    level = math.cos(elevation)
+    return np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
 
 
 USUAL_COVER = Cover()
@@ -124,29 +127,20 @@ def fit(
     [rad]. `cover`: what cards hide of the canvas. `beside`: two rotors stand side by side. In "disk" and "top" the nose
     is up and the advancing side right; in "side" the nose is right.
     """
-    if view == "blade":
-        cos, sin = math.cos(azimuth - _BEHIND), math.sin(azimuth - _BEHIND)
-        backward = np.array([cos * math.cos(_ABOVE), sin * math.cos(_ABOVE), math.sin(_ABOVE)])
-        return between_cards(framed(_blade(radius, azimuth), backward, aspect / cover.free), cover)
-    if beside:
-        return between_cards(framed(_two_outlines(radius), _backward(view, tilt), aspect / cover.free), cover)
-    if view in _STANDS:
-        return _standing(_STANDS[view], radius / _DRAWN_FOR, aspect, _backward(view, tilt), cover)
-    points = _outline(radius)
-    if view == "side":  # The airframe, coning and tilt need height where the disk has none.
-        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]])))
-    return between_cards(framed(points, _backward(view, tilt), aspect / cover.free), cover)
-
-
-def _backward(view: View, tilt: float) -> Array:
-    """From the rotor towards the camera, a unit vector."""
     stand = _STANDS.get(view)
-    if stand is None:
-        elevation, azimuth = _ELEVATION[view], math.radians(90.0) if view == "side" else 0.0
+    points = _two_outlines(radius) if beside else _outline(radius)
+    if view == "blade":
+        points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
+    elif stand is not None:
+        backward = direction(stand.azimuth, stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
+        if not beside:
+            return _standing(stand, size(radius), aspect, backward, cover)
     else:
-        elevation, azimuth = stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT), stand.azimuth
-    level = math.cos(elevation)
-    return np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
+        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
+        if view == "side" and not beside:  # The airframe, coning and tilt need height where the disk has none.
+            more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
+            points = np.concatenate((points, radius * np.array(more)))
+    return between_cards(framed(points, backward, aspect / cover.free), cover)
 
 
 def apart(radius: float) -> Array:

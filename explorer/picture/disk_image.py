@@ -168,16 +168,13 @@ def paint(codes: Bytes, index: Places, covered: Places, kind: NDArray[np.uint16]
     return image
 
 
+@lru_cache(maxsize=8)
 def palette(scheme: Scheme, faded: bool, ink: DiskInk | None = None) -> Bytes:
-    """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of a solution that no longer holds.
+    """The 256 RGBA entries, shape (256, 4), kept; `faded` is the grey picture of a solution that no longer holds.
 
     `ink`: colours of the marked regions, and the opacity of the disk.
     """
-    return _palette(scheme, faded, ink or DiskInk()).copy()
-
-
-@lru_cache(maxsize=8)
-def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
+    ink = ink or DiskInk()
     colours = colour_map(scheme, _LEVELS)
     if faded:
         colours = greyed(colours)
@@ -199,6 +196,7 @@ def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
             entries[_FIRST_EDGE + 3 * colour + step] = (*source, round(255 * share * ink.opacity))
     if faded:
         entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
+    entries.flags.writeable = False
     return entries
 
 

@@ -94,9 +94,15 @@ def _m2cn(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(disk.mach**2 * (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)))
 
 
-def _thrust(solution: Solution, grid: PolarGrid) -> Array:
-    rotor = solution.design.rotor
-    return grid.refine(solution.disk.dct) * (solution.design.thrust_unit / (rotor.blades * rotor.radius) / 1e3)
+def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[Solution, PolarGrid], Array]:
+    """Samples a force [kN/m] or power [kW/m] per length of one blade; `unit`: field of a design, what 1 stands for."""
+
+    def sample(solution: Solution, grid: PolarGrid) -> Array:
+        design = solution.design
+        scale: float = getattr(design, unit) / (design.rotor.blades * design.rotor.radius) / 1e3
+        return grid.refine(of(solution.disk)) * scale
+
+    return sample
 
 
 def _circulation(solution: Solution, grid: PolarGrid) -> Array:
@@ -108,36 +114,31 @@ def _circulation(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(lift_times_speed) / square * unit
 
 
-def _power(solution: Solution, grid: PolarGrid) -> Array:
-    rotor, disk = solution.design.rotor, solution.disk
-    return grid.refine(disk.r[:, None] * disk.dcq) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
+def _dissipation(disk: DiskFields) -> Array:
+    """U dD = U_T dF_x − U_P dF_z."""
+    return disk.u_t * disk.dcq - disk.u_p * disk.dct
 
 
-def _induced_power(solution: Solution, grid: PolarGrid) -> Array:
-    """λ_i dF_z, as `rotor.trim.power` sums it; without the swirl of hover."""
-    rotor, disk = solution.design.rotor, solution.disk
-    return grid.refine(disk.induced * disk.dct) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
-
-
-def _profile_power(solution: Solution, grid: PolarGrid) -> Array:
-    """U dD = U_T dF_x − U_P dF_z; without the friction of the flow along the blade."""
-    rotor, disk = solution.design.rotor, solution.disk
-    dissipation = disk.u_t * disk.dcq - disk.u_p * disk.dct
-    return grid.refine(dissipation) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
+_thrust = _per_metre("thrust_unit", lambda disk: disk.dct)
+_power = _per_metre("power_unit", lambda disk: disk.r[:, None] * disk.dcq)
+_induced_power = _per_metre("power_unit", lambda disk: disk.induced * disk.dct)
+"""λ_i dF_z, as `rotor.trim.power` sums it; without the swirl of hover."""
+_profile_power = _per_metre("power_unit", _dissipation)
+"""Without the friction of the flow along the blade."""
 
 
 def _drag(solution: Solution, grid: PolarGrid) -> Array:
     """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
     rotor, disk = solution.design.rotor, solution.disk
     speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3))
-    force = grid.refine(disk.u_t * disk.dcq - disk.u_p * disk.dct) / speed
+    force = grid.refine(_dissipation(disk)) / speed
     return np.maximum(force, 0.0) * (solution.design.thrust_unit / (rotor.blades * rotor.radius))
 
 
 def _elastic_deg(solution: Solution, grid: PolarGrid) -> Array:
     elastic = solution.disk.elastic_twist
     if elastic is None:
-        return np.zeros((len(grid.r), len(grid.psi)))
+        return np.zeros(grid.shape)
     return np.degrees(grid.refine(elastic))
 
 
@@ -147,18 +148,15 @@ def _unsteady(name: str) -> Callable[[Solution, PolarGrid], Array]:
     def sample(solution: Solution, grid: PolarGrid) -> Array:
         unsteady = solution.disk.unsteady
         if unsteady is None:
-            return np.zeros((len(grid.r), len(grid.psi)))
+            return np.zeros(grid.shape)
         return np.clip(grid.refine(getattr(unsteady, name)), -2.0, 1.0 if name == "separation" else 2.0)
 
     return sample
 
 
-def _steady(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
-    return np.full((len(grid.r), len(grid.psi)), solution.disk.unsteady is None)
-
-
-def _rigid(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
-    return np.full((len(grid.r), len(grid.psi)), solution.disk.elastic_twist is None)
+def _without(name: str) -> Callable[[Solution, PolarGrid], NDArray[np.bool_]]:
+    """Everywhere where the disk has no such field, else nowhere."""
+    return lambda solution, grid: np.full(grid.shape, getattr(solution.disk, name) is None)
 
 
 FIELDS: dict[str, Field] = {
@@ -177,9 +175,9 @@ FIELDS: dict[str, Field] = {
         Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
-        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, _steady),
-        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, _steady),
-        Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_rigid),
+        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, _without("unsteady")),
+        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, _without("unsteady")),
+        Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_without("elastic_twist")),
     )
 }
 """By title, in the order of the menu."""
@@ -247,7 +245,7 @@ def difference(field: Field, pinned: Solution) -> Field:
 
     def sample(solution: Solution, grid: PolarGrid) -> Array:
         if not pinned.converged:
-            return np.zeros((len(grid.r), len(grid.psi)))
+            return np.zeros(grid.shape)
         return field.sample(solution, grid) - field.sample(pinned, _over(pinned, grid))
 
     def absent(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
@@ -271,7 +269,7 @@ def difference(field: Field, pinned: Solution) -> Field:
 def _absent(field: Field, pinned: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where A has no such quantity, on B's grid: beyond its blade, in its reverse flow, everywhere without a trim."""
     if not pinned.converged:
-        return np.ones((len(grid.r), len(grid.psi)), dtype=bool)
+        return np.ones(grid.shape, dtype=bool)
     disk = pinned.disk
     beyond = (grid.r < disk.edges[0] - 1e-9) | (grid.r > disk.edges[-1] + 1e-9)
     void = field.void(pinned, _over(pinned, grid))

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
-from explorer.picture.camera_views import Camera, framed
+from explorer.picture.camera_views import Camera, direction, framed
+from explorer.picture.plan import crossings
 from explorer.picture.solids import Mesh
 from explorer.theme.colours import colour_map
 from rotor.arrays import Array
@@ -133,25 +134,10 @@ class Landscape:
 
     def contour(self, power: float, lift: float) -> Array:
         """Segments of a line of one power on the surface [m], (n, 2, 3)."""
-        p, n = self.powers, len(self.powers) - 1
-        segments = list[list[list[float]]]()
-        with np.errstate(invalid="ignore"):
-            below = p < power
-        mixed = below[:-1, :-1].astype(int) + below[:-1, 1:] + below[1:, :-1] + below[1:, 1:]
-        z = float(self.height(power)) + lift
-        for i, j in np.argwhere((mixed > 0) & (mixed < 4)):
-            corners = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
-            values = [p[corner] - power for corner in corners]
-            if not np.isfinite(values).all():
-                continue
-            ends = list[list[float]]()
-            for k in range(4):
-                (r0, c0), (r1, c1), v0, v1 = corners[k], corners[(k + 1) % 4], values[k], values[(k + 1) % 4]
-                if (v0 < 0.0) != (v1 < 0.0):
-                    t = v0 / (v0 - v1)
-                    ends.append([SIZE * ((c0 + t * (c1 - c0)) / n - 0.5), SIZE * ((r0 + t * (r1 - r0)) / n - 0.5), z])
-            segments += [ends[k : k + 2] for k in range(0, len(ends) - 1, 2)]
-        return np.array(segments).reshape(-1, 2, 3)
+        at = SIZE * (np.linspace(0.0, 1.0, len(self.powers)) - 0.5)
+        flat = crossings(at, at, self.powers.T - power)
+        height = np.full((*flat.shape[:2], 1), float(self.height(power)) + lift)
+        return np.concatenate((flat, height), axis=2)
 
     def valley(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """From where to where the band reaches along x and along y, 0…1."""
@@ -171,10 +157,8 @@ class Landscape:
     def camera(self, length: float, aspect: float) -> Camera:
         """Over the near corner, with map, ticks and the blade in view."""
         x, y = self.near
-        backward = np.array([x / math.sqrt(2.0), y / math.sqrt(2.0), 0.0]) * math.cos(_ABOVE)
-        backward[2] = math.sin(_ABOVE)
         edge = 0.5 * _SPARE * SIZE
         points = [[u * edge, v * edge, z] for u in (-1, 1) for v in (-1, 1) for z in (BASE, 0.85 * HEIGHT)]
         root, turn = self.blade_place(length)
         tip = root + length * np.array([math.cos(turn), math.sin(turn), 0.0])
-        return framed(np.array([*points, root, tip]), backward, aspect)
+        return framed(np.array([*points, root, tip]), direction(math.atan2(y, x), _ABOVE), aspect)

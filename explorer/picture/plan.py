@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.model.inputs import ViewState
 from explorer.model.units import number
@@ -41,20 +40,11 @@ def reverse_flow_segments(solution: Solution) -> Array:
     return np.stack((points[:-1], points[1:]), axis=1)[keep]
 
 
-def positive_stall_segments(solution: Solution) -> Array:
-    """Where stall begins at positive angles of attack, the reverse-flow region left out; (n, 2, 2), in radii.
+def stall_segments(solution: Solution, *, positive: bool) -> Array:
+    """Where stall begins at positive or negative angles of attack, reverse flow left out; (n, 2, 2), in radii.
 
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
-    return _stall_segments(solution, positive=True)
-
-
-def negative_stall_segments(solution: Solution) -> Array:
-    """The same at negative angles."""
-    return _stall_segments(solution, positive=False)
-
-
-def _stall_segments(solution: Solution, *, positive: bool) -> Array:
     grid = polar_grid(solution.disk, *_OUTLINED)
     flow = refined(solution, grid)
     left = flow.upper - flow.alpha if positive else flow.alpha - flow.lower
@@ -83,34 +73,35 @@ def _outside_reverse_flow(segments: Array, solution: Solution, elements: float) 
 
 
 def contour(grid: PolarGrid, values: Array, level: float) -> Array:
-    """Where polar `values` cross `level`: marching squares round the turn; segments of shape (n, 2, 2), in radii."""
-    above = np.concatenate((values, values[:, :1]), axis=1) - level
-    psi = np.concatenate((grid.psi, [2.0 * math.pi + grid.psi[0]]))
+    """Where polar `values` cross `level`, round the turn; segments of shape (n, 2, 2), in radii."""
+    around = np.concatenate((values, values[:, :1]), axis=1)
+    polar = crossings(grid.r, np.append(grid.psi, 2.0 * math.pi + grid.psi[0]), around - level)
+    return to_plane(polar[:, :, 0], polar[:, :, 1])
+
+
+def crossings(x: Array, y: Array, above: Array) -> Array:
+    """Where values of shape (x, y) change their sign, by marching squares: segments of shape (n, 2, 2).
+
+    Not in cells with a corner that is NaN.
+    """
     corners = (above[:-1, :-1], above[1:, :-1], above[1:, 1:], above[:-1, 1:])
-    crossed = np.zeros(corners[0].shape, dtype=bool)
-    for corner in corners[1:]:
-        crossed |= (corner > 0.0) != (corners[0] > 0.0)
-    row, column = np.nonzero(crossed)
+    positive = np.stack([corner > 0.0 for corner in corners])
+    known = np.isfinite(corners).all(axis=0)
+    row, column = np.nonzero(positive.any(axis=0) & ~positive.all(axis=0) & known)
     value = [corner[row, column] for corner in corners]
-    place = partial(_corner, grid.r, psi, row, column)
+    places = [np.stack((x[row + (k in (1, 2))], y[column + (k in (2, 3))]), axis=-1) for k in range(4)]
     # The point at which each of a cell's four sides is crossed; a cell has two such sides, a saddle four.
     sides = [(0, 1), (1, 2), (2, 3), (3, 0)]
     points = np.full((len(row), 4, 2), np.nan)
     for side, (a, b) in enumerate(sides):
         cut = (value[a] > 0.0) != (value[b] > 0.0)
         t = (value[a][cut] / (value[a][cut] - value[b][cut]))[:, None]
-        points[cut, side] = (1.0 - t) * place(a)[cut] + t * place(b)[cut]
+        points[cut, side] = (1.0 - t) * places[a][cut] + t * places[b][cut]
     is_cut = ~np.isnan(points[:, :, 0])
     order = np.argsort(~is_cut, axis=1, kind="stable")
     ordered = np.take_along_axis(points, order[:, :, None], axis=1)
     saddle = is_cut.sum(axis=1) == 4
-    polar = np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
-    return to_plane(polar[:, :, 0], polar[:, :, 1])
-
-
-def _corner(r: Array, psi: Array, row: NDArray[np.intp], column: NDArray[np.intp], corner: int) -> Array:
-    outer, later = corner in (1, 2), corner in (2, 3)
-    return np.stack((r[row + outer], psi[column + later]), axis=-1)
+    return np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
 
 
 def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
@@ -142,8 +133,8 @@ _RADII, _AZIMUTHS = 40, 120
 _FINE = 120, 480
 """Points at which shares of area and lift are summed."""
 _REGIONS: dict[str, tuple[str, str, Callable[[Solution], Array]]] = {
-    "stall": ("Stall", "stall", positive_stall_segments),
-    "negative_stall": ("Negative stall", "stall", negative_stall_segments),
+    "stall": ("Stall", "stall", partial(stall_segments, positive=True)),
+    "negative_stall": ("Negative stall", "stall", partial(stall_segments, positive=False)),
     "reverse_flow": ("Reverse flow", "reverse_flow", reverse_flow_segments),
     "drag_divergence": ("Drag divergence", "drag_divergence", drag_divergence_segments),
 }

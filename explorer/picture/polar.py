@@ -34,6 +34,11 @@ class PolarGrid:
     around: Array
     """Interpolation in azimuth, shape (solver azimuths, azimuths)."""
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Radii and azimuths."""
+        return len(self.r), len(self.psi)
+
     def refine(self, field: Array) -> Array:
         """`field` of shape (elements, solver azimuths) on this grid, shape (radii, azimuths)."""
         return self._double([field])[0]

@@ -204,7 +204,9 @@ class SceneController:
         first = self._drawn is None
         picture = make_picture(solution, view, colour_range, field, MOVING)
         with self._client.atomic():
-            self._set_theme(view)
+            theme = scene_theme(view.dark)
+            self.scene.set_theme(theme)
+            self._ghost.set_theme(theme)
             self.scene.fit(solution.design.rotor)
             self.scene.set_alone(solution.design.condition.stand is not None)
             self.scene.show(picture, everything=first, still=not self._page.playing)
@@ -316,11 +318,6 @@ class SceneController:
             fitted_range(field, field_values(solution, field), trim=TRIM) if field.note else usual
         )
         return self._ranges[field.title]
-
-    def _set_theme(self, view: ViewState) -> None:
-        theme = scene_theme(view.dark)
-        self.scene.set_theme(theme)
-        self._ghost.set_theme(theme)
 
 
 def _field(view: ViewState, pinned: Solution | None) -> Field:

@@ -73,15 +73,7 @@ class Ghost:
         self._surface = solid(api, f"{_BLADE}/other", start, theme.ghost)
         self._surface.opacity = _OPACITY
         self._surface.visible = False
-        # A colour for each point from the beginning: the page cannot change from one for all to one for each.
-        self._lines = api.add_line_segments(
-            f"{_BLADE}/ghost",
-            np.zeros((1, 2, 3), dtype=np.float32),
-            _even(theme.ghost, 1),
-            thickness=1.4,
-            thickness_units="screen",
-            visible=False,
-        )
+        self._lines = _unseen_lines(api, f"{_BLADE}/ghost", 1.4)
 
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
@@ -91,22 +83,17 @@ class Ghost:
         if view.wipe:  # A itself is seen, left of the handle.
             self._surface.visible = self._lines.visible = False
             return
-        psi, exaggeration = math.radians(view.azimuth_deg), view.exaggeration
-        ghost = ghost_twist(solution, other.twist, psi)
-        bent = drawn_bending(solution, blade_shape(other.rotor).r, psi)
-        if bent is not None and ghost is None:
-            ghost = flown_twist(solution, psi)
+        psi, exaggeration, shape = math.radians(view.azimuth_deg), view.exaggeration, blade_shape(other.rotor)
+        twist, bent = flown_twist(solution, psi), drawn_bending(solution, shape.r, psi)
+        differs = other.twist != solution.design.twist
+        # Where only bending differs, the straight blade as flown: its jig shape would hide it.
+        ghost = ghost_twist(solution, other.twist, psi) if differs or bent is None else twist
         # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
-        self._surface.visible = ghost is not None and (bent is not None or other.twist != solution.design.twist)
+        self._surface.visible = ghost is not None and (differs or bent is not None)
         self._lines.visible = ghost is not None and (at_rest or bent is not None)
         if ghost is None:
             return
-        twist = flown_twist(solution, psi)
-        differs = other.twist != solution.design.twist
-        if not differs and bent is not None:
-            ghost = twist  # The straight blade as flown tells bending apart; its jig shape would hide it.
         if differs or bent is not None:
-            shape = blade_shape(other.rotor)
             vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST, bent)
             set_mesh(self._surface, Mesh(vertices, shape.faces))
         colour = other.colour if other.colour is not None and differs else self._theme.ghost
@@ -124,11 +111,7 @@ class AirLines:
     """Tip vortices and inflow arrows of the rotor of the sliders; drawn once nothing moves."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
-        self._vortices, self._arrows = (
-            api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
-            for name, width in ((VORTICES, 1.7), (f"{ROTOR}/inflow", 1.5))
-        )
+        self._vortices, self._arrows = _unseen_lines(api, VORTICES, 1.7), _unseen_lines(api, f"{ROTOR}/inflow", 1.5)
 
     def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:
         """Of this solution, as far as the view wants them."""
@@ -154,11 +137,8 @@ class HubLoadLines:
     """Vibratory loads over the hub: a path of the in-plane force, a bar of the vertical force, a path of the moment."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
         self._lines = {
-            name: api.add_line_segments(
-                f"{ROTOR}/hub_{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
-            )
+            name: _unseen_lines(api, f"{ROTOR}/hub_{name}", width)
             for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8), ("now", 2.0))
         }
         self._drawn: tuple[HubLoads, SceneTheme] | None = None
@@ -204,6 +184,12 @@ class Strip:
 
     def hide(self) -> None:
         self._points.visible = False
+
+
+def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSegmentsHandle:
+    """Lines to be assigned later. Each point has a colour: the page cannot change from one for all to one for each."""
+    nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
+    return api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
 
 
 def _even(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:

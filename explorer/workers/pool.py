@@ -233,14 +233,12 @@ class Pool:
 
 
 @dataclass(frozen=True)
-class RunRequest:
-    number: int
-    task: Task
+class WorkerRequest:
+    """What the process is sent about the task of that number."""
 
-
-@dataclass(frozen=True)
-class StopRequest:
     number: int
+    task: Task | None
+    """None: stop it."""
 
 
 @dataclass(frozen=True)
@@ -313,7 +311,7 @@ class WorkerThread(threading.Thread):
             return
         job.tell(JobStarted())
         begun, asked, late = time.monotonic(), None, False
-        pipe.send(RunRequest(job.number, job.task))
+        pipe.send(WorkerRequest(job.number, job.task))
         while True:
             now = time.monotonic()
             if now - begun > job.limit and asked is None:
@@ -321,7 +319,7 @@ class WorkerThread(threading.Thread):
                 job.stopping.set()
             if job.stopping.is_set() and asked is None:
                 asked = now
-                pipe.send(StopRequest(job.number))
+                pipe.send(WorkerRequest(job.number, None))
             if asked is not None and now - asked > _PATIENCE:
                 job.tell(JobEnded(None, stopped=True, late=late))
             if asked is not None and now - asked > _GRACE:
@@ -363,30 +361,30 @@ def serve(pipe: "Connection[Any, Any]") -> None:
     with suppress(EOFError, OSError):
         pipe.send(WorkerReply(0, "ready"))
         while True:
-            request = pipe.recv()
-            if isinstance(request, RunRequest):
-                _run(pipe, request)
+            request: WorkerRequest = pipe.recv()
+            if request.task is not None:
+                _run(pipe, request.number, request.task)
 
 
-def _run(pipe: "Connection[Any, Any]", request: RunRequest) -> None:
+def _run(pipe: "Connection[Any, Any]", number: int, task: Task) -> None:
     stopped = False
 
     def stop() -> bool:
         nonlocal stopped
         try:
             while not stopped and pipe.poll():
-                stopped = pipe.recv() == StopRequest(request.number)
+                stopped = pipe.recv() == WorkerRequest(number, None)
         except (EOFError, OSError):
             stopped = True
         return stopped
 
     def tell(item: Any) -> None:
-        pipe.send(WorkerReply(request.number, "progress", item))
+        pipe.send(WorkerReply(number, "progress", item))
 
     try:
-        reply = WorkerReply(request.number, "done", request.task.run(tell, stop))
+        reply = WorkerReply(number, "done", task.run(tell, stop))
     except (EOFError, BrokenPipeError):
         raise
     except Exception as error:  # The process must survive whatever a task does.
-        reply = WorkerReply(request.number, "failed", str(error) or type(error).__name__)
+        reply = WorkerReply(number, "failed", str(error) or type(error).__name__)
     pipe.send(reply)

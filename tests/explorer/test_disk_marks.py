@@ -15,7 +15,7 @@ from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
-from explorer.picture.plan import positive_stall_segments
+from explorer.picture.plan import stall_segments
 from explorer.picture.polar import polar_grid, refined, stall_angles
 from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, region_codes, region_masks
 from explorer.picture.scene_theme import DARK, LIGHT
@@ -146,7 +146,7 @@ class TestDynamicStall:
         stalled = masks["stall"] | masks["negative_stall"]
         assert np.array_equal(stalled, (flow.attached < 0.0) & (flow.u_t > 0.0))
         assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05
-        assert len(positive_stall_segments(solution)) > 10
+        assert len(stall_segments(solution, positive=True)) > 10
 
 
 class TestRanges:

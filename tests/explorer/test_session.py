@@ -10,11 +10,11 @@ from explorer import session as session_module
 from explorer.charts import power_curve
 from explorer.hosting.browser import PageFacts
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Failure, Frame, SessionState
+from explorer.model.session_state import Failure, Reading, SessionState
 from explorer.page import Page
 from explorer.session import Session
 from explorer.workers.newest_wins import NewestWins, UpdatePool
-from rotor.design.design import Design
+from rotor import Design, Solution
 
 
 class RecordingPage:
@@ -23,7 +23,8 @@ class RecordingPage:
     def __init__(self, *_: Any) -> None:
         self.inputs, self.view = Inputs(), ViewState()
         self.calls: list[str] = []
-        self.frames: list[Frame] = []
+        self.frames: list[SimpleNamespace] = []
+        """What each frame showed."""
         self.states: list[SessionState] = []
         self.failures: list[Failure] = []
         self.found: Design | None = None
@@ -50,9 +51,9 @@ class RecordingPage:
     def solve_pinned(self, *_: Any) -> None:
         self.calls.append("solve_pinned")
 
-    def show_frame(self, frame: Frame) -> None:
+    def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
         self.calls.append("show_frame")
-        self.frames.append(frame)
+        self.frames.append(SimpleNamespace(reading=reading, solution=solution, only_azimuth=only_azimuth))
 
     def show_results(self, _: Any, state: SessionState) -> None:
         self.calls.append("show_results")

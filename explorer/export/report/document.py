@@ -168,10 +168,7 @@ def _run(options: argparse.Namespace) -> int:
     try:
         write_whole(options.out, report_html(report, stage))
     except OSError as error:
-        print(
-            f"explorer report: cannot write {options.out!r} ({error.strerror}): give a writable file", file=sys.stderr
-        )
-        return 2
+        raise ValueError(f"cannot write {options.out!r} ({error.strerror}): give a writable file") from None
     print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
     return 0
 
