@@ -33,5 +33,10 @@
     const contrast = (both[0] + 0.05) / (both[1] + 0.05), large = size >= 24 || (size >= 18.66 && +style.fontWeight >= 700);
     if (contrast < (large ? 3 : 4.5)) faint.push(`${words} (${contrast.toFixed(2)})`);
   }
+  // What is typed or chosen is no text of the document.
+  for (const field of document.querySelectorAll(':is(#rx, [data-dock-region]) :is(input, select)')) {
+    const size = parseFloat(getComputedStyle(field).fontSize);
+    if (field.checkVisibility() && size < 11.95) small.push(`${field.outerHTML} (${size.toFixed(1)} px)`);
+  }
   return {small, faint, wide: document.scrollingElement.scrollWidth - innerWidth};
 }

@@ -21,7 +21,7 @@ from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Page
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
@@ -59,6 +59,18 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
     done = "name => document.querySelector('[data-explorer=export][data-kind=done]')?.innerText.includes(name)"
     watched.page.wait_for_function(done, arg=path.name)
     return path
+
+
+def requests_of(page: "Page") -> list[str]:
+    """Addresses that a page asks for, as it does so."""
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    return asked
+
+
+def foreign(asked: list[str]) -> list[str]:
+    """Those that lead beyond the file itself: there must be none."""
+    return [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))]
 
 
 def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
@@ -105,8 +117,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     path = saved(watched, "Report of this session", tmp_path)
     assert path.stat().st_size < 3_000_000
     report = Watched(watched.page.context.new_page())
-    asked: list[str] = []
-    report.page.on("request", lambda request: asked.append(request.url))
+    asked = requests_of(report.page)
     with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text):
         report.page.goto(path.as_uri())
     assert report.page.locator('[data-report="total-power"]').first.inner_text() == shown
@@ -117,7 +128,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     report.page.get_by_role("button", name="Dark / light").click()
     report.until(lambda: report.page.evaluate(ground) != light)
     report.page.wait_for_timeout(500)
-    assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    assert foreign(asked) == []
     assert asked.count(path.as_uri()) == 1
     assert report.complaints == []
     report.page.close()
@@ -128,8 +139,7 @@ def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
     path = saved(watched, "3D scene as one file", tmp_path)
     assert path.stat().st_size < 3_000_000
     scene = Watched(watched.page.context.new_page())
-    asked: list[str] = []
-    scene.page.on("request", lambda request: asked.append(request.url))
+    asked = requests_of(scene.page)
     scene.page.goto(path.as_uri())
     blade = "() => window.__viserSceneTree?.getState()['/rotor/blade_0']?.message.props.vertices.byteLength > 10000"
     scene.page.wait_for_function(blade)
@@ -137,7 +147,7 @@ def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
     assert "µ 0.41" in scene.text("caption")
     assert "linear" in scene.page.title().lower()
     scene.page.wait_for_timeout(1000)
-    assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    assert foreign(asked) == []
     assert scene.complaints == []
     scene.page.close()
 
@@ -164,8 +174,7 @@ def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path
     (tmp_path / "demo.html").write_text(demo_html(make_design(), (-12.0, 0.0), (0.2,)), encoding="utf-8")
     page = window(browser).new_page()
     shown = Watched(page)
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url))
+    asked = requests_of(page)
     page.goto((tmp_path / "demo.html").as_uri())
     page.wait_for_selector("#demo[data-ready=true]")
     tip = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0'].traverse(part => {
@@ -185,7 +194,7 @@ def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path
     built, flying = (tip[tip[:, 1].argmax(), 2] - tip[tip[:, 1].argmin(), 2] for tip in tips)
     assert flying < built - 0.01  # Of a chord of 0.53 m.
     assert page.inner_text("#demo-total") == f"{solve(make_design(twist='linear:0', mu=0.2)).power.total / 1e3:.0f} kW"
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert foreign(asked) == []
     page.close()
 
 
@@ -196,8 +205,7 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
     (tmp_path / "lecture.html").write_text(story_html(steps), encoding="utf-8")
     page = window(browser).new_page()
     page.set_viewport_size({"width": 1280, "height": 720})
-    asked, wrong = list[str](), list[str]()
-    page.on("request", lambda request: asked.append(request.url))
+    asked, wrong = requests_of(page), list[str]()
     page.on("pageerror", lambda error: wrong.append(str(error)))
     page.goto((tmp_path / "lecture.html").as_uri())
     page.wait_for_selector("#rx[data-ready=true]")
@@ -228,5 +236,5 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
     page.get_by_role("slider", name="Between A, left, and B, right").press("ArrowLeft")
     assert page.evaluate("() => rotorWipe.at") == pytest.approx(0.45)
     assert wrong == []
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert foreign(asked) == []
     page.close()

@@ -106,6 +106,20 @@ def page(browser: "Browser") -> "Iterator[Page]":
     context.close()
 
 
+def set_inboard(page: "Page", value: float) -> None:
+    Watched(page).type("Δ inboard", value)
+    page.wait_for_function(f"() => location.search.includes('{value}')")
+
+
+@pytest.fixture
+def twisted(page: "Page", proxy: Proxy) -> "Page":
+    """Connected, with a twist that its address tells."""
+    page.goto(proxy.address + COARSE)
+    page.wait_for_function(OPEN)
+    set_inboard(page, -7.9)
+    return page
+
+
 @pytest.mark.parametrize("delay", [0.3, 1.6, 5.5])
 def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", proxy: Proxy, delay: float):
     """viser's client alone tries again every second, closing the socket that connects, and gives up after five."""
@@ -123,13 +137,9 @@ def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", 
     assert time.monotonic() - begin < delay + 30.0
 
 
-def test_nothing_can_be_changed_while_the_server_is_away(page: "Page", proxy: Proxy):
+def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy: Proxy):
     """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
-    page.goto(proxy.address + COARSE)
-    page.wait_for_function(OPEN)
-    watched = Watched(page)
-    watched.type("Δ inboard", -7.9)
-    page.wait_for_function("() => location.search.includes('-7.9')")
+    page, watched = twisted, Watched(twisted)
     field = watched.row("Δ inboard").locator("input:not([type=hidden])").last
     thumb = watched.row("Δ inboard").get_by_role("slider").bounding_box()
     assert thumb is not None
@@ -153,17 +163,12 @@ def test_nothing_can_be_changed_while_the_server_is_away(page: "Page", proxy: Pr
     page.wait_for_selector("#rx-gone", state="detached")
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-held')")
     assert field.input_value() == before
-    watched.type("Δ inboard", -7.3)
-    page.wait_for_function("() => location.search.includes('-7.3')")
+    set_inboard(page, -7.3)
 
 
-def test_a_change_that_did_not_arrive_is_named(page: "Page", proxy: Proxy):
+def test_a_change_that_did_not_arrive_is_named(twisted: "Page", proxy: Proxy):
     """Sent in the moment in which the connection breaks."""
-    page.goto(proxy.address + COARSE)
-    page.wait_for_function(OPEN)
-    watched = Watched(page)
-    watched.type("Δ inboard", -7.9)
-    page.wait_for_function("() => location.search.includes('-7.9')")
+    page, watched = twisted, Watched(twisted)
     proxy.deaf = True  # What the browser sends goes nowhere.
     watched.type("Δ inboard", -7.3)
     proxy.cut()
@@ -181,8 +186,7 @@ def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", pro
     page.clock.install()
     page.goto(proxy.address + COARSE)
     page.wait_for_function(OPEN)
-    Watched(page).type("Δ inboard", -7.9)
-    page.wait_for_function("() => location.search.includes('-7.9')")
+    set_inboard(page, -7.9)
     devtools = page.context.new_cdp_session(page)
     devtools.send("Page.setWebLifecycleState", {"state": "frozen"})
     proxy.cut()
@@ -195,8 +199,7 @@ def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", pro
     )
     page.wait_for_function(OPEN)
     assert "-7.9" in page.evaluate("() => location.search")
-    Watched(page).type("Δ inboard", -7.3)
-    page.wait_for_function("() => location.search.includes('-7.3')")
+    set_inboard(page, -7.3)
 
 
 FAST = "const now = performance.now.bind(performance); performance.now = () => 12 * now();"
@@ -215,17 +218,12 @@ def test_a_page_without_a_connection_does_not_go_on_solving(page: "Page", proxy:
         assert "The server does not answer" in page.inner_text("[data-explorer=power-card]")
 
 
-def test_a_clock_set_back_by_a_day_stops_nothing(page: "Page", proxy: Proxy, monkeypatch: pytest.MonkeyPatch):
+def test_a_clock_set_back_by_a_day_stops_nothing(twisted: "Page", monkeypatch: pytest.MonkeyPatch):
     """viser's frames carry the time of day, by which its client smooths their arrival."""
-    page.goto(proxy.address + COARSE)
-    page.wait_for_function(OPEN)
-    watched, clock = Watched(page), time.time
-    watched.type("Δ inboard", -7.9)
-    page.wait_for_function("() => location.search.includes('-7.9')")
+    clock = time.time
     for hours, value in ((-24, -7.3), (0, -6.5)):  # Back, and forward again.
         monkeypatch.setattr(time, "time", lambda hours=hours: clock() + 3600.0 * hours)
         begin = time.monotonic()
-        watched.type("Δ inboard", value)
-        page.wait_for_function(f"() => location.search.includes('{value}')")
-        watched.answered()
+        set_inboard(twisted, value)
+        Watched(twisted).answered()
         assert time.monotonic() - begin < 30.0

@@ -8,7 +8,7 @@ import trimesh
 from scipy.spatial import cKDTree
 
 from explorer.picture.airframe import airframe, mast, rotor_head
-from explorer.picture.solids import Mesh, joined, loft, revolved, tube
+from explorer.picture.solids import Mesh, revolved, tube
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
@@ -34,29 +34,10 @@ class TestPrimitives:
         assert made.is_watertight
         assert made.volume == pytest.approx(2.0 * area, rel=1e-12)
 
-    @pytest.mark.parametrize("direction", [(1, 0, 0), (0, -1, 0), (1, 2, -3)])
-    def test_a_tube_points_anywhere(self, direction: tuple[float, float, float]):
-        made = solid(tube((0.1, 0.2, 0.3), direction, 0.1, 0.05))
-        assert made.is_watertight
-        assert made.volume > 0.0
-
     def test_a_cone_frustum_of_revolution(self):
         made = solid(revolved([[0, 0], [1, 0], [0.5, 2], [0, 2]], 200))
         assert made.is_watertight
         assert made.volume == pytest.approx(math.pi * 2 / 3 * (1 + 0.5 + 0.25), rel=1e-3)
-
-    def test_rings_in_either_order_face_outward(self):
-        angle = np.linspace(0, 2 * math.pi, 12, endpoint=False)
-        ring = np.stack((np.cos(angle), np.sin(angle), np.zeros(12)), 1)
-        above = ring + np.array([0, 0, 1])
-        for rings in ([ring, above], [above, ring], [ring[::-1], above[::-1]]):
-            assert solid(loft(rings)).volume > 0.0
-
-    def test_joined_keeps_every_triangle(self):
-        one, two = tube((0, 0, 0), (1, 0, 0), 0.1), tube((0, 5, 0), (1, 5, 0), 0.1)
-        both = solid(joined([one, two]))
-        assert len(both.faces) == len(one.faces) + len(two.faces)
-        assert both.volume == pytest.approx(solid(one).volume + solid(two).volume)
 
 
 @pytest.mark.parametrize("name", SHIPPED_ROTORS)

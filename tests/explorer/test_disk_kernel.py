@@ -8,16 +8,8 @@ import pytest
 from PIL import Image
 
 from explorer.picture.disk_image import encode_png, levels_of
-from explorer.picture.polar import Sums, angles_of_attack, polar_grid
+from explorer.picture.polar import Sums, angles_of_attack
 from explorer.picture.regions import mark_line
-from rotor.trim.solution import Solution
-
-
-def test_sums_of_neighbours_are_products_of_matrices(fast: Solution):
-    grid = polar_grid(fast.disk, 50, 170)
-    expected = grid.along @ fast.disk.theta @ grid.around
-    assert np.abs(grid.refine(fast.disk.theta) - expected).max() < 1e-14
-    assert np.abs(grid.refine_all([fast.disk.u_t, fast.disk.theta])[1] - expected).max() < 1e-6
 
 
 def test_sums_of_full_matrices_and_of_rows_with_one_term():

@@ -85,9 +85,6 @@ class TestRegions:
         only = codes_of(fast, Marks(stall=False, reverse_flow=False))
         assert set(np.unique(only)) == {MarkedRegion.NONE, MarkedRegion.DASH}
 
-    def test_hover_has_no_reverse_flow(self, hover: Solution):
-        assert not (codes_of(hover, Marks()) == MarkedRegion.REVERSE).any()
-
     def test_single_precision_is_enough_for_pictures(self, fast: Solution):
         grid = polar_grid(fast.disk, 112, 384)
         flow = refined(fast, grid)
@@ -122,10 +119,6 @@ class TestHatch:
             pixel = image[round(half), round(half - 0.5 - 0.26 * (half - 1.0))]
             assert tuple(pixel[:3]) == theme.ink.reverse_flow
             assert pixel[3] > 230
-
-    def test_the_disk_is_translucent_so_that_the_airframe_shows(self, fast: Solution):
-        size = disk_image.MOVING
-        assert shown(fast, size, Marks())[size // 2, round(0.875 * size), 3] == round(255 * 0.76)
 
 
 UNSTEADY = ("Separation point", "Stall vortex cn")
@@ -181,19 +174,14 @@ class TestFlatPictures:
         mask = disk_image.ring_mask().astype(float)
         size = len(mask)
         middle = 0.5 * (size - 1)
-        row, column = np.nonzero(mask > 100)
+        row, column = np.nonzero(mask > 0)
         r = np.hypot(row - middle, column - middle) / (0.5 * size / disk_image.REACH)
         psi = np.degrees(np.arctan2(column - middle, row - middle)) % 360
         words = psi[(r > 1.09) & (r < 1.16)]
         for centre in (15, 90, 180, 270):
             assert np.count_nonzero(np.abs((words - centre + 180) % 360 - 180) < 12) > 500
         assert np.count_nonzero(np.abs(words - 225) < 20) == 0
-
-    def test_nothing_lies_on_the_disk_itself(self):
-        mask = disk_image.ring_mask()
-        size = len(mask)
-        y, x = np.indices(mask.shape) - 0.5 * (size - 1)
-        assert not mask[np.hypot(x, y) < 0.5 * size / disk_image.REACH].any()
+        assert r.min() > 1.0  # Nothing lies on the disk itself.
 
     def test_a_tinted_picture_has_one_colour_and_the_masks_opacity(self):
         mask = np.array([[0, 128], [255, 64]], dtype=np.uint8)

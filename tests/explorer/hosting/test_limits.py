@@ -1,4 +1,4 @@
-"""Limits of one server: rate of messages, uploads, freed memory, its log."""
+"""Who may use a server, and how much: host names and origins, rate of messages, uploads, freed memory, its log."""
 
 import logging
 import subprocess
@@ -12,11 +12,75 @@ import pytest
 from explorer.hosting import limits as memory
 from explorer.hosting.limits import (
     LARGEST_FILE,
+    AllowedHosts,
     RateLimit,
     RateLimiter,
     RepeatFilter,
+    host_name,
+    is_loopback,
     refuse_upload,
+    warning,
 )
+
+HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
+PORT = "127.0.0.1:8080"
+FOREIGN_PAGES = (
+    "http://evil.example", "https://127.0.0.1.evil.example:8080", "https://127.0.0.1", "null", "file://", "",
+    "chrome-extension://abcdef", "http://127.0.0.1:9999", "http://localhost:8080",  # Other origins to the browser, too.
+)  # fmt: skip
+
+
+class TestAllowedHosts:
+    @pytest.mark.parametrize(
+        ("hosts", "host", "origin"),
+        [
+            *((HERE, name, None) for name in (PORT, "localhost:8080", "LOCALHOST", "[::1]:8080", "localhost.")),
+            (HERE, PORT, f"http://{PORT}"),
+            (PROXIED, "rotor.example", "https://rotor.example"),
+            (PROXIED, "rotor.example:443", "https://rotor.example"),
+            (PROXIED, PORT, "https://rotor.example"),  # A proxy may put its own host.
+            (OPEN, "192.168.1.5:8080", "http://192.168.1.5:8080"),
+            (OPEN, "[fe80::1]:8080", None),
+        ],
+    )
+    def test_own_names_numbers_and_pages_are_accepted(self, hosts: AllowedHosts, host: str, origin: str | None):
+        assert hosts.refusal(host, origin) is None
+
+    @pytest.mark.parametrize(
+        ("hosts", "host", "origin", "said"),
+        [
+            # DNS rebinding: the attacker's own name, with our address.
+            *((HERE, f"{name}evil.example", None, "does not answer") for name in ("", "127.0.0.1.")),
+            *((HERE, name, None, "does not answer") for name in ("evil.example:8080", "192.168.1.5", "", None)),
+            *((HERE, name, None, "") for name in ("evil.example/@127.0.0.1", "a@127.0.0.1", "127.0.0.1:x", "[::1")),
+            (HERE, "127.0.0.1?x", None, ""),
+            *((HERE, PORT, origin, "may not use") for origin in FOREIGN_PAGES),
+            (PROXIED, "rotor.example.evil.example", None, ""),
+            (PROXIED, PORT, "https://evil.example", ""),
+            (OPEN, "evil.example:8080", None, ""),
+        ],
+    )
+    def test_foreign_names_and_pages_are_refused(
+        self, hosts: AllowedHosts, host: str | None, origin: str | None, said: str
+    ):
+        sentence = hosts.refusal(host, origin)
+        assert sentence is not None
+        assert said in sentence
+
+    def test_an_invalid_name_cannot_be_allowed(self):
+        assert host_name("Rotor.example:8080") == "rotor.example"
+        for wrong in ("https://rotor.example", "rotor.example/page", "", "a@b"):
+            with pytest.raises(ValueError, match="is not a host name"):
+                host_name(wrong)
+
+    def test_loopback_addresses_are_known(self):
+        assert all(map(is_loopback, ("127.0.0.1", "127.1.2.3", "::1", "localhost")))
+        assert not any(map(is_loopback, ("0.0.0.0", "::", "192.168.1.5", "rotor.example", "")))
+
+    def test_the_warning_has_two_lines_and_the_remedy(self):
+        assert warning("0.0.0.0").count("\n") == 1
+        assert "--allow-host" in warning("0.0.0.0")
+        assert "docs/deploy.md" in warning("0.0.0.0")
 
 
 class TestRateLimiter:

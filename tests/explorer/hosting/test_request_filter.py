@@ -1,4 +1,4 @@
-"""The server as a client meets it: who may connect, floods, uploads, places."""
+"""The server as a client meets it: who may connect, the served page, floods, uploads, places."""
 
 import json
 import socket
@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 import viser
-import websockets.asyncio.server
 from viser import _messages
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -19,11 +18,15 @@ from websockets.typing import Subprotocol
 from explorer.app import App, PortBusy
 from explorer.hosting import limits, request_filter, viser_compat
 from explorer.hosting.limits import AllowedHosts, ServerLimits
-from explorer.hosting.request_filter import RequestFilter
+from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor, ran
 
-INNER, OUTER = "Δ inboard [°/R]", "Δ outboard [°/R]"
+OUTER = "Δ outboard [°/R]"
+CLIENT = (
+    "<!doctype html><html><head><title>Viser</title>\n<script data-p=x>go()</script></head>\n"
+    '<body>\n<div id="root"></div></body></html>'
+)
 
 
 @pytest.fixture(scope="module")
@@ -53,14 +56,58 @@ async def handshake(app: App, **headers: str) -> int:
         return refused.response.status_code
 
 
-def page(app: App, host: str) -> tuple[int, str, dict[str, str]]:
-    request = urllib.request.Request(app.address, headers={"Host": host})
+def fetch(address: str, **headers: str) -> tuple[int, bytes, dict[str, str]]:
+    """Status, body and headers of a plain request."""
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
     try:
-        with urllib.request.urlopen(request, timeout=60) as answer:
-            return answer.status, answer.read().decode(), dict(answer.headers)
+        with urllib.request.urlopen(urllib.request.Request(address, headers=named), timeout=60) as answer:
+            return answer.status, answer.read(), dict(answer.headers)
     except urllib.error.HTTPError as error:
         with error:
-            return error.code, error.read().decode(), dict(error.headers)
+            return error.code, error.read(), dict(error.headers)
+
+
+def test_the_veil_comes_before_the_script_and_the_script_before_the_root():
+    html = with_loading_screen(CLIENT).html.decode()
+    parts = ("<title>Rotor explorer</title>", "</head>", 'id="rx-veil"', "data-p=x>go()", 'id="root"')
+    assert [html.index(part) for part in parts] == sorted(html.index(part) for part in parts)
+    assert html.count("<body>") == html.count("</head>") == 1
+
+
+def test_the_client_is_built_as_expected():
+    """What viser ships: when this fails, the pin may not move."""
+    html = with_loading_screen(viser_compat.client_html()).html.decode()
+    assert html.index('id="rx-veil"') < 10_000 < html.index('id="root"')
+
+
+@pytest.mark.parametrize(
+    "client", ["", "<html></html>", CLIENT.replace("<title>", "<t>"), CLIENT.replace("<body>", "")]
+)
+def test_another_page_is_refused(client: str):
+    with pytest.raises(ValueError, match="not built as expected"):
+        with_loading_screen(client)
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    gate = RequestFilter(AllowedHosts("127.0.0.1"), 4, with_loading_screen(CLIENT))
+    server: viser.ViserServer = viser_compat.quiet_server("127.0.0.1", 0, "x", gate)
+    yield f"http://127.0.0.1:{server.get_port()}"
+    viser_compat.quiet_stop(server)
+
+
+def test_a_browser_that_has_the_page_is_not_sent_it_again(address: str):
+    status, body, headers = fetch(address + "/?d=1;linear:-8")
+    assert (status, body) == (200, with_loading_screen(CLIENT).html)
+    status, body, _ = fetch(address, If_None_Match=headers["ETag"])
+    assert (status, body) == (304, b"")
+    assert fetch(address, If_None_Match='"other"')[0] == 200
+
+
+def test_the_page_is_packed_for_those_who_unpack(address: str):
+    _, body, headers = fetch(address, Accept_Encoding="gzip, br")
+    assert headers["Content-Encoding"] == "gzip"
+    assert body == with_loading_screen(CLIENT).packed
 
 
 class TestAllowedHosts:
@@ -73,15 +120,20 @@ class TestAllowedHosts:
         assert ran(lambda: handshake(app)) == 101
 
     def test_a_foreign_host_name_is_not_served(self, app: App):
-        status, text, _ = page(app, "evil.example")
+        status, text, _ = fetch(app.address, Host="evil.example")
         assert status == 403
-        assert "--allow-host evil.example" in text
+        assert "--allow-host evil.example" in text.decode()
 
     def test_headers_forbid_foreign_frames_and_referrers(self, app: App):
-        status, _, headers = page(app, app.address.removeprefix("http://"))
+        status, _, headers = fetch(app.address)
         assert status == 200
         assert headers["Content-Security-Policy"] == "frame-ancestors 'self'"
         assert headers["Referrer-Policy"] == "same-origin"
+
+    def test_no_browser_can_open_a_tunnel_to_the_public(self, app: App):
+        handlers = app.server._websock_server._incoming_handlers
+        assert not handlers.get(_messages.ShareUrlRequest)
+        assert not handlers.get(_messages.ShareUrlDisconnect)
 
     def test_two_host_headers_are_refused(self, app: App):
         assert ran(lambda: handshake(app, Host="evil.example")) == 403
@@ -101,10 +153,6 @@ class TestAllowedHosts:
         monkeypatch.setattr(viser, "ViserServer", Elsewhere)
         with pytest.raises(RuntimeError, match="without its request filter"):
             viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
-
-    def test_websockets_is_restored_after_the_start(self, app: App):
-        assert websockets.asyncio.server.serve.__module__ == "websockets.asyncio.server"
-        assert app.server.get_port()
 
     def test_an_unknown_host_to_listen_on_is_one_sentence(self):
         with pytest.raises(PortBusy, match="choose another with --host"):
@@ -158,10 +206,6 @@ class TestUploads:
             await visitor.close()
 
         ran(work)
-
-    def test_private_names_of_viser_exist(self):
-        assert set(_messages.FileTransferStartUpload.__annotations__) >= {"size_bytes", "part_count", "filename"}
-        assert _messages.RemoveNotificationMessage("x").uuid == "x"
 
 
 @pytest.mark.slow

@@ -73,14 +73,6 @@ class TestNewest:
         until(lambda: seen[0] == 199)
         worker.stop()
 
-    def test_an_update_learns_that_it_is_superseded(self):
-        worker, go = blocked(UpdatePool(1))
-        assert not worker.superseded
-        worker.wake()
-        assert worker.superseded
-        go.set()
-        worker.stop()
-
     def test_an_error_is_reported_and_survived(self):
         errors, turns = list[Exception](), itertools.count()
 

@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -23,7 +21,6 @@ from explorer.workers.pool import (
     Pool,
 )
 
-ROOT = Path(__file__).parent.parent.parent.parent
 SOON = 60.0
 """[s]; a process starts in two or three on a quiet machine."""
 
@@ -264,10 +261,3 @@ def test_closing_ends_every_process():
     assert pids_of(pool) == ()
     _, after = submit(pool, Count(1))
     assert after.until(JobFailed)
-
-
-@pytest.mark.slow
-def test_worker_processes_load_no_page():
-    code = "import sys, explorer.workers.pool, explorer.workers.solver; print('viser' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
