@@ -5,6 +5,7 @@ import os
 import sys
 import webbrowser
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 
 from explorer.hosting.limits import SESSIONS, host_name, is_loopback, warning
@@ -12,26 +13,20 @@ from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command
 
+_COMMANDS = {
+    "report": "explorer.export.report.document",
+    "blade": "explorer.export.blade",
+    "story": "explorer.story.story_file",
+    "demo": "explorer.export.demo",
+}
+"""Modules with commands of their own, loaded when one is asked for."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story`, `demo` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given[:1] == ["report"]:
-        from explorer.export.report.document import main as report
-
-        return report(given[1:])
-    if given[:1] == ["blade"]:
-        from explorer.export.blade import main as blade
-
-        return blade(given[1:])
-    if given[:1] == ["story"]:
-        from explorer.story.story_file import main as story
-
-        return story(given[1:])
-    if given[:1] == ["demo"]:
-        from explorer.export.demo import main as demo
-
-        return demo(given[1:])
+    if given and given[0] in _COMMANDS:
+        return import_module(_COMMANDS[given[0]]).main(given[1:])
 
     def run() -> int:
         try:

@@ -42,7 +42,8 @@ class ClientConnection:
         self._lock = threading.Lock()
         self._facts = PageFacts()
         self._waiting: WaitingPage | None = None
-        self._session: Session | None = None
+        self.session: Session | None = None
+        """Behind the page, once it has a place."""
         self._gone = False
         self._told = -_TELL_EVERY
 
@@ -53,7 +54,7 @@ class ClientConnection:
     def wait(self, places: int, ahead: int) -> None:
         """All places are taken and `ahead` others wait before this one."""
         with self._lock:
-            if self._gone or self._session is not None:
+            if self._gone or self.session is not None:
                 return
             if self._waiting is None:
                 self._waiting = WaitingPage(self.client, places, ahead, self._facts.dark)
@@ -63,7 +64,7 @@ class ClientConnection:
     def begin(self, make: MakeSession) -> None:
         """A place is free: make the session and show it."""
         with self._lock:
-            if self._gone or self._session is not None:
+            if self._gone or self.session is not None:
                 return
             if self._waiting is not None:
                 self._waiting.close()
@@ -71,20 +72,15 @@ class ClientConnection:
             viser_compat.guard_uploads(self.client, self._refused)
             viser_compat.guard_values(self.client, self._ignored)
             with viser_compat.at_once(self.client):
-                self._session = make(self.client, self._facts)
-                self._session.start()
-                self._session.until_shown(FIRST)
-
-    @property
-    def session(self) -> Session | None:
-        """The session behind the page, once it has a place."""
-        return self._session
+                self.session = make(self.client, self._facts)
+                self.session.start()
+                self.session.until_shown(FIRST)
 
     def leave(self) -> None:
         """The connection has ended."""
         with self._lock:
             self._gone = True
-            session, self._session = self._session, None
+            session, self.session = self.session, None
         if session is not None:
             session.stop()
 

@@ -42,12 +42,8 @@ _EDGE_ALPHAS = (0.25, 0.5, 0.75)
 _STRIPES = 26.0
 """Stripes of the hatch per radius."""
 _STRIPE_SHARE = 0.36
-_REGION_ENTRIES = {
-    MarkedRegion.STALL_RIM: _STALL_RIM,
-    MarkedRegion.DASH: _DASH,
-    MarkedRegion.REVERSE: _REVERSE,
-    MarkedRegion.REVERSE_RIM: _REVERSE_RIM,
-}
+_REGION_ENTRIES = np.array([0, 0, _STALL_RIM, _DASH, _REVERSE, _REVERSE_RIM], dtype=np.uint8)
+"""By `MarkedRegion`; 0 for those that keep the colour of the field."""
 REACH = 1.2
 """Half the edge of the picture with the words, in radii."""
 RING_SIZE = 1792
@@ -116,12 +112,6 @@ def _entries() -> Bytes:
     return np.concatenate((plain, hatched, *edges)).astype(np.uint8)
 
 
-@lru_cache(maxsize=1)
-def _region_entries() -> Bytes:
-    """Palette entry by `MarkedRegion`; 0 for those that keep the colour of the field."""
-    return np.array([_REGION_ENTRIES.get(region, 0) for region in MarkedRegion], dtype=np.uint8)
-
-
 def indices(
     grid: PolarGrid,
     values: Array,
@@ -143,7 +133,7 @@ def indices(
         np.copyto(codes, _VOID, where=void)
     if regions is not None:
         codes += ((regions == MarkedRegion.STALLED) & (codes <= _LEVELS)) * np.uint8(_HATCHED)
-        np.copyto(codes, _region_entries().take(regions), where=regions > MarkedRegion.STALLED)
+        np.copyto(codes, _REGION_ENTRIES.take(regions), where=regions > MarkedRegion.STALLED)
     image: Bytes = paint(codes, raster.index, raster.covered, raster.kind, _entries(), size * size)
     return image.reshape(size, size)
 

@@ -26,38 +26,6 @@ class Light:
     position: tuple[float, float, float]
 
 
-@dataclass(frozen=True)
-class SceneTheme:
-    """Everything in the scene that a dark page changes."""
-
-    blade: Rgb
-    reference_blade: Rgb
-    ghost: Rgb
-    head: Rgb
-    body: Rgb
-    glass: Rgb
-    dark_parts: Rgb
-    lettering: Rgb
-    """Of the words round the disk, unlit."""
-    shadow: Rgb
-    shadow_strength: float
-    """Opacity where the shadow is deepest."""
-    vortex: Rgb
-    """A tip vortex where it leaves the blade."""
-    vortex_end: Rgb
-    """Where it fades, close to the background."""
-    inflow: Rgb
-    hub_force: Rgb
-    """Of lines over the hub, unlit, as the next."""
-    hub_moment: Rgb
-    lights: tuple[Light, ...]
-    sky: float
-    """Intensity of the hemisphere light."""
-    environment: float
-    """Intensity of the environment map, which gives the gloss."""
-    ink: DiskInk = field(default_factory=DiskInk)
-
-
 _WARM, _COOL, _PALE = (255, 247, 236), (214, 228, 255), (220, 232, 255)
 
 
@@ -70,27 +38,39 @@ def _lights(key: float, fill: float, rim: float) -> tuple[Light, ...]:
     )
 
 
-LIGHT = SceneTheme(
-    blade=(30, 33, 40),
-    reference_blade=(168, 22, 6),
-    ghost=(120, 130, 146),
-    head=(52, 56, 64),
-    body=(96, 104, 117),
-    glass=(38, 46, 58),
-    dark_parts=(38, 41, 48),
-    lettering=(36, 44, 58),
-    shadow=(32, 42, 60),
-    shadow_strength=0.40,
-    vortex=(8, 44, 128),
-    vortex_end=(196, 208, 224),
-    inflow=(20, 60, 130),
-    hub_force=(24, 33, 47),
-    hub_moment=(0, 118, 150),
-    lights=_lights(2.3, 0.7, 0.7),
-    sky=1.1,
-    environment=0.26,
-    ink=DiskInk(opacity=0.76),
-)
+@dataclass(frozen=True)
+class SceneTheme:
+    """Everything in the scene that a dark page changes; the defaults are those of a light one."""
+
+    blade: Rgb = (30, 33, 40)
+    reference_blade: Rgb = (168, 22, 6)
+    ghost: Rgb = (120, 130, 146)
+    head: Rgb = (52, 56, 64)
+    body: Rgb = (96, 104, 117)
+    glass: Rgb = (38, 46, 58)
+    dark_parts: Rgb = (38, 41, 48)
+    lettering: Rgb = (36, 44, 58)
+    """Of the words round the disk, unlit."""
+    shadow: Rgb = (32, 42, 60)
+    shadow_strength: float = 0.40
+    """Opacity where the shadow is deepest."""
+    vortex: Rgb = (8, 44, 128)
+    """A tip vortex where it leaves the blade."""
+    vortex_end: Rgb = (196, 208, 224)
+    """Where it fades, close to the background."""
+    inflow: Rgb = (20, 60, 130)
+    hub_force: Rgb = (24, 33, 47)
+    """Of lines over the hub, unlit, as the next."""
+    hub_moment: Rgb = (0, 118, 150)
+    lights: tuple[Light, ...] = _lights(2.3, 0.7, 0.7)
+    sky: float = 1.1
+    """Intensity of the hemisphere light."""
+    environment: float = 0.26
+    """Intensity of the environment map, which gives the gloss."""
+    ink: DiskInk = field(default_factory=lambda: DiskInk(opacity=0.76))
+
+
+LIGHT = SceneTheme()
 DARK = SceneTheme(
     blade=(96, 104, 118),
     reference_blade=(186, 28, 8),

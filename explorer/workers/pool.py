@@ -98,24 +98,20 @@ class Job:
         self.stopping = threading.Event()
         self._on_event = on_event
         self._lock = threading.Lock()
-        self._over = False
-
-    @property
-    def over(self) -> bool:
-        return self._over
+        self.over = False
 
     def tell(self, event: JobEvent) -> None:
         """Pass an event on; none follows the end."""
         with self._lock:
-            if self._over:
+            if self.over:
                 return
-            self._over = isinstance(event, (JobEnded, JobFailed))
+            self.over = isinstance(event, (JobEnded, JobFailed))
             self._on_event(event)
 
     def silence(self) -> None:
         """Pass on no further event."""
         with self._lock:
-            self._over = True
+            self.over = True
 
 
 class Pool:

@@ -1,12 +1,10 @@
 """The real page in a real browser: sliders move, and power, blade, disk and charts follow."""
 
 import re
-import time
 
 import pytest
-from watched import Visit, Watched
+from watched import Watched
 
-from explorer.app import App
 from explorer.model.inputs import Inputs
 
 pytestmark = pytest.mark.browser
@@ -74,15 +72,6 @@ def test_sliders_of_twist_and_speed_move_power_blade_and_disk(watched: Watched):
     assert not watched.text("speed").startswith("159 km/h")
 
 
-def test_home_key_hovers(watched: Watched):
-    watched.drawer("details")
-    watched.press("Adv. ratio", "Home")
-    watched.says("speed", "hover")
-    watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')"""
-    )
-
-
 def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
     disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
@@ -123,26 +112,6 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     watched.answered()
     shown = float(watched.row("Adv. ratio").locator("input:not([type=hidden])").last.input_value())
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
-
-
-@pytest.mark.slow
-def test_sessions_end_with_their_browsers(visit: Visit, app: App):
-    watched = visit()
-    mine = app.sessions[-1]
-    watched.press("Adv. ratio", "ArrowRight")
-    watched.close()
-    watched_by = time.monotonic() + 60.0
-    while mine in app.sessions and time.monotonic() < watched_by:
-        time.sleep(0.1)
-    assert mine not in app.sessions
-
-
-@pytest.mark.slow
-def test_two_browsers_do_not_disturb_each_other(watched: Watched, visit: Visit):
-    other = visit()
-    other.press("Adv. ratio", "ArrowRight", 5)
-    other.until_changed(lambda: other.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
-    assert watched.text("speed") == "159 km/h · 44.2 m/s · 86 kt"
 
 
 def test_thesis_preset_brings_its_own_inflow(watched: Watched):

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from importlib.metadata import requires, version
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -145,13 +144,6 @@ def test_share_handlers_are_there_to_be_removed(server: viser.ViserServer):
     assert server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
     viser_compat.remove_share_tunnel(server)
     assert not server._websock_server._incoming_handlers.get(_messages.ShareUrlRequest)
-
-
-def test_a_page_runs_what_it_is_sent(server: viser.ViserServer):
-    queued: list[Any] = []
-    client = SimpleNamespace(_websock_connection=SimpleNamespace(queue_message=queued.append))
-    viser_compat.run_in_page(cast(Any, client), "RX.again()")
-    assert [message.source for message in queued] == ["RX.again()"]
 
 
 def test_a_callback_that_fails_is_logged_and_not_printed(
