@@ -8,13 +8,14 @@ take some 50 ms, so they belong after the frame.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from explorer.model.inputs import LAWS, Inputs, mass_range
 from explorer.model.pinned import FLIGHT
+from explorer.model.undo import differing
 from explorer.model.units import AVIATION, FOOT, FOOT_PER_MINUTE, POUND, SI, Unit, Units, number
 from rotor import Aircraft, Solution, solve
 from rotor.assets import SHIPPED_ROTORS
@@ -37,6 +38,11 @@ _HALVINGS = 6
 """Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
 """Part of a step by which flight conditions are moved for the differences."""
+_OF_CONDITION = {
+    "advance_ratio": ("advance_ratio", 1.0), "mass_t": ("mass", 1e3), "altitude_m": ("altitude", 1.0),
+    "climb_m_s": ("climb_speed", 1.0),
+}  # fmt: skip
+"""Field of a condition that an input of `FLIGHT` is, and what one of it is there."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +107,6 @@ _AVIATION = {
     "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT.size, "/500 ft"),
     "climb_m_s": Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT_PER_MINUTE.size, "/(100 ft/min)"),
 }
-_SIZES = {"mass_t": 1e3, "altitude_m": 1.0, "climb_m_s": 1.0}
-"""What one of the input is in SI."""
 
 
 def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
@@ -116,16 +120,16 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
 
 def shown(name: str, value: float, units: Units) -> float:
     """The place of an input on its slider."""
-    if name not in _SIZES:
+    if name not in _AVIATION:
         return value
-    return _unit(name, units).of(value * _SIZES[name])
+    return _unit(name, units).of(value * _OF_CONDITION[name][1])
 
 
 def meant(name: str, place: float, units: Units) -> float:
     """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
-    if name not in _SIZES:
+    if name not in _AVIATION:
         return place
-    return round(place * _unit(name, units).size / _SIZES[name], 9)
+    return round(place * _unit(name, units).size / _OF_CONDITION[name][1], 9)
 
 
 def _unit(name: str, units: Units) -> Unit:
@@ -224,19 +228,12 @@ def flight_sensitivities(
 
 def _moved(solution: Solution, name: str, step: float) -> float | None:
     """Total power [W] with one flight input moved; None where there is no trim or no such condition."""
-    condition = solution.design.condition
+    condition, (field, size) = solution.design.condition, _OF_CONDITION[name]
+    changed: dict[str, Any] = {field: getattr(condition, field) + size * step}
+    if name == "advance_ratio" and changed[field] <= 0.0:
+        return None  # Hover is another model.
     try:
-        match name:
-            case "advance_ratio":
-                if condition.advance_ratio + step <= 0.0:
-                    return None  # Hover is another model.
-                moved = replace(condition, advance_ratio=condition.advance_ratio + step)
-            case "mass_t":
-                moved = replace(condition, mass=condition.mass + 1e3 * step)
-            case "climb_m_s":
-                moved = replace(condition, climb_speed=condition.climb_speed + step)
-            case _:
-                moved = replace(condition, altitude=condition.altitude + step)
+        moved = replace(condition, **changed)
     except ValueError:
         return None
     answer = solve(replace(solution.design, condition=moved), solution)
@@ -248,13 +245,13 @@ def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool]) 
 
     Sliders that differ move together; where anything else differs it is `good` itself.
     """
-    differing = [one.name for one in fields(Inputs) if getattr(good, one.name) != getattr(wanted, one.name)]
-    if not differing or not all(isinstance(getattr(good, name), float) and name in SLIDERS for name in differing):
+    moved = differing(good, wanted)
+    if not moved or not all(isinstance(getattr(good, name), float) and name in SLIDERS for name in moved):
         return good
 
     def between(share: float) -> Inputs:
         values: dict[str, Any] = {}
-        for name in differing:
+        for name in moved:
             start, end = getattr(good, name), getattr(wanted, name)
             step = slider(name, SI, good.aircraft).step
             # Towards the good end, so that the step does not lead beyond what trims.
