@@ -12,8 +12,7 @@ from html import escape
 import viser
 from PIL import Image
 
-from explorer.charts.plots import Range
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves, Range
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.disk_drawing import disk_svg
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from explorer.charts.measured import FlownPowers, source_of
-from explorer.charts.plots import SWEEP
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import SWEEP, PowerCurves
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of, first_condition, measured_conditions
 from explorer.model.units import SI

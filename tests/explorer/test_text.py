@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.charts import plots
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.charts.strip import autorotation_words
 from explorer.model.inputs import Inputs, baseline_of, baseline_title, inputs_of
 from explorer.model.units import number
@@ -176,7 +176,7 @@ class TestPowerCurves:
 
     def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(self, monkeypatch: pytest.MonkeyPatch):
         """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""
-        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
+        monkeypatch.setattr("explorer.charts.plots.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
         curves, design, next_one = PowerCurves(haste=math.inf), LINEAR, replace(LINEAR, twist=LinearTwist(-0.16))
         assert curves.sweep(design, baseline_of(design), lambda: True)
         assert not curves.sweep(next_one, baseline_of(next_one), lambda: True)
@@ -198,7 +198,7 @@ class TestPowerCurves:
             answer = solve(design, start)
             return replace(answer, status=Status.NOT_CONVERGED) if asked[-1] > 0.26 else answer
 
-        monkeypatch.setattr("explorer.charts.power_curve.solve", failing)
+        monkeypatch.setattr("explorer.charts.plots.solve", failing)
         design, curves = LINEAR, PowerCurves(haste=math.inf)
         curves.sweep(design, design, lambda: True)
         assert asked[-2:] == [0.225, 0.3]
@@ -231,8 +231,8 @@ class TestPowerCurves:
         curves = PowerCurves(haste=math.inf)
         first, second = (Inputs(law="linear", linear=twist).design() for twist in (-8.0, -11.0))
         curves.sweep(first, first, lambda: False)
-        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", 0.0)
-        monkeypatch.setattr("explorer.charts.power_curve.solve", counting)
+        monkeypatch.setattr("explorer.charts.plots.PATIENCE", 0.0)
+        monkeypatch.setattr("explorer.charts.plots.solve", counting)
         curves.sweep(second, second, lambda: True)
         assert asked == [0.0, 0.15, 0.3, 0.375, 0.45]
         coarse = curves.known(second, second).design

@@ -8,7 +8,7 @@ import numpy as np
 from explorer.export.report.contents import JudgedActuator
 from explorer.export.report.figures import figure, series
 from explorer.model.units import Units, number
-from explorer.text.balance import balance, fuel_words, pair_words, signed
+from explorer.text.readout import balance, fuel_words, pair_words, signed
 from rotor.actuator import ActuatorFlight, Verdict, verdict_details, verdict_sentence
 from rotor.actuator.verdict import count
 from rotor.line_chart import LineChart

@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 
 from explorer import web
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
 from explorer.export.report.actuator import actuator_section

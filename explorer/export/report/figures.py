@@ -9,8 +9,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts import plots
-from explorer.charts.plots import SWEEP, held_range
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, fields_of
