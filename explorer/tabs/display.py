@@ -136,14 +136,8 @@ class Display:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        self._bridge.set(
-            turn={
-                "psi": self._view.azimuth_deg,
-                "playing": self._playing,
-                "pace": self._pace,
-                "held": self._held,
-            }
-        )
+        turn = {"psi": self._view.azimuth_deg, "playing": self._playing, "pace": self._pace, "held": self._held}
+        self._bridge.set(turn=turn)
 
     def _show_field(self) -> None:
         if self._range is None:

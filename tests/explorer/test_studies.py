@@ -69,10 +69,8 @@ def optima(tmp_path_factory: pytest.TempPathFactory) -> Results:
 def test_results_are_found_beneath_a_folder_but_not_too_deep(trims: tuple[Path, Results]):
     folder, _ = trims
     root = folder.parent.parent
-    (found,) = find_studies(root)
-    assert (found.path, found.label(root), found.title) == (folder, "deep/trims", "study")
-    assert find_studies(folder) == (found,)
-    assert find_studies(root / "nowhere") == ()
+    assert find_studies(root) == find_studies(folder) == {folder: "study"}
+    assert find_studies(root / "nowhere") == {}
     buried = root / "a" / "b" / "c" / "d"
     buried.mkdir(parents=True)
     (buried / "_study.json").write_text("{}")
@@ -205,4 +203,4 @@ def test_folders_that_cannot_be_read_are_passed_over(tmp_path: Path, monkeypatch
         return real(path, *rest, **more)
 
     monkeypatch.setattr(os, "stat", stat)
-    assert find_studies(tmp_path) == ()
+    assert find_studies(tmp_path) == {}
