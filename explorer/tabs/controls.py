@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import viser
 
@@ -47,14 +47,6 @@ class SessionCallbacks:
     """The last converged state; None before the first."""
 
 
-class InputHandle(Protocol):
-    value: Any
-    visible: bool
-    disabled: bool
-
-    def on_update(self, func: Callable[[Any], None]) -> Any: ...
-
-
 class DesignControls:
     """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
@@ -62,7 +54,7 @@ class DesignControls:
         self, gui: viser.GuiApi, bridge: Bridge, start: Inputs, tracker: PowerTracker, callbacks: SessionCallbacks
     ) -> None:
         self._start, self._tracker, self._changed = start, tracker, callbacks.wake
-        self._inputs: dict[str, InputHandle] = {}
+        self._inputs: dict[str, Any] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
         self._moving = threading.RLock()
@@ -217,7 +209,7 @@ class DesignControls:
             return
         with self._moving:
             for name in FLIGHT[1:]:
-                handle: Any = self._inputs[name]
+                handle = self._inputs[name]
                 value, form = self._read(name, handle.value), slider(name, units, self._special.aircraft)
                 handle.label, handle.step, handle.precision = form.label, form.step, form.digits
                 handle.min, handle.max = form.low, form.high
@@ -280,7 +272,7 @@ class DesignControls:
 
     def _fit(self, name: str, inputs: Inputs) -> None:
         """A slider whose ends depend on the rotor: weight about its own reference mass, speed as it can be tested."""
-        handle: Any = self._inputs[name]
+        handle = self._inputs[name]
         form = slider(name, self._units, inputs.aircraft)
         if (handle.min, handle.max) != (form.low, form.high):
             # In an order that never leaves the value outside its ends.

@@ -80,9 +80,9 @@ def test_one_sided_at_the_edge_of_the_permitted_altitude():
 
 
 def test_texts():
-    assert SliderSensitivity("two_division", -26_000.0).text() == "−2.6 kW/0.1 R"
-    assert SliderSensitivity("two_inner", 300.0).text() == "+0.3 kW/°"
-    assert SliderSensitivity("two_inner", 3.0).text() == "no effect"
+    division = SliderSensitivity("two_division", -26_000.0)
+    assert (division.value_text(), division.unit_text()) == ("−2.6", "kW/0.1 R")
+    assert [SliderSensitivity("two_inner", watts).saving_direction for watts in (300.0, 3.0, -300.0)] == [-1, 0, 1]
     heavy = SliderSensitivity("mass_t", 90e3)
     assert heavy.unit_text(AVIATION) == "hp/200 lb"
     assert_allclose(heavy.watts(AVIATION), 90e3 * slider("mass_t", AVIATION).natural)

@@ -76,7 +76,7 @@ class TestControls:
         assert controls.inputs() == wanted
         handle = controls._inputs["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
-        assert handle.label == "Mass [lb]"  # pyright: ignore[reportAttributeAccessIssue]
+        assert handle.label == "Mass [lb]"
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
         assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
         controls.refresh(wanted, SI)
