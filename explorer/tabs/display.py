@@ -6,13 +6,13 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from explorer.colours import Scheme, colour_map, css
 from explorer.hosting.bridge import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.page_scene import TURN_RATES
-from explorer.theme.colours import Scheme, colour_map, css
 from rotor.line_chart import round_ticks, tick_text
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")

@@ -7,6 +7,7 @@ from html import escape
 
 import numpy as np
 
+from explorer.colours import BASELINE, NOW, THIS
 from explorer.hosting import browser
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
@@ -18,7 +19,6 @@ from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
-from explorer.theme.colours import BASELINE, NOW, THIS
 from rotor import Solution, solve
 
 FIELD = "Take step"

@@ -18,12 +18,12 @@ from explorer.charts.strip import (
     total_power_chart,
     where_to_twist_chart,
 )
+from explorer.colours import PINNED, PINNED_DASH, THIS
 from explorer.hosting.bridge import Bridge
 from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.text import readout
-from explorer.theme.colours import PINNED, PINNED_DASH, THIS
 from rotor import Design, Solution
 from rotor.trim import PitchGradient
 

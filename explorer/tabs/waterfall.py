@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator, Sequence
 from html import escape
 
+from explorer.colours import PARTS
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI, UNITS, Units, number
 from explorer.tabs.context import Tab, TabContext
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.theme.colours import PARTS
 from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.study.series import WaterfallStep, waterfall_steps

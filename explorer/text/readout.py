@@ -9,10 +9,10 @@ from html import escape
 
 import numpy as np
 
+from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
 from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
-from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import Verdict
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
+from explorer.colours import PINNED_GHOST, VOID
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.pinned import Pinboard, Pinned, act
 from explorer.model.units import number
@@ -19,7 +20,6 @@ from explorer.scene.overlays import ghost_of
 from explorer.text import readout
 from explorer.text.design_words import pinned_name
 from explorer.text.status import cautions, status_panel
-from explorer.theme.colours import PINNED_GHOST, VOID
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist, SumTwist
 from rotor.files.make_design import make_design

@@ -11,10 +11,10 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
+from explorer.colours import BASELINE, IDEAL
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.picture.fields import Field
-from explorer.theme.colours import BASELINE, IDEAL
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.line_chart import LineChart, Mark, Series, draw

@@ -7,12 +7,12 @@ from html import escape
 import numpy as np
 
 from explorer.charts import svg
+from explorer.colours import LIMIT, NOW, THIS
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.theme.colours import LIMIT, NOW, THIS
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array

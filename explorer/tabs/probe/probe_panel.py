@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer import colours
 from explorer.hosting.bridge import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
@@ -25,7 +26,6 @@ from explorer.tabs.probe.probe_drawing import outline, probe_panel
 from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
-from explorer.theme import colours
 from rotor import Rotor, Solution
 from rotor.arrays import Array
 
