@@ -55,7 +55,8 @@ class TestWhereTheLiftIs:
 
 
 UNTWISTED, TWISTED = {"mu": 0.0, "twist": "linear:0"}, {"mu": 0.0, "twist": "linear:-8"}
-SLOW, FAST = {"mu": 0.2}, {"mu": 0.3}
+SLOW: dict[str, Any] = {"mu": 0.2}
+FAST: dict[str, Any] = {"mu": 0.3}
 HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
 
 
@@ -110,7 +111,7 @@ def test_a_switch_says_what_it_does_or_why_nothing(flight: dict[str, Any], switc
 
 
 def test_another_model_or_rotor_is_named():
-    cases = (
+    cases: tuple[tuple[dict[str, Any], dict[str, Any], str], ...] = (
         (SLOW, {"inflow": "uniform"}, "Uniform instead of Lifting line: "),
         ({"mu": 0.0}, {"hover_inflow": "closed-form"}, "Closed form instead of annulus balance in hover: "),
         ({"mu": 0.05}, {"low_speed": "wake"}, "Without passage to hover at low speed: "),
