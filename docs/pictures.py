@@ -5,10 +5,10 @@ from html import escape
 import numpy as np
 
 import rotor
+from explorer.colours import PARTS
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.export.report.figures import figure
 from explorer.picture.fields import FIELDS
-from explorer.theme.colours import PARTS
 from rotor.line_chart import LineChart, Mark, Series
 
 _COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5")

@@ -8,8 +8,8 @@ import numpy as np
 from pictures import disk_figure, line
 
 import rotor
+from explorer.colours import PARTS
 from explorer.export.report.figures import figure
-from explorer.theme.colours import PARTS
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement

@@ -29,7 +29,7 @@ from dataclasses import replace
 import viser
 
 from explorer.charts.measured import set_shown
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum

@@ -28,7 +28,7 @@ ORDER = {
         "study", "validation", "actuator", "reproduce", "command",
     ),
     "explorer": (
-        "web", "theme", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "scene",
+        "web", "colours", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "scene",
         "export", "story", "tabs", "page", "session", "app", "notebook",
     ),
     "explorer/tabs": (

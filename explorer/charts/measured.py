@@ -41,15 +41,6 @@ _QUANTITIES = {
 """Title, unit and factor of a measured quantity."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Known:
-    """What is known of one blade with one set of models."""
-
-    points: tuple[ComparedPoint, ...]
-    now: float
-    """The quantity of the present solution; NaN as long as it is not known."""
-
-
 class MeasuredChart:
     """One session's: the points are trimmed while the page rests, and kept for each blade and its models."""
 
@@ -62,19 +53,23 @@ class MeasuredChart:
         measured = set_shown(solution)
         if measured is None:
             return None
-        if measured.quantity in _AT_ONCE and (self._now is None or self._now[0] is not solution):
+        known = self._points.get(_key(measured, solution.design), ())
+        return _drawn(
+            measured, solution, known, self._present(measured, solution, measured.quantity in _AT_ONCE), previous
+        )
+
+    def _present(self, measured: MeasuredSet, solution: Solution, compute: bool) -> float:
+        """The quantity of the present solution; NaN where it is not known and not to be computed."""
+        if compute and (self._now is None or self._now[0] is not solution):
             self._now = solution, quantity_of(measured.quantity, solution, measured)
-        now = self._now[1] if self._now is not None and self._now[0] is solution else math.nan
-        known = _Known(self._points.get(_key(measured, solution.design), ()), now)
-        return _drawn(measured, solution, known, previous)
+        return self._now[1] if self._now is not None and self._now[0] is solution else math.nan
 
     def trim_points(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
         """Trim at every measured point, unless newer input comes; `shown`: called when there is more to draw."""
         measured = set_shown(solution)
         if measured is None:
             return
-        if self._now is None or self._now[0] is not solution:
-            self._now = solution, quantity_of(measured.quantity, solution, measured)
+        self._present(measured, solution, True)
         key = _key(measured, solution.design)
         points = list(self._points.get(key, ()))
         if len(self._points) > _KEPT:
@@ -102,24 +97,27 @@ def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
     return measured.name, replace(design, condition=any_test, models=replace(design.models, trim="wind-tunnel"))
 
 
-def _drawn(measured: MeasuredSet, solution: Solution, known: _Known, previous: Range | None) -> StripChart:
+def _drawn(
+    measured: MeasuredSet, solution: Solution, known: tuple[ComparedPoint, ...], now: float, previous: Range | None
+) -> StripChart:
+    """`now`: the quantity of the present solution, NaN where it is not known."""
     along = measured.varied[0]
     title, unit, size = _QUANTITIES[measured.quantity]
     axis, wide = _AXES.get(along, (along, 1.0))
     places = [wide * point[along] for point in measured.points]
     values = [size * point[measured.quantity] for point in measured.points]
     scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
-    ours = [(wide * one.given[along], size * one.ours[measured.quantity]) for one in known.points if one.ours]
+    ours = [(wide * one.given[along], size * one.ours[measured.quantity]) for one in known if one.ours]
     ours.sort()
     x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
-    y = size * known.now
+    y = size * now
     seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
     low, high = min(places), max(places)
     marks = tuple(
-        StripMark(place, value, error, _words(measured, k, known.points))
-        for k, (place, value, error) in enumerate(zip(places, values, scatter, strict=True))
+        StripMark(place, value, error, _words(measured, value, one))
+        for place, value, error, one in zip(places, values, scatter, (*known, *[None] * len(places)), strict=False)
     )
-    value, note = _summary(measured, known.points, solution)
+    value, note = _summary(measured, known, solution)
     return StripChart(
         title=title,
         unit="both ×10³" if unit.endswith(_MILLE) and axis.endswith(_MILLE) else unit,
@@ -134,19 +132,15 @@ def _drawn(measured: MeasuredSet, solution: Solution, known: _Known, previous: R
     )
 
 
-def _words(measured: MeasuredSet, number_of_point: int, points: tuple[ComparedPoint, ...]) -> str:
-    """A measured point in words, with ours and the error where it is known."""
-    point = measured.points[number_of_point]
+def _words(measured: MeasuredSet, value: float, one: ComparedPoint | None) -> str:
+    """A measured value in words, with ours and the error where it is known."""
     _, unit, size = _QUANTITIES[measured.quantity]
-    words = f"measured {size * point[measured.quantity]:.4g}"
-    if number_of_point >= len(points):
-        return f"{unit}: {words}"
-    one = points[number_of_point]
+    words = f"{unit}: measured {value:.4g}"
+    if one is None:
+        return words
     if one.ours is None or one.error_percent is None:
-        return f"{unit}: {words}; ours does not trim"
-    return (
-        f"{unit}: {words}, ours {size * one.ours[measured.quantity]:.4g}, {number(one.error_percent, 1, sign=True)} %"
-    )
+        return f"{words}; ours does not trim"
+    return f"{words}, ours {size * one.ours[measured.quantity]:.4g}, {number(one.error_percent, 1, sign=True)} %"
 
 
 def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
@@ -185,9 +179,8 @@ class FlownPowers:
     def marks(self, solution: Solution, units: Units) -> tuple[StripMark, ...]:
         """The measured flights as far as ours are known; empty unless the blade is that of the flights."""
         design, unit = solution.design, units.power[0]
-        if not _shown(design):
-            return ()
-        ours = self._ours.get(_any_flight(design), {})
+        flights = _shown(design)
+        ours = self._ours.get(_any_flight(design), {}) if flights else {}
         return tuple(
             StripMark(
                 one.mu,
@@ -197,7 +190,7 @@ class FlownPowers:
                 case=one.case,
                 elsewhere=not one.same_air(design),
             )
-            for one in _shown(design)
+            for one in flights
         )
 
     def value(self, solution: Solution) -> str:
@@ -224,25 +217,24 @@ class FlownPowers:
                 return
             if one.case not in known:
                 found = solve(key.at(mu=one.mu, mass_kg=one.mass, altitude_m=one.altitude))
-                known[one.case] = _ours(found, between_drag_areas(found))
+                ends, power = between_drag_areas(found), found.power.main_rotor if found.converged else None
+                band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
+                known[one.case] = OurPower(power, band)
         shown()
 
 
 def flight_words(one: MeasuredPower, ours: OurPower | None, units: Units) -> str:
     """A measured flight in words, with ours where it is known."""
     words = f"{one.title}. Main rotor: measured {units.watts(one.power, 1)}"
-    if ours is None:
-        return f"{words}."
-    if ours.power is None:
-        return f"{words}; ours does not trim."
-    percent = number(100.0 * (ours.power / one.power - 1.0), 1, sign=True)
-    words = f"{words}, ours {units.watts(ours.power, 1)}, {percent} %"
-    if ours.band is None:
-        return f"{words}."
-    low, high = (units.watts(end, 1) for end in ours.band)
-    if low == high:
-        return f"{words}."
-    return f"{words}; {low} to {high} between the drag areas of the sources."
+    if ours is not None and ours.power is None:
+        words += "; ours does not trim"
+    elif ours is not None and ours.power is not None:
+        percent = number(100.0 * (ours.power / one.power - 1.0), 1, sign=True)
+        words += f", ours {units.watts(ours.power, 1)}, {percent} %"
+        low, high = (units.watts(end, 1) for end in ours.band or (0.0, 0.0))
+        if low != high:
+            words += f"; {low} to {high} between the drag areas of the sources"
+    return f"{words}."
 
 
 def source_of(design: Design) -> str:
@@ -266,10 +258,3 @@ def _any_flight(design: Design) -> Design:
 
 def _now(one: MeasuredPower, solution: Solution) -> OurPower | None:
     return OurPower(solution.power.main_rotor, None) if one.same_flight(solution.design) else None
-
-
-def _ours(found: Solution, ends: tuple[Solution, Solution] | None) -> OurPower:
-    return OurPower(
-        found.power.main_rotor if found.converged else None,
-        None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-    )

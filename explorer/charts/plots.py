@@ -1,20 +1,30 @@
-"""Solution → chart data: finite arrays and axis ranges; a gap is NaN inside an array and never a number on screen."""
+"""What charts draw: finite arrays with a held axis range, angles along the blade, and the power curve.
+
+A gap is NaN inside an array and never a number on screen. Power against advance ratio is swept after the frame and
+abandoned when newer input waits.
+"""
 
 import math
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from explorer.model.units import KILOWATT, Unit
 from explorer.picture.polar import stall_angles
 from explorer.picture.poses import at_azimuth
-from rotor import Solution
+from explorer.text.readout import ideal_induced
+from explorer.workers.newest_wins import UPDATES
+from rotor import Design, Solution, solve
 from rotor.arrays import Array
+from rotor.study.series import between_drag_areas
+from rotor.trim import Guess
+from rotor.trim.low_speed import passes_over
+from rotor.trim.validity import LOW_SPEED, vortex_ring
 
 Range = tuple[float, float]
-
-SWEEP = tuple(round(0.025 * k, 3) for k in range(19))
-"""Advance ratios of the power curve."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,36 +34,6 @@ class Plot:
     y_range: Range
     x_range: Range | None = None
     """None: the range that the chart was made with."""
-
-
-@dataclass(frozen=True, eq=False)
-class PowerCurve:
-    """Total power [kW] over `SWEEP` of this design and its reference; NaN where there is no trim or no valid inflow."""
-
-    design: Array
-    reference: Array
-    """A when one is pinned, else the baseline."""
-    ideal: Array
-    """This design's power with the least induced power that any circulation could have."""
-    current: bool = True
-    """Whether `design` has been swept; else it is the curve of the design before it."""
-    main_rotor: Array | None = None
-    """Of `design`, as flight tests measure it."""
-    band: Array | None = None
-    """Power of `design` with the lowest and the highest drag area of its sources, (2, speeds); None until it is known,
-    and where the sources give one value."""
-
-    def in_unit(self, unit: Unit) -> "PowerCurve":
-        """The curve in a unit other than kW."""
-        factor = KILOWATT.size / unit.size
-        return replace(
-            self,
-            design=factor * self.design,
-            reference=factor * self.reference,
-            ideal=factor * self.ideal,
-            main_rotor=None if self.main_rotor is None else factor * self.main_rotor,
-            band=None if self.band is None else factor * self.band,
-        )
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
@@ -82,3 +62,226 @@ def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, 
 def lift_along(solution: Solution, azimuth_deg: float) -> Array:
     """C_l at the elements of one azimuth, reverse flow included."""
     return at_azimuth(solution, solution.disk.cl, math.radians(azimuth_deg))
+
+
+SWEEP = tuple(round(0.025 * k, 3) for k in range(19))
+"""Advance ratios of the power curve."""
+PATIENCE = 0.6
+"""A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
+HASTE = 0.08
+"""[s] that such a sweep may take once a slider has moved; if it needs longer, frames come first."""
+_FEW = (0, 1, 3, 6, 9, 12, 15, 18)
+"""Places in `SWEEP` computed first; a smooth line joins them where time is short."""
+_FEWEST = (0, 6, 12, 15, 18)
+"""The same where the curve of a design much like it is known: the line then joins the differences from it."""
+_BAND = (4, 8, 13, 18)
+"""Places in `SWEEP` at which the band between the drag areas is trimmed."""
+_KEPT = 200
+"""Curves remembered per session."""
+
+
+@dataclass(frozen=True, eq=False)
+class PowerCurve:
+    """Total power [kW] over `SWEEP` of this design and its reference; NaN where there is no trim or no valid inflow."""
+
+    design: Array
+    reference: Array
+    """A when one is pinned, else the baseline."""
+    ideal: Array
+    """This design's power with the least induced power that any circulation could have."""
+    current: bool = True
+    """Whether `design` has been swept; else it is the curve of the design before it."""
+    main_rotor: Array | None = None
+    """Of `design`, as flight tests measure it."""
+    band: Array | None = None
+    """Power of `design` with the lowest and the highest drag area of its sources, (2, speeds); None until it is known,
+    and where the sources give one value."""
+
+    def in_unit(self, unit: Unit) -> "PowerCurve":
+        """The curve in a unit other than kW."""
+        powers = {name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor", "band")}
+        factor = KILOWATT.size / unit.size
+        return replace(self, **{name: factor * power for name, power in powers.items() if power is not None})
+
+
+class PowerCurves:
+    """The curves of one session, total and ideal power; a curve belongs to a design at any speed."""
+
+    def __init__(self, haste: float = HASTE) -> None:
+        self._haste = haste
+        self._curves: dict[Design, Array] = {}
+        """(3, points): total, ideal and main-rotor power [kW]."""
+        self._bands: dict[Design, Array] = {}
+        """(2, points): change of total power with the lowest and the highest drag area [kW]."""
+        self._band: Design | None = None
+        """The last of these that was asked for."""
+        self._coarse: set[Design] = set()
+        """Curves swept coarsely, to be swept again once there is time."""
+        self._last: Design | None = None
+        self._tried = -math.inf
+        """When the last sweep ended, also one that was abandoned: the next would be as slow."""
+        self._starts: dict[int, Guess] = {}
+        """The trims of the last sweep by their place in `SWEEP`: the next one belongs to a design much like it."""
+        self._fine: tuple[Design, Array] | None = None
+        """The last curve that was swept to its end."""
+
+    @property
+    def recent(self) -> bool:
+        """Whether the last sweep is so fresh that the next can wait until a drag ends."""
+        return time.monotonic() - self._tried < PATIENCE
+
+    def known(self, design: Design, reference: Design) -> PowerCurve:
+        """The curves of a design and of its reference; until the design is swept, the curve before it."""
+        blank = np.full((3, len(SWEEP)), math.nan)
+        last = self._last
+        alike = last is not None and last.aircraft == design.aircraft
+        before = self._curves.get(last, blank) if last is not None and alike else blank
+        family = _family(design)
+        total, ideal, main_rotor = self._curves.get(family, before)
+        if family in self._bands:
+            self._band = family
+        # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
+        near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
+        level = near is not None and near.condition.climb_speed == design.condition.climb_speed
+        band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
+        reference_total = self._curves.get(_family(reference), blank)[0]
+        return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)
+
+    def widen(self, design: Design, superseded: Callable[[], bool]) -> bool:
+        """Find the band of a design's curve between the drag areas of its sources; whether there is more to draw.
+
+        Trimmed at a few speeds: between them the change of power over the cube of speed, which is nearly constant,
+        is a smooth line.
+        """
+        family = _family(design)
+        flies = design.condition.stand is None and design.models.fuselage
+        if family in self._bands or design.fuselage.drag_area_band is None or not flies:
+            return False
+        found: dict[int, tuple[float, float]] = {}
+        for k in _BAND:
+            if superseded():
+                return False
+            at = family.at(mu=SWEEP[k])
+            if vortex_ring(at):
+                continue
+            point = solve(at, self._starts.get(k))
+            ends = between_drag_areas(point)
+            if ends is not None:
+                low, high = ((end.power.total - point.power.total) / 1e3 for end in ends)
+                found[k] = low, high
+        if len(found) < 2:
+            return False
+        if len(self._bands) >= _KEPT:
+            del self._bands[next(iter(self._bands))]
+        self._bands[family] = _over_speed(found)
+        return True
+
+    def sweep(
+        self,
+        design: Design,
+        reference: Design,
+        superseded: Callable[[], bool],
+        known: Callable[[], None] = lambda: None,
+    ) -> bool:
+        """Sweep the curves of a design and its reference; False when abandoned half way.
+
+        `known`: called after each of the two.
+        """
+        patient = self.recent
+        for family in dict.fromkeys((_family(design), _family(reference))):
+            if family not in self._curves or family in self._coarse:
+                values, coarse = self._swept(family, superseded, patient)
+                self._tried = time.monotonic()
+                if values is None:
+                    return False
+                self._keep(family, values, coarse)
+            if family == _family(design):
+                self._last = family
+            known()
+        return True
+
+    def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
+        """Total, ideal and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
+        begun, slow = time.monotonic(), 0 if passes_over(family) else 1
+        values = np.full((3, len(SWEEP)), math.nan)
+        points: dict[int, Guess] = {}
+        before = self._starts if self._last is not None and _alike(self._last, family) else {}
+        base = self._fine[1] if self._fine is not None and _alike(self._fine[0], family) else None
+        end, lost = len(SWEEP), 0
+        few = _FEW if base is None else _FEWEST
+        for k in (*few, *(k for k in range(end) if k not in few)):
+            if k >= end or (slow and 0.0 < SWEEP[k] < LOW_SPEED):
+                continue
+            if superseded():
+                if k not in few or end < len(SWEEP):
+                    self._starts = before | points
+                    return _bridged(values, slow, base), True
+                if patient or UPDATES.waiting or time.monotonic() - begun > self._haste:
+                    return None, False
+            try:
+                design = family.at(mu=SWEEP[k])
+            except ValueError:  # A free rotor in hover.
+                continue
+            if vortex_ring(design):  # In descent slow flight has no answer, while faster flight has.
+                continue
+            starts = before if k in before else points
+            point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
+            if point.converged:
+                # Without its derivatives, which would take 10 MB a page.
+                points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
+                continue
+            lost += 1
+            if lost == 2 or (points and k in few):
+                end = k  # Faster flight does not trim either, and each failed trim takes long.
+        self._starts, self._fine = points, (family, values)
+        return values, False
+
+    def _keep(self, family: Design, values: Array, coarse: bool) -> None:
+        if len(self._curves) >= _KEPT:
+            del self._curves[next(iter(self._curves))]
+        self._curves[family] = values
+        self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
+
+
+def _family(design: Design) -> Design:
+    """The same design for every advance ratio; a test may have no hover, so there it is another one."""
+    any_speed = 0.0 if design.condition.stand is None else 0.2
+    return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
+
+
+def _alike(one: Design, other: Design) -> bool:
+    """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
+    return (one.rotor, one.models, one.condition.stand) == (other.rotor, other.models, other.condition.stand)
+
+
+def _powers(point: Solution) -> tuple[float, float, float]:
+    """Total power, that with the least induced power at this lift, NaN at low speed, and main-rotor power [kW]."""
+    total, slow = point.power.total / 1e3, 0.0 < point.design.condition.advance_ratio < LOW_SPEED
+    ideal = None if slow else ideal_induced(point)
+    least = math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+    return total, least, point.power.main_rotor / 1e3
+
+
+def _over_speed(found: dict[int, tuple[float, float]]) -> Array:
+    """Changes of power over `SWEEP`, (2, points), from those at a few of its places; NaN beyond the last."""
+    mus, at = np.array(SWEEP), np.array(sorted(found))
+    ratios = np.array([found[k] for k in at.tolist()]) / mus[at, None] ** 3
+    inside = np.clip(mus, mus[at[0]], None)
+    line = PchipInterpolator(mus[at], ratios, extrapolate=False)(inside)
+    return np.asarray(line * mus[:, None] ** 3, dtype=np.float64).T
+
+
+def _bridged(values: Array, first: int, base: Array | None) -> Array:
+    """Fill the points left out of a coarse sweep, from `first` on, by a smooth line of the values less those of a base.
+
+    values, base: (powers, points).
+    """
+    base = np.zeros_like(values) if base is None else base
+    k = np.arange(values.shape[1])
+    have = np.isfinite(values - base) & (k >= first)
+    filled = values.copy()
+    for row, known in enumerate(have):
+        if known.sum() >= 2:
+            line = PchipInterpolator(k[known], (values - base)[row, known], extrapolate=False)
+            filled[row] = np.where(np.isfinite(values[row]) | (k < first), values[row], base[row] + line(k))
+    return filled

@@ -93,14 +93,6 @@ class StripChart:
     """What the horizontal axis is."""
     gap: StripGap | None = None
 
-    @property
-    def x_ticks(self) -> list[float]:
-        return round_ticks(*self.x_range, 5)
-
-    @property
-    def y_ticks(self) -> list[float]:
-        return round_ticks(*self.y_range, 4)
-
     def _seen(self, line: StripLine) -> bool:
         """Whether most of a line lies within the axis: a limit of which only small parts do is left out."""
         low, high = self.y_range
@@ -115,29 +107,23 @@ class StripChart:
         def plain(part: Any) -> dict[str, Any]:
             """The fields of a part of the chart, numbers rounded."""
             values = {one.name: getattr(part, one.name) for one in fields(part)}
-            return {
-                name: _plain(value, y_digits[name]) if name in y_digits else value for name, value in values.items()
-            }
+            return {name: _plain(own, y_digits[name]) if name in y_digits else own for name, own in values.items()}
 
         band = self.band
         if band is not None:
             known = np.isfinite(band.low) & np.isfinite(band.high)
             band = StripBand(band.x[known], band.low[known], band.high[known])
         return {
-            "title": self.title,
-            "unit": self.unit,
+            **{name: getattr(self, name) for name in ("title", "unit", "x_name", "value", "note")},
             "x_range": list(self.x_range),
             "y_range": list(self.y_range),
-            "x_ticks": self.x_ticks,
-            "x_name": self.x_name,
-            "y_ticks": self.y_ticks,
+            "x_ticks": round_ticks(*self.x_range, 5),
+            "y_ticks": round_ticks(*self.y_range, 4),
             "lines": [plain(line) for line in self.lines if line.role != "limit" or self._seen(line)],
             "dots": [plain(dot) for dot in self.dots if math.isfinite(dot.y)],
             "marks": [plain(mark) for mark in self.marks],
             "band": None if band is None else plain(band),
             **({} if self.gap is None else {"gap": asdict(self.gap)}),
-            "value": self.value,
-            "note": self.note,
         }
 
 
@@ -271,14 +257,11 @@ def alpha_chart(
 
 def lift_chart(solution: Solution, reference: Solution | None, previous: Range | None = None) -> StripChart:
     """Lift of one blade per metre of span, mean of a revolution [kN/m]."""
-    lift = lift_per_metre(solution) / 1e3
-    lines = [StripLine(solution.disk.r, lift, "this")]
-    low, high = float(lift.min()), float(lift.max())
+    lines = [StripLine(solution.disk.r, lift_per_metre(solution) / 1e3, "this")]
     if reference is not None and reference.converged:
-        other = lift_per_metre(reference) / 1e3
-        lines.insert(0, StripLine(reference.disk.r, other, "reference"))
-        low, high = min(low, float(other.min())), max(high, float(other.max()))
-    peak = float(solution.disk.r[np.argmax(lift)])
+        lines.insert(0, StripLine(reference.disk.r, lift_per_metre(reference) / 1e3, "reference"))
+    low, high = (float(end([end(line.y) for line in lines])) for end in (np.min, np.max))
+    peak = float(solution.disk.r[np.argmax(lines[-1].y)])
     return StripChart(
         title="Lift",
         unit="kN/m per blade",

@@ -36,11 +36,6 @@ def stopping(superseded: Superseded) -> Callable[[Design, Solution | Guess | Non
     return lambda design, start: solve(design, start, options)
 
 
-def with_bending(design: Design) -> Design:
-    """The same design with blades that bend."""
-    return replace(design, models=replace(design.models, bending=True))
-
-
 class IndexCurves:
     """Those of one session; a curve belongs to a design at any speed."""
 
@@ -82,7 +77,8 @@ class IndexCurves:
 
 
 def _family(design: Design) -> Design:
-    return with_bending(design.at(mu=SLOWEST))
+    """The same design for every speed, with blades that bend."""
+    return replace(design.at(mu=SLOWEST), models=replace(design.models, bending=True))
 
 
 def _has_curve(design: Design) -> bool:

@@ -20,6 +20,7 @@ import trimesh
 from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
+from explorer import colours
 from explorer.export.provenance import PROGRAM, file_stem
 from explorer.picture.airframe import mast, rotor_head
 from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
@@ -33,7 +34,6 @@ from explorer.picture.poses import (
     with_active_twist,
 )
 from explorer.picture.solids import Faces
-from explorer.theme import colours
 from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw

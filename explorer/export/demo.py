@@ -18,6 +18,7 @@ from PIL import Image
 from tqdm import tqdm
 
 from explorer import web
+from explorer.colours import PARTS
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices, edge_pairs
@@ -28,7 +29,6 @@ from explorer.scene.controller import SURFACES, TURN_RATES, motion_of
 from explorer.scene.scene import ROTOR
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.text.readout import part_titles
-from explorer.theme.colours import PARTS
 from rotor import Design, Solution, load_design, make_design, parse_twist, solve
 from rotor.arrays import Array
 from rotor.terminal import run_command

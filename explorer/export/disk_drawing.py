@@ -4,6 +4,7 @@ import math
 from html import escape
 
 from explorer.charts import svg
+from explorer.colours import RIM, VOID, colour_map, css
 from explorer.model.units import SI, Units
 from explorer.picture import disk_image as image
 from explorer.picture.fields import Field, reverse_flow
@@ -12,7 +13,6 @@ from explorer.picture.polar import polar_grid
 from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_codes
 from explorer.picture.scene_theme import DiskInk
 from explorer.text.design_words import flight_words, title_words
-from explorer.theme.colours import RIM, VOID, colour_map, css
 from rotor import Solution
 from rotor.line_chart import round_ticks, tick_text
 

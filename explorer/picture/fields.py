@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.colours import Scheme
 from explorer.model.inputs import ViewState
 from explorer.picture.polar import PolarGrid, polar_grid, refined
-from explorer.theme.colours import Scheme
 from rotor import Rotor, Solution
 from rotor.arrays import Array
 from rotor.files.rotor_file import shipped_aircraft

@@ -5,7 +5,7 @@ Colours of lit surfaces are albedos: the lights and the tone mapping brighten th
 
 from dataclasses import dataclass, field
 
-from explorer.theme.colours import Rgb
+from explorer.colours import Rgb
 
 
 @dataclass(frozen=True)

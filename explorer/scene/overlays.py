@@ -10,6 +10,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from explorer import colours
 from explorer.model.inputs import ViewState
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
@@ -18,7 +19,6 @@ from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import HubLines, hub_lines, inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
-from explorer.theme import colours
 from rotor import Design, Rotor, Solution
 from rotor.arrays import Array
 from rotor.design import TwistLaw

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import viser
 
+from explorer.colours import Rgb
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe, mast, rotor_head, size
@@ -24,7 +25,6 @@ from explorer.picture.picture import Blades, Picture
 from explorer.picture.poses import Pose, about
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Faces, Mesh, joined
-from explorer.theme.colours import Rgb
 from rotor import Rotor
 from rotor.arrays import Array
 

@@ -14,6 +14,7 @@ from typing import Any
 from tqdm import tqdm
 
 from explorer import web
+from explorer.colours import colour_map, css
 from explorer.export.demo import point_record, shape_record, write_page
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import Inputs, ViewState, baseline_of
@@ -27,7 +28,6 @@ from explorer.scene.still_scene import embedded_viewer, still_page
 from explorer.story.facts import Facts, facts_of
 from explorer.story.steps import STEPS, LectureStep, quantities, view_of
 from explorer.story.telling import answer_record, step_record
-from explorer.theme.colours import colour_map, css
 from rotor import Rotor, Solution, solve
 from rotor.line_chart import round_ticks, tick_text
 from rotor.terminal import run_command

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import viser
 
@@ -24,9 +24,7 @@ from explorer.model.inputs import (
 from explorer.model.pinned import FLIGHT
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import SLIDERS, meant, shown, slider
-from explorer.model.stand import (
-    condition_of,
-)
+from explorer.model.stand import condition_of
 from explorer.model.undo import Pauses, PowerTracker
 from explorer.model.units import SI, Units
 from explorer.tabs.layout import by_hand, key_of
@@ -49,14 +47,6 @@ class SessionCallbacks:
     """The last converged state; None before the first."""
 
 
-class InputHandle(Protocol):
-    value: Any
-    visible: bool
-    disabled: bool
-
-    def on_update(self, func: Callable[[Any], None]) -> Any: ...
-
-
 class DesignControls:
     """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
@@ -64,7 +54,7 @@ class DesignControls:
         self, gui: viser.GuiApi, bridge: Bridge, start: Inputs, tracker: PowerTracker, callbacks: SessionCallbacks
     ) -> None:
         self._start, self._tracker, self._changed = start, tracker, callbacks.wake
-        self._inputs: dict[str, InputHandle] = {}
+        self._inputs: dict[str, Any] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
         self._moving = threading.RLock()
@@ -102,13 +92,10 @@ class DesignControls:
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
                 self._inputs[name] = self._watched(box)
                 self._costs[name] = gui.add_html("")
-            self._inputs["bending"] = self._watched(
-                gui.add_checkbox("Blade bending", start.bending, hint=hint("bending"))
-            )
+            bending = gui.add_checkbox("Blade bending", start.bending, hint=hint("bending"))
             self._bending_words = gui.add_html("")
-            self._inputs["dynamic_stall"] = self._watched(
-                gui.add_checkbox("Dynamic stall", start.dynamic_stall, hint=hint("dynamic_stall"))
-            )
+            stall = gui.add_checkbox("Dynamic stall", start.dynamic_stall, hint=hint("dynamic_stall"))
+            self._inputs |= {"bending": self._watched(bending), "dynamic_stall": self._watched(stall)}
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         by_hand(preset, self._preset_chosen)
@@ -189,15 +176,12 @@ class DesignControls:
         with self._moving:
             shown_inputs = inputs if self._own is None else self._special
             shown_law = shown_inputs.law
-        for key, law in LAWS.items():
-            for name in law.inputs:
-                shown_now = key == shown_law
-                if self._inputs[name].visible != shown_now:
-                    self._inputs[name].visible = self._sensitivities[name].visible = shown_now
         in_flight = inputs.stand is None
-        for name, counts in {"mass_t": in_flight, "altitude_m": in_flight, "climb_m_s": inputs.climbs}.items():
-            if self._inputs[name].visible != counts:
-                self._inputs[name].visible = self._sensitivities[name].visible = counts
+        seen = {name: key == shown_law for key, law in LAWS.items() for name in law.inputs}
+        seen |= {"mass_t": in_flight, "altitude_m": in_flight, "climb_m_s": inputs.climbs}
+        for name, visible in seen.items():
+            if self._inputs[name].visible != visible:
+                self._inputs[name].visible = self._sensitivities[name].visible = visible
         for name in LAWS[shown_law].inputs:
             inert = self._held or name in shown_inputs.idle
             if self._inputs[name].disabled != inert:
@@ -212,13 +196,11 @@ class DesignControls:
     def show_costs(self, costs: Mapping[str, str]) -> None:
         """What each switch of the physics costs, in words, by its name."""
         for name, handle in self._costs.items():
-            words = costs.get(name, "")
-            handle.content = f'<div class="rxp-cost" data-explorer="cost">{words}</div>' if words else ""
+            handle.content = _beside("cost", costs.get(name, ""))
 
     def show_bending(self, words: str) -> None:
         """What bending costs, or why there is none, beside its switch."""
-        content = f'<div class="rxp-cost" data-explorer="bending">{words}</div>' if words else ""
-        if self._bending_words.content != content:
+        if self._bending_words.content != (content := _beside("bending", words)):
             self._bending_words.content = content
 
     def _change_units(self, units: Units) -> None:
@@ -227,7 +209,7 @@ class DesignControls:
             return
         with self._moving:
             for name in FLIGHT[1:]:
-                handle: Any = self._inputs[name]
+                handle = self._inputs[name]
                 value, form = self._read(name, handle.value), slider(name, units, self._special.aircraft)
                 handle.label, handle.step, handle.precision = form.label, form.step, form.digits
                 handle.min, handle.max = form.low, form.high
@@ -290,7 +272,7 @@ class DesignControls:
 
     def _fit(self, name: str, inputs: Inputs) -> None:
         """A slider whose ends depend on the rotor: weight about its own reference mass, speed as it can be tested."""
-        handle: Any = self._inputs[name]
+        handle = self._inputs[name]
         form = slider(name, self._units, inputs.aircraft)
         if (handle.min, handle.max) != (form.low, form.high):
             # In an order that never leaves the value outside its ends.
@@ -298,6 +280,11 @@ class DesignControls:
             handle.step, handle.precision = form.step, form.digits
             handle.value = shown(name, getattr(inputs, name), self._units)
             handle.min, handle.max = form.low, form.high
+
+
+def _beside(part: str, words: str) -> str:
+    """Words beside a switch; nothing without."""
+    return f'<div class="rxp-cost" data-explorer="{part}">{words}</div>' if words else ""
 
 
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:

@@ -65,7 +65,12 @@ class UploadedFiles:
         text = text.replace("\r\n", "\n")
         if suffix == ".toml":
             return self._rotor(name, text)
-        _check(name, suffix, text)
+        if suffix == ".c81":  # Read once, so that what is wrong with it is said at once.
+            on_run_time_grid(parse_c81(text, name))
+        elif suffix == ".dat":
+            parse_contour(text, name)
+        else:
+            parse_polar_file(name, text)
         self.texts[name] = text
         if self.waiting is None:
             return UploadResult(f"{name} is loaded: a rotor file that names it under [sections] will use it.")
@@ -73,7 +78,8 @@ class UploadedFiles:
 
     def _rotor(self, name: str, text: str) -> UploadResult:
         """A rotor file, when all that it names is here."""
-        missing = [file for file in named_files(rotor_toml(name, text)) if _is_file(file) and file not in self.texts]
+        named = named_files(rotor_toml(name, text))  # An `outline` may also name a known section.
+        missing = [file for file in named if file.lower().endswith(SUFFIXES) and file not in self.texts]
         if missing:
             self.texts[name], self.waiting = text, name
             also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
@@ -81,21 +87,6 @@ class UploadedFiles:
         aircraft = read_aircraft(name, {**self.texts, name: text})
         self.texts[name], self.waiting = text, None
         return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
-
-
-def _check(name: str, suffix: str, text: str) -> None:
-    """Read a section file once, so that what is wrong with it is said at once."""
-    if suffix == ".c81":
-        on_run_time_grid(parse_c81(text, name))
-    elif suffix == ".dat":
-        parse_contour(text, name)
-    else:
-        parse_polar_file(name, text)
-
-
-def _is_file(word: str) -> bool:
-    """Whether an `outline` names a file rather than a known section."""
-    return word.lower().endswith(SUFFIXES)
 
 
 class RotorUpload:

@@ -6,13 +6,13 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from explorer.colours import Scheme, colour_map, css
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.controller import TURN_RATES
-from explorer.theme.colours import Scheme, colour_map, css
 from rotor.line_chart import round_ticks, tick_text
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
@@ -136,14 +136,8 @@ class Display:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        self._bridge.set(
-            turn={
-                "psi": self._view.azimuth_deg,
-                "playing": self._playing,
-                "pace": self._pace,
-                "held": self._held,
-            }
-        )
+        turn = {"psi": self._view.azimuth_deg, "playing": self._playing, "pace": self._pace, "held": self._held}
+        self._bridge.set(turn=turn)
 
     def _show_field(self) -> None:
         if self._range is None:

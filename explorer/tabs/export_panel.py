@@ -5,33 +5,32 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from html import escape
 
 import viser
 from PIL import Image
 
-from explorer.charts.plots import Range
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.disk_drawing import disk_svg
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
-from explorer.export.report.contents import DesignReport, JudgedActuator, ReportEntry, judged_actuator, report_of
+from explorer.export.report.contents import ReportEntry, judged_actuator, report_of
 from explorer.export.report.document import report_html
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
-from explorer.model.undo import KeptDesign
 from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.picture import marks_of
 from explorer.scene.controller import SceneController
-from explorer.scene.still_scene import EmbeddedViewer, make_stage, scene_page
+from explorer.scene.still_scene import make_stage, scene_page
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.glossary import hint
 from explorer.text.readout import fineness
+from rotor import Design
 from rotor.actuator import Verdict
 
 _log = logging.getLogger(__name__)
@@ -52,94 +51,40 @@ class File:
         return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
 
 
+def _file(design: Design, ending: str, content: str | bytes, *words: str) -> File:
+    """Named after its design and these words."""
+    text = content.encode("utf-8") if isinstance(content, str) else content
+    return File(f"{file_stem(design, *words)}.{ending}", text)
+
+
 def jig_file(state: SessionState) -> File:
     """One blade in jig shape as STL, for manufacture."""
     design = state.solution.design
-    return File(f"{file_stem(design, 'blade', 'jig')}.stl", blade_stl(design))
+    return _file(design, "stl", blade_stl(design), "blade", "jig")
 
 
 def flown_file(state: SessionState) -> File:
     """The reference blade as flown at its azimuth as STL."""
     solution, azimuth = state.solution, state.view.azimuth_deg
-    name = file_stem(solution.design, "blade", "flown", f"psi{azimuth:.0f}")
-    return File(f"{name}.stl", blade_stl(flown_design(solution, math.radians(azimuth))))
+    stl = blade_stl(flown_design(solution, math.radians(azimuth)))
+    return _file(solution.design, "stl", stl, "blade", "flown", f"psi{azimuth:.0f}")
 
 
-def rotor_file(state: SessionState) -> File:
+def _rotor(state: SessionState) -> File:
     """The rotor in trim as GLB."""
-    solution = state.solution
-    return File(f"{file_stem(solution.design, 'rotor')}.glb", rotor_glb(solution, state.view.azimuth_deg))
+    return _file(state.solution.design, "glb", rotor_glb(state.solution, state.view.azimuth_deg), "rotor")
 
 
-def disk_file(state: SessionState) -> File:
+def _disk_table(state: SessionState) -> File:
     """Every field over the disk as CSV."""
-    return File(f"{file_stem(state.solution.design, 'disk')}.csv", disk_csv(state.solution))
+    return _file(state.solution.design, "csv", disk_csv(state.solution), "disk")
 
 
-def along_file(state: SessionState) -> File:
+def _blade_table(state: SessionState) -> File:
     """The blade at the marked azimuth as CSV."""
     azimuth = state.view.azimuth_deg
     content = blade_csv(state.solution, state.reference.design, azimuth)
-    return File(f"{file_stem(state.solution.design, 'blade', f'psi{azimuth:.0f}')}.csv", content)
-
-
-def power_file(state: SessionState, curves: PowerCurves) -> File:
-    """Power over advance ratio as CSV."""
-    design, reference = state.solution.design, state.reference.design
-    curves.sweep(design, reference, lambda: False)
-    content = power_csv(state.solution, reference, curves.known(design, reference))
-    return File(f"{file_stem(design, 'power')}.csv", content)
-
-
-def session_report(
-    state: SessionState, kept: Sequence[KeptDesign], colour_range: Range, actuator: JudgedActuator | str = ""
-) -> DesignReport:
-    """The report of the present and the kept designs, compared with A or the baseline, and of the actuator chosen."""
-    pinned, solution = state.pinned, state.solution
-    if state.pin is None:
-        reference = ReportEntry(baseline_title(solution.design), state.baseline)
-    else:
-        # A may not converge in the present flight condition; then its own solution is used.
-        flies = pinned is not None and pinned.converged
-        reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
-    others = [item for item in kept if item.solution.design not in (solution.design, reference.solution.design)]
-    entries = [
-        ReportEntry("Now", solution),
-        *(ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)),
-    ]
-    return report_of(
-        reference,
-        entries,
-        state.view,
-        {state.view.field: colour_range},
-        own_section=state.pin is not None,
-        actuator=actuator,
-    )
-
-
-def scene_file(state: SessionState, colour_range: Range) -> File:
-    """The rotor in trim as one HTML page to be turned with the mouse, without a server."""
-    solution, view = state.solution, replace(state.view, difference=False)
-    design, units = solution.design, UNITS[view.units]
-    powers = units.watts(solution.power.total, fineness(solution.power))
-    line = f"{powers} · {flight_words(design, units)} · {view.field} on the disk"
-    times = f" · twist exaggeration × {view.exaggeration:g}" if view.exaggeration != 1.0 else ""
-    page = scene_page(solution, view, colour_range, title_words(design), line + times)
-    return File(f"{file_stem(design, 'scene')}.html", page.encode("utf-8"))
-
-
-def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves) -> File:
-    """The report as one HTML file."""
-    name = file_stem(report.entries[0].solution.design, "report")
-    return File(f"{name}.html", report_html(report, stage, curves).encode("utf-8"))
-
-
-def disk_drawing_file(state: SessionState, colour_range: Range) -> File:
-    """The disk from above as SVG, as the page colours and marks it."""
-    view, solution = state.view, state.solution
-    field = shown_field(view, state.pinned)
-    drawing = disk_svg(solution, field, colour_range, marks_of(view), UNITS[view.units])
-    return File(f"{file_stem(solution.design, 'disk', field.title)}.svg", drawing.encode("utf-8"))
+    return _file(state.solution.design, "csv", content, "blade", f"psi{azimuth:.0f}")
 
 
 class ExportPanel(Tab):
@@ -158,12 +103,8 @@ class ExportPanel(Tab):
         self._curves = PowerCurves()
         self._stale = False
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
-        shapes = {"Jig STL": jig_file, "Flown STL": flown_file, "Rotor GLB": rotor_file}
-        tables: dict[str, Callable[[SessionState], File]] = {
-            "Disk": disk_file,
-            "Blade": along_file,
-            "Power": lambda state: power_file(state, self._curves),
-        }
+        shapes = {"Jig STL": jig_file, "Flown STL": flown_file, "Rotor GLB": _rotor}
+        tables = {"Disk": _disk_table, "Blade": _blade_table, "Power": self._power_table}
         pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
         gui = context.gui
         with gui.add_folder("Export"):
@@ -192,8 +133,19 @@ class ExportPanel(Tab):
         """The last good answer is still exported, and the line says so."""
         self._stale = True
 
+    def _power_table(self, state: SessionState) -> File:
+        """Power over advance ratio as CSV."""
+        design, reference = state.solution.design, state.reference.design
+        self._curves.sweep(design, reference, lambda: False)
+        return _file(
+            design, "csv", power_csv(state.solution, reference, self._curves.known(design, reference)), "power"
+        )
+
     def _disk_drawing(self, state: SessionState) -> File:
-        return disk_drawing_file(state, self._scene.held_range(shown_field(state.view, state.pinned)))
+        """The disk from above as SVG, as the page colours and marks it."""
+        view, solution, field = state.view, state.solution, shown_field(state.view, state.pinned)
+        drawing = disk_svg(solution, field, self._scene.held_range(field), marks_of(view), UNITS[view.units])
+        return _file(solution.design, "svg", drawing, "disk", field.title)
 
     def _view_picture(self, state: SessionState) -> File:
         """The scene as the page's camera sees it; what the frame draws over it is not in the picture."""
@@ -202,19 +154,44 @@ class ExportPanel(Tab):
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
         png = io.BytesIO()
         Image.fromarray(pixels).save(png, "PNG")
-        return File(f"{file_stem(state.solution.design, 'view', f'{_WIDTH}x{height}')}.png", png.getvalue())
+        return _file(state.solution.design, "png", png.getvalue(), "view", f"{_WIDTH}x{height}")
 
     def _scene_page(self, state: SessionState) -> File:
-        return scene_file(state, self._scene.held_range(FIELDS[state.view.field]))
+        """The rotor in trim as one HTML page to be turned with the mouse, without a server."""
+        solution, view = state.solution, replace(state.view, difference=False)
+        design, units = solution.design, UNITS[view.units]
+        powers = units.watts(solution.power.total, fineness(solution.power))
+        line = f"{powers} · {flight_words(design, units)} · {view.field} on the disk"
+        times = f" · twist exaggeration × {view.exaggeration:g}" if view.exaggeration != 1.0 else ""
+        colour_range = self._scene.held_range(FIELDS[view.field])
+        return _file(
+            design, "html", scene_page(solution, view, colour_range, title_words(design), line + times), "scene"
+        )
 
     def _report(self, state: SessionState) -> File:
-        view = replace(state.view, difference=False)
-        outcome = self._actuator()
-        actuator = outcome if isinstance(outcome, str) else judged_actuator(outcome)
-        colour_range = self._scene.held_range(FIELDS[view.field])
-        report = session_report(state, self._history.kept, colour_range, actuator)
-        stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
-        return report_file(report, stage, self._curves)
+        """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
+        solution, pinned, view = state.solution, state.pinned, replace(state.view, difference=False)
+        if state.pin is None:
+            reference = ReportEntry(baseline_title(solution.design), state.baseline)
+        else:
+            # A may not converge in the present flight condition; then its own solution is used.
+            flies = pinned is not None and pinned.converged
+            reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
+        known = (solution.design, reference.solution.design)
+        others = [item for item in self._history.kept if item.solution.design not in known]
+        entries = [ReportEntry("Now", solution)]
+        entries += [ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)]
+        outcome, field = self._actuator(), FIELDS[view.field]
+        report = report_of(
+            reference,
+            entries,
+            state.view,
+            {view.field: self._scene.held_range(field)},
+            own_section=state.pin is not None,
+            actuator=outcome if isinstance(outcome, str) else judged_actuator(outcome),
+        )
+        stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
+        return _file(report.entries[0].solution.design, "html", report_html(report, stage, self._curves), "report")
 
     def _save(self, what: str, make: Callable[[SessionState], File]) -> None:
         """Make a file and send it, unless another is under way."""

@@ -7,6 +7,7 @@ from html import escape
 
 import numpy as np
 
+from explorer.colours import BASELINE, NOW, THIS
 from explorer.hosting import browser
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
@@ -18,7 +19,6 @@ from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
-from explorer.theme.colours import BASELINE, NOW, THIS
 from rotor import Solution, solve
 
 FIELD = "Take step"
@@ -77,7 +77,9 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
         return '<div class="rx-dim rx-small">No bookmarks yet: Keep bookmarks this design.</div>'
     rows = []
     for k, item in enumerate(kept):
-        change = _blank_change(present, item, units)
+        change = ""
+        if present is not None and math.isfinite(item.power):
+            change = f"now {units.watts(present.power.total - item.power, sign=True)}"
         take, drop = (f'data-write="{FIELD}" data-value="{verb} {k}"' for verb in ("take", "drop"))
         rows.append(
             f'<tr><td {take} class="rx-take">{_spark(item.solution)}</td>'
@@ -94,12 +96,6 @@ def _asked(text: str) -> tuple[str, int] | None:
     """What a click on the strip or on the rows asks for; None for a text that asks for nothing."""
     verb, _, digits = text.strip().partition(" ")
     return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
-
-
-def _blank_change(present: Solution | None, item: KeptDesign, units: Units) -> str:
-    if present is None or not math.isfinite(item.power):
-        return ""
-    return f"now {units.watts(present.power.total - item.power, sign=True)}"
 
 
 def _spark(solution: Solution) -> str:
@@ -135,10 +131,10 @@ class HistoryPanel(Tab):
             self._rows = gui.add_html("")
             gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
             self._field = gui.add_text(FIELD, "", hint=hint("take"))
-        for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
-            context.keyboard.bind(name, act)
         for name, act in (("undo", self.undo), ("redo", self.redo)):
+            context.keyboard.bind(name, act)
             context.bridge.on(name, lambda _, act=act: None if context.held else act())
+        context.keyboard.bind("keep", self.keep)
         keep.on_click(lambda _: self.keep())
         by_hand(self._field, self._clicked)
 

@@ -18,12 +18,12 @@ from explorer.charts.strip import (
     total_power_chart,
     where_to_twist_chart,
 )
+from explorer.colours import PINNED, PINNED_DASH, THIS
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.text import readout
-from explorer.theme.colours import PINNED, PINNED_DASH, THIS
 from rotor import Design, Solution
 from rotor.trim import PitchGradient
 
@@ -146,14 +146,10 @@ class ChartStrip:
         Sent together with power over µ: `show_power` follows at once.
         """
         self._pinned, self._faded = state.pinned is not None, False
-        self._charts["alpha"] = alpha_chart(
-            state.solution, state.reference, state.view.azimuth_deg, self._held("alpha")
-        )
+        self._show_alpha(state)
         self._charts["lift"] = lift_chart(state.solution, state.reference, self._held("lift"))
-        if gradient is not None:
-            self._charts["worth"] = where_to_twist_chart(gradient, UNITS[state.view.units], self._held("worth"))
-        else:
-            self._charts.pop("worth", None)
+        units, held = UNITS[state.view.units], self._held("worth")
+        self._place("worth", None if gradient is None else where_to_twist_chart(gradient, units, held))
         self._show_measured(state.solution)
 
     def solve_measured(self, state: SessionState, superseded: Callable[[], bool]) -> None:
@@ -172,17 +168,21 @@ class ChartStrip:
             self._flown.trim_flights(state.solution, superseded, flown)
 
     def _show_measured(self, solution: Solution) -> None:
-        chart = self._measured.chart(solution, self._held(_MEASURED))
-        if chart is None:
-            self._charts.pop(_MEASURED, None)
-        else:
-            self._charts[_MEASURED] = chart
+        self._place(_MEASURED, self._measured.chart(solution, self._held(_MEASURED)))
 
     def turn(self, state: SessionState) -> None:
-        self._charts["alpha"] = alpha_chart(
-            state.solution, state.reference, state.view.azimuth_deg, self._held("alpha")
-        )
+        self._show_alpha(state)
         self._send()
+
+    def _show_alpha(self, state: SessionState) -> None:
+        azimuth = state.view.azimuth_deg
+        self._charts["alpha"] = alpha_chart(state.solution, state.reference, azimuth, self._held("alpha"))
+
+    def _place(self, name: str, chart: StripChart | None) -> None:
+        """In the place of the one before; None: it goes."""
+        self._charts.pop(name, None)
+        if chart is not None:
+            self._charts[name] = chart
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
         """Change of power over µ, once the sweep has arrived; the power itself where the design is its own reference.
@@ -217,9 +217,7 @@ class ChartStrip:
         """The vibration index over µ; None where there is none."""
         if chart is None and _VIBRATION not in self._charts:
             return
-        self._charts.pop(_VIBRATION, None)
-        if chart is not None:
-            self._charts[_VIBRATION] = chart
+        self._place(_VIBRATION, chart)
         self._send()
 
     def vibration_range(self) -> Range | None:
@@ -247,14 +245,9 @@ class ChartStrip:
         return (_MEASURED, *names[1:]) if _MEASURED in self._charts else names
 
     def _send(self) -> None:
+        common = {"pinned": self._pinned, "faded": self._faded}
         charts: list[dict[str, Any]] = [
-            {
-                **self._charts[name].as_dict,
-                "name": name,
-                "kind": self._kinds.get(name, ""),
-                "pinned": self._pinned,
-                "faded": self._faded,
-            }
+            {**self._charts[name].as_dict, "name": name, "kind": self._kinds.get(name, ""), **common}
             for name in self._names()
             if name in self._charts
         ]
@@ -265,12 +258,8 @@ def against(design: Design, pinned: bool) -> str:
     """What changes are measured against, in words."""
     if pinned:
         return "A"
-    twist = baseline_of(design).twist
-    return (
-        f"{design.aircraft.name} as built"
-        if twist == design.rotor.builtin_twist
-        else design.aircraft.twist_title(design.preset)
-    )
+    built = baseline_of(design).twist == design.rotor.builtin_twist
+    return f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
 
 
 def band_words(design: Design, drawn: bool) -> str:

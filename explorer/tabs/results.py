@@ -61,11 +61,8 @@ class SliderSensitivities:
 
     def _send(self, state: SessionState) -> None:
         units = UNITS[state.view.units]
-        self._bridge.set(
-            worth={
-                name: sensitivity_row(state.inputs, one, units) for name, one in {**self._twist, **self._flight}.items()
-            }
-        )
+        known = {**self._twist, **self._flight}
+        self._bridge.set(worth={name: sensitivity_row(state.inputs, one, units) for name, one in known.items()})
 
 
 def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dict[str, Any]:
@@ -122,13 +119,8 @@ class PowerCard:
             first = self._tracker.reference == solution.power.total
             self._counted_from, self._before = self._tracker.reference, solution if first else self._last
         self._last = solution
-        self._content = {
-            **_numbers(state, units),
-            **self._change(state, units),
-            "problem": "",
-            "band": "",
-            "status": _status(state),
-        }
+        numbers = {**_numbers(state, units), **self._change(state, units)}
+        self._content = {**numbers, "problem": "", "band": "", "status": _status(state)}
         self._bridge.set(power=self._content)
 
     def show_band(self, words: str) -> None:
@@ -162,11 +154,8 @@ class PowerCard:
         change, before, words = self._tracker.change, self._before, "since grabbed"
         if change is None or before is None:
             if solution.design == reference.design or not reference.converged:
-                return {
-                    "since": None,
-                    "rest": "same as A" if pinned else "as built",
-                    "why": "Drag the twist to change it.",
-                }
+                rest = "same as A" if pinned else "as built"
+                return {"since": None, "rest": rest, "why": "Drag the twist to change it."}
             change, before = solution.power.total - reference.power.total, reference
             words = "vs. A" if pinned else "vs. as built"
         value = units.watts(change, fineness(solution.power), sign=True)
@@ -202,21 +191,15 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
         title = f"{words} power {units.watts(value, digits)}"
         if reference is not None:
             title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
-        parts.append(
-            {
-                "part": name,
-                "name": words.removesuffix(" rotor"),
-                "value": number(unit.of(value), digits),
-                "share": round(value / whole, 5) if whole > 0.0 else 0.0,
-                "title": title,
-            }
-        )
+        share = round(value / whole, 5) if whole > 0.0 else 0.0
+        shown = {"name": words.removesuffix(" rotor"), "value": number(unit.of(value), digits)}
+        parts.append({"part": name, **shown, "share": share, "title": title})
     ideal = ideal_induced(solution)
     return {
         "total": number(unit.of(power.total), digits),
         "unit": unit.symbol,
         "change": apart or BLANK if percent is None else f"{number(percent, 1, sign=True)} %",
-        "kind": "" if percent is None or abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad",
+        "kind": "" if percent is None else _kind(percent, 100.0),
         "against": against(solution.design, state.pinned is not None),
         "parts": parts,
         "ideal": None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
@@ -346,8 +329,7 @@ class ResultsPanel:
 
     def _band_words(self, state: SessionState) -> str:
         """The band of this state as far as it is known."""
-        known = self._band is not None and self._band[0] is state.solution
-        ends = self._band[1] if self._band is not None and known else None
+        ends = self._band[1] if self._band is not None and self._band[0] is state.solution else None
         return readout.drag_band_words(state.solution.design, ends, UNITS[state.view.units])
 
     def _gradient_of(self, solution: Solution) -> PitchGradient | None:
@@ -363,7 +345,5 @@ def _tables(state: SessionState, band: str) -> tuple[str, str]:
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
         return readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
-    return (
-        readout.compared_power_panel(solution, pinned, units, band),
-        readout.compared_trim_panel(solution, pinned),
-    )
+    power = readout.compared_power_panel(solution, pinned, units, band)
+    return power, readout.compared_trim_panel(solution, pinned)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
+from explorer.colours import BASELINE, THIS, colour_map
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import drawn_bending, flown_twist, follows_azimuth
@@ -14,7 +15,6 @@ from explorer.scene.overlays import Strip
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.text.glossary import hint
-from explorer.theme.colours import BASELINE, THIS, colour_map
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.design import TwistLaw

@@ -138,8 +138,7 @@ class StandControls:
     def _solution(self) -> Any:
         """The last solution, if it is of the present rotor."""
         state = self._state()
-        same = state is not None and state.inputs.aircraft == self._inputs().aircraft
-        return state.solution if same and state is not None else None
+        return state.solution if state is not None and state.inputs.aircraft == self._inputs().aircraft else None
 
     def _trim_chosen(self, title: str) -> None:
         trim = key_of(TRIM_TITLES, title)
@@ -153,11 +152,8 @@ class StandControls:
 
     def _load_chosen(self, title: str) -> None:
         load, solution = key_of(LOAD_TITLES, title), self._solution()
-        usual = {
-            "ct_over_sigma": 0.07,
-            "collective_deg": 8.0,
-            "thrust_n": 0.3 * _slider("thrust_n", self._inputs().aircraft).high,
-        }
+        thrust = 0.3 * _slider("thrust_n", self._inputs().aircraft).high
+        usual = {"ct_over_sigma": 0.07, "collective_deg": 8.0, "thrust_n": thrust}
         self._change_stand(load=load, value=usual[load] if solution is None else load_of(solution, load))
 
     def _flapping_chosen(self, title: str) -> None:

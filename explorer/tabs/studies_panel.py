@@ -6,7 +6,6 @@ import os
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import lru_cache, partial
 from html import escape
 from pathlib import Path
@@ -31,18 +30,9 @@ _MOST_FOLDERS = 3000
 """Looked into: a home folder must not hold the page up."""
 
 
-@dataclass(frozen=True)
-class FoundStudy:
-    path: Path
-    title: str
-
-    def label(self, root: Path) -> str:
-        return os.path.relpath(self.path, root)
-
-
-def find_studies(root: Path) -> tuple[FoundStudy, ...]:
-    """Folders that hold a study, at most so deep beneath `root`, which itself may be one; in order of their names."""
-    studies: list[FoundStudy] = []
+def find_studies(root: Path) -> dict[Path, str]:
+    """Folders that hold a study and its title, at most so deep beneath `root`, which itself may be one; by name."""
+    studies: dict[Path, str] = {}
     looked, level = 0, [root]
     for _ in range(_DEPTH + 1):
         below: list[Path] = []
@@ -51,12 +41,12 @@ def find_studies(root: Path) -> tuple[FoundStudy, ...]:
             if looked > _MOST_FOLDERS:
                 break
             if is_file(folder / ABOUT):
-                studies.append(FoundStudy(folder, _title(folder)))
+                studies[folder] = _title(folder)
                 continue  # A study has nothing beneath it.
             with suppress(OSError):
                 below += [one for one in sorted(folder.iterdir()) if one.is_dir() and one.name[0] not in "._"]
         level = below
-    return tuple(sorted(studies, key=lambda one: one.path))
+    return dict(sorted(studies.items()))
 
 
 def open_study(path: Path) -> Results:
@@ -109,11 +99,6 @@ def point_line(results: Results, row: int | None, heading: str) -> str:
     return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
 
 
-def problem_line(sentence: str) -> str:
-    """Why the requested point cannot be shown."""
-    return f'<div class="rx rx-small rx-broken" data-explorer="study-point">{escape(sentence)}</div>'
-
-
 _log = logging.getLogger(__name__)
 
 SCATTER, FRONT = "Scatter", "Hover against cruise"
@@ -136,7 +121,7 @@ class StudiesPanel(Tab):
         self._now: int | None = None
         self._asked = 0
         """Counts what was asked to be opened: what comes late is passed over."""
-        self._studies: dict[str, FoundStudy] = {}
+        self._studies: dict[str, Path] = {}
         self._lock = threading.RLock()
         gui = context.gui
         gui.add_html(f'<div class="rx rx-dim rx-small">{_HINT}</div>')
@@ -167,10 +152,11 @@ class StudiesPanel(Tab):
         threading.Thread(target=self.look, name="studies", daemon=True).start()
 
     def look(self) -> None:
-        shipped = {one.path.resolve(): one for one in find_studies(asset_path("studies"))}
-        own = [one for one in find_studies(self._root) if one.path.resolve() not in shipped]
-        studies = {one.label(self._root): one for one in own}
-        studies |= {f"Shipped: {one.title}": one for one in shipped.values()}
+        shipped = find_studies(asset_path("studies"))
+        known = {folder.resolve() for folder in shipped}
+        own = [folder for folder in find_studies(self._root) if folder.resolve() not in known]
+        studies = {os.path.relpath(folder, self._root): folder for folder in own}
+        studies |= {f"Shipped: {title}": folder for folder, title in shipped.items()}
         self._studies = studies
         kept = self._menu.value if self._menu.value in studies else _NONE
         self._menu.options = (_NONE, *studies)
@@ -207,9 +193,9 @@ class StudiesPanel(Tab):
         self._asked += 1
 
     def _chosen(self, label: str) -> None:
-        study = self._studies.get(label)
-        if study is not None:
-            self.open(lambda: open_study(study.path), study.path.name)
+        folder = self._studies.get(label)
+        if folder is not None:
+            self.open(lambda: open_study(folder), folder.name)
 
     def _uploaded(self, file: viser.UploadedFile) -> None:
         self.open(lambda: read_bounded(file.content, file.name), file.name)
@@ -272,7 +258,8 @@ class StudiesPanel(Tab):
             tell = partial(self._context.notify, share.RETIRED_TITLE)
             inputs = share.within(inputs_of(design_of_row(results, row, tell)))
         except ValueError as error:
-            self._point_row.content = problem_line(str(error))
+            sentence = escape(str(error))
+            self._point_row.content = f'<div class="rx rx-small rx-broken" data-explorer="study-point">{sentence}</div>'
             return
         self._now = row
         self._point_row.content = point_line(results, row, "Applied")

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from explorer.charts import svg
 from explorer.charts.strip import round_ticks
+from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.units import number
-from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from rotor.study.findings import HoverCruisePairs
 from rotor.study.results import Results
 

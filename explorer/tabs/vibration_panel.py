@@ -161,10 +161,8 @@ class VibrationPanel:
     def _draw_chart(self) -> None:
         state = self._state
         if state is not None:
-            loads = self._loads.get(state.solution)
-            index = None if loads is None else loads.index
             held = self._strip.vibration_range()
-            self._strip.show_vibration(index_chart(self._curves, state.solution, state.reference, index, held))
+            self._strip.show_vibration(index_chart(self._curves, state.solution, state.reference, self.index, held))
 
     def _draw_lines(self) -> None:
         """Lines over the hub, and the words in the scene."""
@@ -175,31 +173,19 @@ class VibrationPanel:
         beside = state.view.beside and state.pinned is not None
         if deflections(state.solution) is not None:
             tip = [1.04 * (1.0 - design.rotor.blade.flap_hinge) * design.rotor.radius, 0.0, 0.0]
-            labels.append(
-                {
-                    "text": f"bending × {BENDING_SHOWN:g}",
-                    "node": f"{ROTOR}/blade_0",
-                    "at": tip,
-                    "title": "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large.",
-                }
-            )
+            title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
+            text = f"bending × {BENDING_SHOWN:g}"
+            labels.append({"text": text, "node": f"{ROTOR}/blade_0", "at": tip, "title": title})
         loads = self._loads.get(state.solution)
         if loads is None or beside:
             self._scene.hub_loads.hide()
         else:
             psi, theme = math.radians(state.view.azimuth_deg), scene_theme(state.view.dark)
             lines = self._scene.hub_loads.show(loads, design, psi, theme)
-            labels += [
-                {
-                    "text": words,
-                    "title": sentence,
-                    "node": ROTOR,
-                    "at": lines.places[name],
-                    "kind": name,
-                    **({} if name == "bar" else {"aside": lines.centre}),
-                }
-                for name, (words, sentence) in hub_words(loads, design).items()
-            ]
+            for name, (words, sentence) in hub_words(loads, design).items():
+                aside = {} if name == "bar" else {"aside": lines.centre}
+                place = {"node": ROTOR, "at": lines.places[name], "kind": name, **aside}
+                labels.append({"text": words, "title": sentence, **place})
         self._context.bridge.set(hub_labels=labels)
 
     def _card(self, state: SessionState) -> dict[str, Any] | None:

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator, Sequence
 from html import escape
 
+from explorer.colours import PARTS
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI, UNITS, Units, number
 from explorer.tabs.context import Tab, TabContext
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.theme.colours import PARTS
 from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.study.series import WaterfallStep, waterfall_steps
@@ -60,19 +60,16 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
     bar = "" if step.note else _rect(left, y + 2, width, colour)
     link = f'<line x1="{before:.1f}" x2="{before:.1f}" y1="{y - 12:.1f}" y2="{y + 13:.1f}" class="rx-w-link"/>'
     title = f"<title>{escape(_spoken(step, units))}</title>"
-    beneath = _note(step.note, y) if step.note else _patches(change, y, units)
+    beneath = _patches(change, y, units)
+    if step.note:  # From the bars on; one too long for that ends at the right edge.
+        long = len(step.note) > _LONG_NOTE
+        place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
+        beneath = _words(place, y + 24, step.note, look)
     shown = number(unit.of(added), 1, sign=True)
     return (
         f"<g>{title}{link}{_words(0, y + 11, step.title)}{bar}"
         f"{_words(WIDTH, y + 11, shown, 'rx-w-number')}{beneath}</g>"
     )
-
-
-def _note(note: str, y: float) -> str:
-    """A note below its row, from the bars on; one too long for that ends at the right edge."""
-    if len(note) > _LONG_NOTE:
-        return _words(WIDTH, y + 24, note, "rx-w-note rx-w-number")
-    return _words(_BAR_LEFT, y + 24, note, "rx-w-note")
 
 
 def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> str:
@@ -215,9 +212,8 @@ class WaterfallPanel(Tab):
         climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
         self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
         self._chart.content, self._table.content = self._drawn
-        self._controls.show_costs(
-            {step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None}
-        )
+        costs = {step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None}
+        self._controls.show_costs(costs)
 
     def _fade(self) -> None:
         self._chart.content, self._table.content = map(readout.faded, self._drawn)

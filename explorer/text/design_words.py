@@ -72,17 +72,13 @@ def wave_words(design: Design) -> str:
 
 def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> str:
     """Harmonics of active twist and root pitch."""
+
+    def words(one: Harmonic) -> str:
+        amplitude, phase = number(math.degrees(one.amplitude), 2), math.degrees(one.phase)
+        return f"{amplitude}° at {one.per_rev}/rev (phase {phase:.0f}°)"
+
     kinds = (("active twist", twist), ("root pitch", pitch))
-    return " and ".join(f"{kind} of {_harmonics(waves)}" for kind, waves in kinds if waves)
-
-
-def _harmonics(waves: tuple[Harmonic, ...]) -> str:
-    return _joined(
-        [
-            f"{number(math.degrees(one.amplitude), 2)}° at {one.per_rev}/rev (phase {math.degrees(one.phase):.0f}°)"
-            for one in waves
-        ]
-    )
+    return " and ".join(f"{kind} of {_joined([words(one) for one in waves])}" for kind, waves in kinds if waves)
 
 
 def title_words(design: Design) -> str:
@@ -180,8 +176,7 @@ def pinned_name(pinned: Pinned) -> str:
 
 def _degrees(angle: float) -> str:
     """With one decimal, left out where it is zero."""
-    text = number(math.degrees(angle), 1)
-    return text.removesuffix(".0")
+    return number(math.degrees(angle), 1).removesuffix(".0")
 
 
 def _joined(parts: list[str]) -> str:

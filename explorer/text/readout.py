@@ -1,4 +1,7 @@
-"""Power and trim of a solution, or of A and B with their differences, as HTML in the units of the page."""
+"""Power and trim of a solution, or of A and B with their differences, as HTML in the units of the page.
+
+Below it, what an actuator saves and costs in words: one place for card, rail and report.
+"""
 
 import math
 from collections.abc import Callable
@@ -6,11 +9,12 @@ from html import escape
 
 import numpy as np
 
+from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
 from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
-from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor import Design, PowerBudget, Solution
+from rotor.actuator import Verdict
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
@@ -330,3 +334,31 @@ def _compared_row(
 def _cells(title: str, values: tuple[str, ...], kind: str = "", tooltip: str = "") -> str:
     cells = "".join(f'<td class="rx-num">{value}</td>' for value in values)
     return f'<tr class="{kind}"{tooltip}><td>{title}</td>{cells}</tr>'
+
+
+def signed(power: float, units: Units) -> str:
+    """A saving [W] in the main unit, with one decimal."""
+    return number(units.power[0].of(power), 1, sign=True)
+
+
+def balance(verdict: Verdict) -> list[tuple[str, float]]:
+    """Name and saving [W] of each part, and of what is left."""
+    parts = [(name if not k else f"− {name}", power) for k, (name, power) in enumerate(verdict.savings)]
+    return [*parts, ("= net", verdict.net_saving)]
+
+
+def fuel_used(verdict: Verdict) -> float | None:
+    """More fuel than without the actuator [kg/h]; None where the engines have no source."""
+    return None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
+
+
+def fuel_words(verdict: Verdict) -> str:
+    """That in words."""
+    used = fuel_used(verdict)
+    return "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour"
+
+
+def pair_words(verdict: Verdict) -> str:
+    """The two flight conditions of a verdict."""
+    first, second = verdict.baseline.pair.advance_ratios
+    return f"mean of µ {first:g} and µ {second:g}"

@@ -41,12 +41,8 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
     )
     detail = f"Force residual < {tiny(solution.residual)} <i>W</i>, {solution.passes} iterations."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
-    return _status("converged", text + caveats + _measurement(solution) + provenance(solution))
-
-
-def _measurement(solution: Solution) -> str:
-    """How well this rotor is validated in this region."""
-    return f'<div class="rx-small" data-explorer="measurement">{escape(validated(solution).sentence)}</div>'
+    measured = f'<div class="rx-small" data-explorer="measurement">{escape(validated(solution).sentence)}</div>'
+    return _status("converged", text + caveats + measured + provenance(solution))
 
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
@@ -195,7 +191,7 @@ def validated(solution: Solution) -> ValidationRecord:
             note += f" It was measured in {'forward flight' if design.hovering else 'hover'} only."
         return ValidationRecord("no test data at this condition", note)
     measured = nearest(alike, solution)
-    row = row_of(measured, _inflow(solution))
+    row = row_of(measured, design.models.hover_inflow if design.hovering else design.models.inflow)
     report = f"{measured.title}, {measured.report}"
     if row is None:
         words = f"Not compared with this inflow model. Measured: {report}."
@@ -208,7 +204,8 @@ def validated(solution: Solution) -> ValidationRecord:
         parts.append("Measured with the twist as built; no measurement of this twist is known.")
     if design.pitch_per_rev:
         parts.append("Measured with collective and cyclic alone.")
-    words = f"measured: {_short(row, measured)}" if not outside else "outside the test range"
+    size, error = "within" if measured.name == _DIGITISED else "rms", 0.0 if row.error is None else abs(row.error)
+    words = "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
     sentence = typographic(" ".join(part for part in parts if part))
     return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)
 
@@ -231,8 +228,8 @@ def _flown(solution: Solution) -> ValidationRecord | None:
         return ValidationRecord(words, f"Main rotor {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:
         report = REPORTS[cases[0].test]
-        return ValidationRecord("airloads measured", f"Its power was not measured; its airloads were: {report}.{blade}"
-                                f"{airloads}")  # fmt: skip
+        sentence = f"Its power was not measured; its airloads were: {report}.{blade}{airloads}"
+        return ValidationRecord("airloads measured", sentence)
     return None
 
 
@@ -273,17 +270,6 @@ def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     if measured.name == _DIGITISED:
         return rows[0] if inflow == "annulus" else None
     return next((row for row in rows if row.what.endswith(f", inflow {inflow}")), None)
-
-
-def _short(row: TrustRow, measured: MeasuredSet) -> str:
-    error = 0.0 if row.error is None else 100.0 * abs(row.error)
-    size = "within" if measured.name == _DIGITISED else "rms"
-    return f"{size} {number(error, 1)} %"
-
-
-def _inflow(solution: Solution) -> str:
-    models = solution.design.models
-    return models.hover_inflow if solution.design.hovering else models.inflow
 
 
 _SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ"}

@@ -5,7 +5,6 @@ model or the rotor. Then come the parts of power that changed most, and stall or
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,30 +24,17 @@ _DIVERGENCE = 0.1
 """∂C_d/∂M at drag divergence."""
 
 
-@dataclass(frozen=True)
-class LiftCentroid:
-    """Where the rotor's lift is: centroids of dC_T/dr over the disk, all dimensionless."""
+def lift_centroid(solution: Solution) -> tuple[float, float]:
+    """Centroid of the lift over the disk: mean r/R, and mean sin ψ, positive towards the advancing side.
 
-    radial: float
-    """Mean r/R."""
-    lateral: float
-    """Mean sin ψ, positive towards the advancing side."""
-    longitudinal: float
-    """Mean cos ψ, positive towards the tail."""
-
-
-def lift_centroid(solution: Solution) -> LiftCentroid:
-    """Centroid of the lift over the disk; ValueError where the rotor does not lift."""
+    ValueError where the rotor does not lift.
+    """
     disk = solution.disk
     lift = disk.dr[:, None] * disk.dct
     total = float(lift.sum())
     if not total > 0.0:
         raise ValueError("the rotor carries no lift: its centroid is not defined")
-    return LiftCentroid(
-        radial=float((lift * disk.r[:, None]).sum()) / total,
-        lateral=float((lift * np.sin(disk.psi)).sum()) / total,
-        longitudinal=float((lift * np.cos(disk.psi)).sum()) / total,
-    )
+    return float((lift * disk.r[:, None]).sum()) / total, float((lift * np.sin(disk.psi)).sum()) / total
 
 
 def why(before: Solution, after: Solution, units: Units = SI) -> str:
@@ -68,8 +54,7 @@ def why(before: Solution, after: Solution, units: Units = SI) -> str:
 
 def lift_movement(before: Solution, after: Solution) -> str:
     """Where the lift moved, for example `Lift moved inboard`; `Lift hardly moved` below 0.0003 R."""
-    a, b = lift_centroid(before), lift_centroid(after)
-    outboard, across = b.radial - a.radial, b.lateral - a.lateral
+    outboard, across = (new - old for old, new in zip(lift_centroid(before), lift_centroid(after), strict=True))
     places: list[str] = []
     if abs(outboard) >= max(_MOVED, 0.5 * abs(across)):
         places.append("outboard" if outboard > 0.0 else "inboard")
@@ -102,11 +87,11 @@ def _cause(before: Solution, after: Solution) -> str:
 
 
 def _rotor_causes(a: Design, b: Design) -> list[str]:
-    if a.rotor != b.rotor:
-        if a.rotor.blade.spans != b.rotor.blade.spans:
-            return ["other blade sections"]
-        return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "another blade"]
-    return []
+    if a.rotor == b.rotor:
+        return []
+    if a.rotor.blade.spans != b.rotor.blade.spans:
+        return ["other blade sections"]
+    return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "another blade"]
 
 
 def _model_causes(a: Design, b: Design) -> list[str]:
@@ -136,7 +121,8 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         way = "faster" if new.advance_ratio > old.advance_ratio else "slower"
         causes.append("hover" if b.hovering else f"{way} (µ {new.advance_ratio:g})")
     if old.stand != new.stand:
-        causes.append(_test_cause(b) if old.stand is None or new.stand is None else "another test")
+        began = "flight instead of a test" if new.stand is None else "the rotor alone, on a test stand"
+        causes.append(began if old.stand is None or new.stand is None else "another test")
         return causes
     if old.climb_speed != new.climb_speed:
         causes.append(SI.climb_rate(new.climb_speed) or "level flight")
@@ -147,10 +133,6 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         percent = 100.0 * (new.density / old.density - 1.0)
         causes.append(f"{'denser' if percent > 0.0 else 'thinner'} air ({number(percent, _digits(percent), True)} %)")
     return causes
-
-
-def _test_cause(design: Design) -> str:
-    return "flight instead of a test" if design.condition.stand is None else "the rotor alone, on a test stand"
 
 
 def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]:
@@ -175,7 +157,7 @@ def _reason(before: Solution, after: Solution) -> str:
 
 
 def _stall(before: Solution, after: Solution) -> str:
-    a, b = (_stalled(one) for one in (before, after))
+    a, b = before.disk.stalled, after.disk.stalled
     place = _place(after, a, b)
     area = _area_change(100.0 * before.stalled_area, 100.0 * after.stalled_area, 0.5)
     if not area:
@@ -216,10 +198,6 @@ def _area_change(a: float, b: float, least: float) -> tuple[str, str] | None:
     if abs(b - a) < max(least, 0.2 * max(a, b)):
         return None
     return "grew" if b > a else "shrank", amount
-
-
-def _stalled(solution: Solution) -> Booleans:
-    return solution.disk.stalled
 
 
 def _divergent(solution: Solution) -> Booleans:

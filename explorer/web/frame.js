@@ -64,7 +64,9 @@
   document.addEventListener('click', event => {
     const near = event.target instanceof Element && event.target.closest('[data-do], [data-page]');
     const menu = part('menu');
-    if (!menu.hidden && !(event.target instanceof Element && event.target.closest('[data-part=menu]')) && near?.dataset.do !== 'pin') menu.hidden = true;
+    // A notification that closes by itself does so by a click on its button, below: nobody has pressed beside the menu.
+    const inside = event.target instanceof Element && event.target.closest('[data-part=menu], .mantine-Notification-root');
+    if (!menu.hidden && !inside && near?.dataset.do !== 'pin') menu.hidden = true;
     if (!near || near.disabled || near.matches('select, input[type=range]')) return;
     if (near.dataset.page) return toggle(near.dataset.page);
     if (near.dataset.do === 'pin' && state.bar?.pinned && near.closest('.rxf-bar')) return pinMenu(near);

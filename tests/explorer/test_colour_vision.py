@@ -9,8 +9,8 @@ import itertools
 import numpy as np
 import pytest
 
+from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from explorer.tabs.probe.probe_drawing import ALPHA, DRAG, LIFT
-from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from rotor.arrays import Array
 
 EYES = {

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState
-from explorer.picture.blade_mesh import PAGE, blade_shape, blade_vertices, drawn_pitch, inset
+from explorer.picture.blade_mesh import PAGE, drawn_pitch, inset
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS, fitted_range
 from explorer.picture.picture import field_values, make_picture, turned_blades
@@ -51,18 +51,9 @@ class TestFlownTwist:
             pitch = c.collective + c.cyclic_1c * math.cos(psi) + c.cyclic_1s * math.sin(psi)
             assert_allclose(pitch + flown_twist(fast, psi)(disk.r), disk.theta[:, k], atol=1e-12)
 
-    def test_between_two_azimuths_it_lies_between_them(self, fast: Solution):
-        step = float(fast.disk.psi[1] - fast.disk.psi[0])
-        first, middle, last = (float(flown_twist(fast, psi)([1.0])[0]) for psi in (0.0, 0.5 * step, step))
-        assert middle == pytest.approx(0.5 * (first + last))
-        assert float(flown_twist(fast, 2.0 * math.pi)([1.0])[0]) == pytest.approx(first)
-
-    def test_a_rigid_blade_flies_its_jig_twist(self, rigid: Solution):
-        assert flown_twist(rigid, 1.0) == rigid.design.twist
-        assert not follows_azimuth(rigid)
-
     def test_in_hover_it_is_the_same_at_every_azimuth(self, hover: Solution):
         assert not follows_azimuth(hover)
+        assert turned_blades(hover, VIEW).shapes == ()  # One does for all.
         assert_allclose(flown_twist(hover, 0.3)(hover.disk.r), flown_twist(hover, 4.0)(hover.disk.r), atol=1e-15)
         assert float(flown_twist(hover, 0.0)([1.0])[0]) < float(hover.design.twist([1.0])[0]) - math.radians(1.0)
 
@@ -93,22 +84,14 @@ class TestBlades:
         assert_allclose(moving.blade_vertices, still.shapes[0])
         assert len(still.shapes) == 4
 
-    def test_one_shape_does_for_all_in_hover(self, hover: Solution):
-        assert turned_blades(hover, VIEW).shapes == ()
-        picture = make_picture(hover, VIEW, (-4.0, 10.0))
-        shape = blade_shape(hover.design.rotor)
-        assert_allclose(picture.blade_vertices, blade_vertices(shape, flown_twist(hover, 0.0), VIEW.exaggeration))
 
-
-class TestGhost:
-    def test_another_blade_differs_by_its_jig_twist_alone(self, fast: Solution):
+class TestInset:
+    def test_the_ghost_differs_by_its_jig_twist_alone(self, fast: Solution):
         other, r = LinearTwist(-0.1), np.linspace(0.2, 1.0, 9)
         ghost = ghost_twist(fast, other, 1.0)
         assert ghost is not None
         assert_allclose(flown_twist(fast, 1.0)(r) - ghost(r), fast.design.twist(r) - other(r), atol=1e-15)
 
-
-class TestInset:
     def test_it_holds_the_flown_angles_and_those_at_three_quarters(self, fast: Solution):
         twist = flown_twist(fast, 1.0)
         made = inset(fast.design.rotor, twist, fast.design.twist, 4.0)
@@ -142,11 +125,14 @@ class TestField:
         assert fast.elastic is not None
         assert np.abs(values).max() == pytest.approx(math.degrees(np.abs(fast.elastic.tip).max()), abs=0.15)
 
-    def test_a_rigid_blade_leaves_the_disk_empty(self, rigid: Solution):
+    def test_a_rigid_blade_has_none(self, rigid: Solution):
         grid = polar_grid(rigid.disk, 40, 120)
         void = FIELD.void(rigid, grid)
         assert void is not None
         assert void.all()
+        assert flown_twist(rigid, 1.0) == rigid.design.twist
+        assert probe(rigid, 0.8, 1.0).elastic is None
+        assert "rigid" in trim_panel(rigid)
         assert np.isfinite(FIELD.sample(rigid, grid)).all()
         assert fitted_range(FIELD, field_values(rigid, FIELD)) == (FIELD.low, FIELD.high)
 
@@ -157,10 +143,6 @@ class TestNumbers:
         here = probe(fast, 0.8, psi)
         assert here.elastic is not None
         assert here.theta == pytest.approx(c.collective + c.cyclic_1s + here.jig + here.elastic, abs=2e-4)
-
-    def test_a_rigid_blade_has_no_elastic_twist(self, rigid: Solution):
-        assert probe(rigid, 0.8, 1.0).elastic is None
-        assert "rigid" in trim_panel(rigid)
 
     def test_the_trim_lists_tip_twist_and_pitch_link_load(self, fast: Solution):
         elastic = fast.elastic

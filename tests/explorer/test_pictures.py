@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
+from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, apart, fit
@@ -16,7 +17,6 @@ from explorer.picture.fields import FIELDS, filled, reverse_flow
 from explorer.picture.picture import DISK_DROP, disk_png, make_picture
 from explorer.picture.polar import PolarGrid, polar_grid, refined
 from explorer.picture.poses import about, blade_pose, compose, rotate, tip_path_pose
-from explorer.theme.colours import VOID, colour_map
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

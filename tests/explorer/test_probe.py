@@ -65,7 +65,7 @@ def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
             assert (p.region is FlowRegion.STALLED) == (disk.stall_margin[i, j] < 0.0)
 
 
-@pytest.mark.parametrize("solution", ["fast, on its own grid", "thesis"], indirect=True)
+@pytest.mark.parametrize("solution", ["hover", "fast, on its own grid", "thesis"], indirect=True)
 def test_its_loads_add_up_to_the_trim(solution: Solution):
     """Σ over stations of N_b dT = C_T ρA(ΩR)², and of the power likewise, whatever the loss factor took."""
     design, disk = solution.design, solution.disk
@@ -79,19 +79,11 @@ def test_its_loads_add_up_to_the_trim(solution: Solution):
     assert_allclose(torque * rotor.angular_speed, shaft, rtol=1e-12)
 
 
-def test_thrust_of_the_annuli_is_the_weight_of_hover():
-    """Outside the code: in hover the shaft stands upright, so the thrust is m g and 3.5 % of download."""
-    solution = solve(CASES["hover"]).require()
-    disk, rotor = solution.disk, solution.design.rotor
-    mean = np.array([probe(solution, float(r), 1.0).thrust for r in disk.r])
-    lifted = rotor.blades * (disk.dr @ mean) * rotor.radius
-    assert_allclose(lifted, 1.035 * solution.design.condition.weight, rtol=1e-6)
-
-
 @given(r=st.floats(0.14, 1.0), psi=st.floats(-7.0, 14.0))
 def test_the_triangle_closes_anywhere(r: float, psi: float, fast: Solution):
     root = fast.design.rotor.blade.root_cutout
     p = probe(fast, max(r, root), psi)
+    assert probe(fast, p.r, psi + math.tau).alpha == pytest.approx(p.alpha, abs=1e-9)
     assert_allclose(p.u**2, p.u_t**2 + p.u_p**2, rtol=1e-12)
     assert -math.pi < p.alpha <= math.pi
     assert_allclose(math.remainder(p.theta - p.phi - p.alpha, math.tau), 0.0, atol=1e-12)
@@ -102,20 +94,18 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, fast: Solution):
     assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, p.m2cn, *p.stall))
 
 
-def test_lift_and_drag_are_the_coefficients_times_the_pressure(fast: Solution):
-    """q c C_l and q c C_d by hand; the lifting line takes no loss factor off. Radial friction would add to both."""
+def test_loads_are_the_coefficients_times_the_pressure(fast: Solution):
+    """q c C_l, q c C_d and q c² C_m by hand; the lifting line takes no loss factor off. Radial friction would add."""
     fast = solve(with_switches(fast.design, ("radial_friction",)), fast).require()
     disk, density = fast.disk, fast.design.condition.density
     for i, j in stations(fast):
         p = probe(fast, float(disk.r[i]), float(disk.psi[j]))
         pressure = 0.5 * density * p.u**2 * p.chord
         assert_allclose((p.lift, p.drag), (pressure * p.cl, pressure * p.cd), rtol=1e-9, atol=1e-9)
-
-
-def test_it_is_periodic_and_smooth_across_the_tail(fast: Solution):
-    before, after = probe(fast, 0.7, math.tau - 1e-6), probe(fast, 0.7, 1e-6)
-    assert_allclose(before.alpha, after.alpha, atol=1e-5)
-    assert probe(fast, 0.7, 0.3 + math.tau).alpha == pytest.approx(probe(fast, 0.7, 0.3).alpha, abs=1e-12)
+        assert p.cm is not None
+        assert p.moment == pytest.approx(pressure * p.chord * p.cm, rel=1e-12)
+    thesis = solve(CASES["thesis"]).require()
+    assert probe(thesis, 0.75, 1.0).moment is None  # The document's polar has no moment.
 
 
 def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
@@ -146,7 +136,7 @@ class TestPick:
         return rotate(shaft.wxyz, inside)
 
     @given(
-        r=st.floats(0.15, 0.999),
+        r=st.floats(0.15, 1.01),  # The rim is not missed by a pixel.
         psi=st.floats(0.0, 6.28),
         eye=st.tuples(st.floats(-30, 30), st.floats(-30, 30), st.floats(6, 60)),
         stretch=st.floats(0.01, 100.0),
@@ -156,7 +146,7 @@ class TestPick:
         point = self.on_disk(fast, r, psi)
         found = pick(fast, eye, stretch * (point - np.array(eye)))
         assert found is not None
-        assert_allclose(found[0], r, atol=1e-9)
+        assert_allclose(found[0], min(r, 1.0), atol=1e-9)
         assert_allclose(math.remainder(found[1] - psi, math.tau), 0.0, atol=1e-9)
 
     def test_beside_the_disk_behind_and_edge_on_there_is_nothing(self, fast: Solution):
@@ -166,12 +156,6 @@ class TestPick:
         assert pick(fast, above, (0.0, 0.0, 1.0)) is None
         normal = rotate(compose(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0])
         assert pick(fast, above, normal) is None
-
-    def test_the_rim_is_not_missed_by_a_pixel(self, fast: Solution):
-        above = np.array([0.0, 0.0, 30.0])
-        found = pick(fast, above, self.on_disk(fast, 1.01, 2.0) - above)
-        assert found is not None
-        assert found[0] == 1.0
 
 
 def numbers_of(text: str) -> list[float]:
@@ -212,6 +196,7 @@ class TestDrawing:
         p = probe(fast, 0.75, math.radians(270.0))
         drawn, scales = drawing(p, 300.0, 8e3)
         assert scales.angles == 1
+        assert "angles ×3" in probe_panel(probe(fast, 0.75, math.radians(90.0)), fast, opened=True)
         shape = np.array(numbers_of(re.findall(r'points="([^"]*)"', drawn)[0])).reshape(-1, 2)
         assert len(shape) == 61  # The outline is the first polygon.
         nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
@@ -232,24 +217,6 @@ class TestDrawing:
         assert "reverse flow" in panel
         assert "retreating side" in panel
 
-    def test_opened_angles_say_so(self, fast: Solution):
-        p = probe(fast, 0.75, math.radians(90.0))
-        _, scales = drawing(p, 300.0, 8e3, opened=True)
-        assert scales.angles == 3
-        assert "angles ×3" in probe_panel(p, fast, opened=True)
-        assert "angles" not in probe_panel(p, fast)
-
-    def test_the_table_says_what_the_probe_holds(self, fast: Solution):
-        p = probe(fast, 0.75, math.radians(90.0))
-        text = re.sub(r"<[^>]*>", " ", probe_panel(p, fast)).replace("−", "-")
-        for value in (f"{p.u_t:.1f} m/s", f"{p.mach:.3f}", f"{p.cl:.3f}", f"{p.cd:.4f}", f"{p.power / 1e3:.1f} kW/m"):
-            assert value in text
-
-    def test_every_line_explains_itself(self, fast: Solution):
-        panel = probe_panel(probe(fast, 0.75, 1.0), fast)
-        grid = panel.split('<div class="rx-grid">')[1].split("</div></div>")[0]
-        assert grid.count('<div class="rx-line"') == grid.count("title=") == 20
-
     def test_public_data_stand_beside_the_section(self, fast: Solution):
         """RANS of SC1095 at Mach 0.5, 4 deg: C_l 0.631, C_d 0.0101, C_m −0.015; ours at the same point beneath it."""
         p = replace(probe(fast, 0.9, math.radians(90.0)), table_mach=0.49, alpha=math.radians(4.2))
@@ -265,14 +232,6 @@ class TestDrawing:
         assert lift_curve(p).count("<title>") == 7 + 3 + 4  # Points of Mach 0.45 and 0.5 between −15° and 20°.
         far = replace(p, alpha=math.radians(60.0))
         assert public_table(far) == ""
-
-    def test_moment_is_the_coefficient_times_the_pressure(self, fast: Solution):
-        p = probe(fast, 0.75, math.radians(90.0))
-        assert p.cm is not None
-        expected = 0.5 * fast.design.condition.density * p.u**2 * p.chord**2 * p.cm
-        assert p.moment == pytest.approx(expected, rel=1e-12)
-        thesis = solve(make_design(preset="thesis", mu=0.2)).require()
-        assert probe(thesis, 0.75, 1.0).moment is None  # The document's polar has no moment.
 
     def test_the_point_lies_on_the_lift_curve(self, fast: Solution):
         """At a station exactly; between two as near as the stations are."""
@@ -318,8 +277,5 @@ class TestDynamicStall:
         words = probe_panel(p, stalled)
         assert "Separation" in words
         assert "Vortex" in words
-
-    def test_steady_sections_have_none_of_it(self, fast: Solution):
-        p = probe(fast, 0.6, 1.0)
-        assert p.unsteady is None
-        assert "a turn" not in lift_curve(p)
+        steady = solve(replace(stalled.design, models=replace(stalled.design.models, dynamic_stall=False)))
+        assert "a turn" not in lift_curve(probe(steady, 0.6, 1.0))

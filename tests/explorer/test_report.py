@@ -15,8 +15,7 @@ import pytest
 from PIL import Image
 
 from explorer import __main__ as command
-from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
 from explorer.export.disk_drawing import disk_svg, key_entries
 from explorer.export.provenance import versions
 from explorer.export.report import document

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from explorer import session as session_module
-from explorer.charts import power_curve
+from explorer.charts import plots
 from explorer.hosting.browser import PageFacts
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Failure, Reading, SessionState
@@ -68,9 +68,9 @@ class RecordingPage:
 def session(monkeypatch: pytest.MonkeyPatch) -> Session:
     """Its worker does not run: a test calls `_update` itself. Its power curves have four points."""
     monkeypatch.setattr(session_module, "Page", RecordingPage)
-    monkeypatch.setattr(power_curve, "SWEEP", power_curve.SWEEP[::6])
-    monkeypatch.setattr(power_curve, "_FEW", (0, 1, 2, 3))
-    monkeypatch.setattr(power_curve, "_FEWEST", (0, 1, 2, 3))
+    monkeypatch.setattr(plots, "SWEEP", plots.SWEEP[::6])
+    monkeypatch.setattr(plots, "_FEW", (0, 1, 2, 3))
+    monkeypatch.setattr(plots, "_FEWEST", (0, 1, 2, 3))
     client: Any = SimpleNamespace(client_id=1)
     made = Session(client, Inputs(), PageFacts(), shared=SimpleNamespace())  # pyright: ignore[reportArgumentType]
     made._worker = NewestWins(made._update, made._failed, UpdatePool(0))

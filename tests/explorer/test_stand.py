@@ -31,10 +31,6 @@ def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: 
     assert with_rotor(inputs, "uh60a").stand is None
 
 
-def test_a_link_from_before_the_test_stand_is_in_flight():
-    assert inputs_from("1;segments:-14,-8@0.5;mu=0.25;mass=9000").stand is None
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -64,12 +60,6 @@ def test_the_wind_tunnel_begins_with_what_the_flight_had():
     assert held.ct_over_sigma == pytest.approx(stand.value, rel=5e-3)
 
 
-def test_given_controls_need_a_collective_and_free_blades():
-    stand = StandInputs().with_trim("controls", 7.5)
-    assert (stand.load, stand.value, stand.flapping) == ("collective_deg", 7.5, "free")
-    assert Inputs(stand=stand).design().models.trim == "controls"
-
-
 def test_a_flies_along_into_a_test_and_back():
     flight, tested = solve(OPENING.design()), solve(replace(OPENING, stand=StandInputs()).design())
     assert Pinned(OPENING, flight).design(tested.design).models.trim == "wind-tunnel"
@@ -94,6 +84,8 @@ class TestWidgets:
         panel._load_chosen(LOAD_TITLES["collective_deg"])
         panel._slid("collective_deg", 6.5)
         assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
+        panel._trim_chosen(TRIM_TITLES["controls"])
+        assert controls.inputs().stand == StandInputs("controls", "collective_deg", 6.5, flapping="free")
         panel._trim_chosen(TRIM_TITLES["flight"])
         assert controls.inputs().stand is None
         assert not panel._test.visible
@@ -111,6 +103,7 @@ class TestWidgets:
 
 def test_the_chart_has_every_point_its_scatter_and_our_error():
     solution, chart = solve(FORWARD.design()), MeasuredChart()
+    assert chart.chart(solve(OPENING.design())) is None
     before = chart.chart(solution)
     assert before is not None
     assert len(before.marks) == 4
@@ -127,11 +120,6 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     ours = dict(zip(after.lines[0].x, after.lines[0].y, strict=True))
     assert ours[FORWARD.advance_ratio] == pytest.approx(after.dots[0].y, rel=1e-5)
     assert "ours 6.0" in after.marks[0].words
-
-
-def test_no_points_are_drawn_in_flight_or_for_a_rotor_that_was_not_measured():
-    assert MeasuredChart().chart(solve(OPENING.design())) is None
-    assert MeasuredChart().chart(solve(with_rotor(OPENING, "r22").design())) is None
 
 
 @pytest.mark.parametrize("name", [name for name in SETS if load_set(name).against is None])

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.charts import plots
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.charts.strip import autorotation_words
 from explorer.model.inputs import Inputs, baseline_of, baseline_title, inputs_of
 from explorer.model.units import number
@@ -19,9 +19,12 @@ from explorer.text.status import provenance, status_panel
 from explorer.text.why import why
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.design.design import Design
+from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
+
+LINEAR = Inputs(law="linear", linear=-8.0).design()
 
 
 class TestInputs:
@@ -50,15 +53,18 @@ class TestInputs:
 
 
 class TestReadout:
-    def test_numbers(self):
-        assert number(1234.4) == "1\u2009234"
-        assert number(-2.346, 2) == "−2.35"
-        assert number(3.0, 1, sign=True) == "+3.0"
-        assert number(-0.004, 1, sign=True) == "0.0"
-
-    @pytest.mark.parametrize("value", [None, math.nan, math.inf, -math.inf])
-    def test_what_is_no_number_is_a_dash(self, value: float | None):
-        assert number(value) == "–"
+    @pytest.mark.parametrize(
+        ("value", "digits", "signed", "text"),
+        [
+            (1234.4, 0, False, "1\u2009234"),
+            (-2.346, 2, False, "−2.35"),
+            (3.0, 1, True, "+3.0"),
+            (-0.004, 1, True, "0.0"),
+            *((value, 0, False, "–") for value in (None, math.nan, math.inf, -math.inf)),
+        ],
+    )
+    def test_numbers(self, value: float | None, digits: int, signed: bool, text: str):
+        assert number(value, digits, sign=signed) == text
 
     def test_power_and_its_parts(self, cruise: Solution):
         html = readout.power_panel(cruise, cruise)
@@ -76,10 +82,6 @@ class TestReadout:
         assert "+10.0 %" in readout.power_panel(dearer, cruise)
         assert re.search(r"−9\.1 %", readout.power_panel(cruise, dearer))
 
-    def test_no_change_against_a_baseline_that_did_not_trim(self, cruise: Solution):
-        lost = replace(cruise, status=Status.NOT_CONVERGED)
-        assert 'data-explorer="change"' not in readout.power_panel(cruise, lost)
-
     def test_hover_has_a_figure_of_merit_and_flight_a_lift_to_drag(self, cruise: Solution):
         hover = solve(make_design(mu=0.0))
         assert "Figure of merit" in readout.trim_panel(hover)
@@ -87,25 +89,16 @@ class TestReadout:
         ideal = hover.ct**1.5 / math.sqrt(2.0)  # over ρA(ΩR)³, eq. (2.10)
         assert f"{ideal / hover.cp:.3f}" in readout.trim_panel(hover)
 
-    def test_status_says_every_caveat_and_escapes(self, cruise: Solution):
-        noted = replace(cruise, caveats=(Caveat("a", "Read <this> with care."), Caveat("b", "And that.")))
-        html = status_panel(noted)
-        assert "Read &lt;this&gt; with care." in html
-        assert "And that." in html
-        assert 'data-kind="converged"' in html
-
-    def test_not_converged_is_a_red_sentence(self, cruise: Solution):
+    def test_not_converged_is_a_red_sentence_and_no_change(self, cruise: Solution):
         lost = replace(cruise, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
+        assert 'data-explorer="change"' not in readout.power_panel(cruise, lost)
         html = status_panel(lost)
         assert 'data-kind="problem"' in html
         assert "Not trimmed: too heavy. Greyed: last converged solution" in html
         assert "choose less. Greyed" in status_panel(None, "too much: choose less")
-
-    def test_provenance_names_preset_inflow_sections_and_kind(self, cruise: Solution):
-        html = provenance(cruise)
-        for words in ("flight", "SC1095 / SC1094 R8", "24 × 24", "not a measurement"):
-            assert words in html
-        assert "annulus balance" in provenance(solve(make_design(mu=0.0)))
+        noted = status_panel(replace(cruise, caveats=(Caveat("a", "Read <this> with care."),)))
+        assert "Read &lt;this&gt; with care." in noted
+        assert 'data-kind="converged"' in noted
 
     def test_nothing_that_is_no_number_reaches_the_screen(self, cruise: Solution):
         broken = replace(
@@ -148,21 +141,10 @@ class TestPlots:
         assert np.isnan(upper[r < 0.3]).all()
         assert np.isfinite(plots.angles_along(solution, 90.0)[2]).all()
 
-    def test_azimuth_closes(self, cruise: Solution):
-        for first, last in zip(*(plots.angles_along(cruise, psi) for psi in (0.0, 360.0)), strict=True):
-            assert_allclose(first, last, rtol=1e-12)
-
-    def test_stall_limit_lies_above_an_unstalled_blade(self, cruise: Solution):
-        r, (lower, upper, alpha) = cruise.disk.r, plots.angles_along(cruise, 60.0)
-        assert (upper > alpha).all()
-        assert (lower < alpha).all()
-        assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
-
 
 class TestPowerCurves:
     def test_sweep_matches_single_solves(self):
-        design = Inputs(law="linear", linear=-8.0).design()
-        curves = PowerCurves()
+        design, curves = LINEAR, PowerCurves()
         assert np.isnan(curves.known(design, baseline_of(design)).design).all()
         assert curves.sweep(design, baseline_of(design), lambda: False)
         k = plots.SWEEP.index(0.2)
@@ -178,14 +160,6 @@ class TestPowerCurves:
         known = np.isfinite(curves.known(design, design).design)
         assert known.tolist() == [mu == 0.0 or mu >= 0.075 for mu in plots.SWEEP]
 
-    @pytest.mark.slow
-    def test_speed_does_not_make_a_new_curve(self):
-        design = Inputs(advance_ratio=0.2).design()
-        curves = PowerCurves()
-        curves.sweep(design, baseline_of(design), lambda: False)
-        faster = Inputs(advance_ratio=0.3).design()
-        assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
-
     def test_a_descent_has_its_curve_beyond_the_vortex_ring_state(self):
         design = Inputs(law="linear", linear=-8.0, climb_m_s=-13.0).design()
         curves = PowerCurves(haste=math.inf)
@@ -200,6 +174,21 @@ class TestPowerCurves:
         assert words.startswith(f"Autorotation between µ {driven[0]:g} and {driven[-1]:g}")
         assert words.endswith("No answer below µ 0.075: vortex ring state.")
 
+    def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(self, monkeypatch: pytest.MonkeyPatch):
+        """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""
+        monkeypatch.setattr("explorer.charts.plots.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
+        curves, design, next_one = PowerCurves(haste=math.inf), LINEAR, replace(LINEAR, twist=LinearTwist(-0.16))
+        assert curves.sweep(design, baseline_of(design), lambda: True)
+        assert not curves.sweep(next_one, baseline_of(next_one), lambda: True)
+        assert np.isfinite(curves.known(next_one, baseline_of(next_one)).design[1:10]).all()  # The one before stays.
+        hasty, calls = PowerCurves(haste=0.0), itertools.count()
+        assert not hasty.sweep(design, design, lambda: True)
+        assert hasty.recent
+        # Input that comes once every third point is known loses nothing, and nothing more is computed.
+        late = PowerCurves(haste=0.0)
+        assert late.sweep(design, design, lambda: next(calls) >= 8)
+        assert np.isfinite(late.known(design, design).design).all()
+
     def test_beyond_the_rotor_the_sweep_ends(self, monkeypatch: pytest.MonkeyPatch):
         """A trim that fails is slow to fail: two in a row are enough, one in haste."""
         asked: list[float] = []
@@ -209,9 +198,8 @@ class TestPowerCurves:
             answer = solve(design, start)
             return replace(answer, status=Status.NOT_CONVERGED) if asked[-1] > 0.26 else answer
 
-        monkeypatch.setattr("explorer.charts.power_curve.solve", failing)
-        design = Inputs(law="linear", linear=-8.0).design()
-        curves = PowerCurves(haste=math.inf)
+        monkeypatch.setattr("explorer.charts.plots.solve", failing)
+        design, curves = LINEAR, PowerCurves(haste=math.inf)
         curves.sweep(design, design, lambda: True)
         assert asked[-2:] == [0.225, 0.3]
         asked.clear()
@@ -220,19 +208,9 @@ class TestPowerCurves:
         assert np.isfinite(curves.known(design, design).design[:11]).all()
         assert np.isnan(curves.known(design, design).design[11:]).all()
 
-    def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
-        curves = PowerCurves(haste=math.inf)
-        design = Inputs(law="linear", linear=-8.0).design()
-        assert curves.sweep(design, baseline_of(design), lambda: True)  # Old enough: swept coarsely.
-        following = Inputs(law="linear", linear=-9.0).design()
-        assert not curves.sweep(following, baseline_of(following), lambda: True)  # Fresh enough: given up.
-        assert np.isfinite(curves.known(following, baseline_of(following)).design[1:10]).all()  # The one before stays.
-
     @pytest.mark.slow
     def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
-        curves = PowerCurves(haste=math.inf)
-        design = Inputs(law="linear", linear=-8.0).design()
+        design, curves = LINEAR, PowerCurves(haste=math.inf)
         curves.sweep(design, baseline_of(design), lambda: True)
         coarse = curves.known(design, baseline_of(design)).design
         curves.sweep(design, baseline_of(design), lambda: False)
@@ -253,33 +231,13 @@ class TestPowerCurves:
         curves = PowerCurves(haste=math.inf)
         first, second = (Inputs(law="linear", linear=twist).design() for twist in (-8.0, -11.0))
         curves.sweep(first, first, lambda: False)
-        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", 0.0)
-        monkeypatch.setattr("explorer.charts.power_curve.solve", counting)
+        monkeypatch.setattr("explorer.charts.plots.PATIENCE", 0.0)
+        monkeypatch.setattr("explorer.charts.plots.solve", counting)
         curves.sweep(second, second, lambda: True)
         assert asked == [0.0, 0.15, 0.3, 0.375, 0.45]
         coarse = curves.known(second, second).design
         curves.sweep(second, second, lambda: False)
         assert_allclose(coarse, curves.known(second, second).design, rtol=0.01)
-
-    def test_on_a_busy_machine_frames_come_first(self):
-        curves = PowerCurves(haste=0.0)
-        design = Inputs(law="linear", linear=-8.0).design()
-        assert not curves.sweep(design, baseline_of(design), lambda: True)
-
-    def test_an_abandoned_sweep_is_not_tried_again_at_once(self):
-        """Otherwise each step of a drag would wait for a sweep that never ends."""
-        curves = PowerCurves(haste=0.0)
-        design = Inputs(law="linear", linear=-8.0).design()
-        curves.sweep(design, baseline_of(design), lambda: True)
-        assert curves.recent
-
-    def test_input_that_comes_late_leaves_a_smooth_curve(self):
-        """Once every third point is known nothing is lost, and nothing more is computed."""
-        calls = itertools.count()
-        curves = PowerCurves(haste=0.0)
-        design = Inputs(law="linear", linear=-8.0).design()
-        assert curves.sweep(design, design, lambda: next(calls) >= 8)
-        assert np.isfinite(curves.known(design, design).design).all()
 
 
 def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():

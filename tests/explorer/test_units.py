@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.charts import plots
 from explorer.model.inputs import Inputs
 from explorer.model.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.model.undo import History, KeptDesign
@@ -30,16 +29,12 @@ def test_the_chosen_unit_comes_first(cruise: Solution):
         assert html.index(f"{units.watts(cruise.power.total)}</span>") < html.index(f" {second}</span>")
         assert f" {first}</td>" in html
         assert f" {second}</td>" not in html
+        both = readout.compared_power_panel(cruise, cruise, units)
+        assert f"Δ {first}" in both
+        assert f"Δ {second}" not in both
     assert AVIATION.airspeed(50.0) == "97 kt · 180 km/h · 50.0 m/s"
     assert SI.airspeed(50.0) == "180 km/h · 50.0 m/s · 97 kt"
     assert SI.airspeed(0.0) == "hover"
-
-
-def test_a_and_b_in_horsepower(cruise: Solution):
-    html = readout.compared_power_panel(cruise, cruise, AVIATION)
-    assert "Δ hp" in html
-    assert "Δ kW" not in html
-    assert AVIATION.watts(cruise.power.total) in html
 
 
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
@@ -59,12 +54,6 @@ def test_searches_and_history_in_horsepower(cruise: Solution):
         assert shown in history_view.kept_rows((KeptDesign(Inputs(), cruise),), None, units)
     kept = KeptDesign(Inputs(), cruise)
     assert "now 0 hp" in history_view.kept_rows((kept,), cruise, AVIATION)
-
-
-def test_curves_change_with_the_unit():
-    power = np.linspace(500.0, 900.0, len(plots.SWEEP))
-    curve = plots.PowerCurve(power, power, power)
-    assert curve.in_unit(HORSEPOWER).design[0] == pytest.approx(500.0 / 0.745699872)
 
 
 @pytest.mark.parametrize("name", ["mass_t", "altitude_m", "climb_m_s"])
@@ -87,14 +76,9 @@ class TestControls:
         assert controls.inputs() == wanted
         handle = controls._inputs["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
-        assert handle.label == "Mass [lb]"  # pyright: ignore[reportAttributeAccessIssue]
+        assert handle.label == "Mass [lb]"
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
         assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
         controls.refresh(wanted, SI)
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05
-
-    def test_a_pound_that_is_typed_as_a_whole_number(self, controls: DesignControls):
-        controls.refresh(Inputs(), UNITS["Aviation"])
-        controls._inputs["mass_t"].value = 20000
-        assert controls.inputs().mass_t == pytest.approx(9.0718474)

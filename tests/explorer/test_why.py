@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,30 +30,19 @@ def flown(
     return solved(make_design(mu=mu, twist=twist, mass_kg=mass, altitude_m=altitude, inflow=inflow))
 
 
-def without(solution: Solution, switch: str) -> Solution:
-    return solved(with_switches(solution.design, [switch]))
-
-
 def lifting(solution: Solution, dct: np.ndarray) -> Solution:
     return replace(solution, disk=replace(solution.disk, dct=np.broadcast_to(dct, solution.disk.dct.shape)))
 
 
 class TestWhereTheLiftIs:
-    def test_uniform_loading_along_the_blade_has_its_centroid_at_mid_blade(self):
+    def test_the_centroid_of_known_loadings(self):
         solution = flown(inflow="drees")
-        centroid = lift_centroid(lifting(solution, np.ones(())))
-        cutout = solution.design.rotor.blade.root_cutout
-        assert_allclose(centroid.radial, 0.5 * (cutout + 1.0), atol=1e-12)
-        assert_allclose((centroid.lateral, centroid.longitudinal), 0.0, atol=1e-12)
-
-    def test_loading_with_one_plus_sin_psi_is_half_way_to_the_advancing_side(self):
-        solution = flown()
-        centroid = lift_centroid(lifting(solution, 1.0 + np.sin(solution.disk.psi)))
-        assert_allclose((centroid.lateral, centroid.longitudinal), (0.5, 0.0), atol=1e-12)
-
-    def test_a_rotor_without_lift_is_refused(self):
+        middle = 0.5 * (solution.design.rotor.blade.root_cutout + 1.0)
+        assert_allclose(lift_centroid(lifting(solution, np.ones(()))), (middle, 0.0), atol=1e-12)
+        swayed = lift_centroid(lifting(solution, 1.0 + np.sin(solution.disk.psi)))
+        assert_allclose(swayed, (middle, 0.5), atol=1e-12)
         with pytest.raises(ValueError, match="no lift"):
-            lift_centroid(lifting(flown(), np.zeros(())))
+            lift_centroid(lifting(solution, np.zeros(())))
 
     def test_movements_below_the_threshold_are_not_given_a_direction(self):
         solution = flown()
@@ -64,104 +54,85 @@ class TestWhereTheLiftIs:
         assert lift_movement(even, swayed) == "Lift moved towards the retreating side"
 
 
-class TestKnownCauses:
-    def test_twist_in_hover_moves_lift_inboard_and_saves_induced_power(self):
-        before, after = flown(0.0, "linear:0"), flown(0.0, "linear:-8")
-        saved = 1e-3 * (before.power.induced - after.power.induced)
-        assert why(before, after).startswith(f"Lift moved inboard: induced −{saved:.0f}, tail rotor −")
-        assert why(after, before).startswith(f"Lift moved outboard: induced +{saved:.0f}, ")
-
-    def test_twist_beyond_the_optimum_in_hover_costs_induced_power_although_lift_moves_inboard(self):
-        assert why(flown(0.0, "linear:-20"), flown(0.0, "linear:-28")).startswith("Lift moved inboard: induced +")
-
-    def test_twist_at_high_speed_relieves_the_advancing_tip(self):
-        sentence = why(flown(0.35, "segments:-17.4,-4@0.5"), flown(0.35, "segments:-17.4,-16.6@0.5"))
-        assert sentence.startswith("Lift moved inboard and towards the advancing side: induced −")
-        assert "drag divergence shrank" in sentence
-
-    def test_more_mass_costs_induced_power(self):
-        assert why(flown(mass=8000.0), flown(mass=9000.0)).startswith("12 % more weight: induced +")
-        assert why(flown(mass=9000.0), flown(mass=8000.0)).startswith("11 % less weight: induced −")
-
-    def test_speed_costs_parasite_power_and_saves_induced_power(self):
-        sentence = why(flown(0.2), flown(0.3))
-        assert sentence.startswith("Faster (µ 0.3): parasite +")
-        assert why(flown(0.1), flown(0.15)).startswith("Faster (µ 0.15): induced −")
-        assert why(flown(0.1), flown(0.0)).startswith("Hover: induced +")
-
-    def test_the_advancing_tip_passes_drag_divergence_with_speed(self):
-        assert "drag divergence grew near the tip on the advancing side" in why(flown(0.25), flown(0.3))
-        assert "drag divergence appeared near the tip on the advancing side" in why(flown(0.2), flown(0.3))
-        assert "drag divergence shrank" in why(flown(0.3), flown(0.25))
-
-    def test_load_and_speed_stall_the_retreating_side(self):
-        assert re.search(r"; (negative )?stall grew .*on the retreating side", why(flown(mass=8e3), flown(mass=9e3)))
-        assert re.search(r"stall grew .*on the retreating side", why(flown(0.3, mass=9.8e3), flown(0.42, mass=9.8e3)))
-        assert "stall appeared inboard on the retreating side" in why(flown(0.0), flown(0.15))
-
-    def test_thin_air_costs_induced_power_and_saves_drag(self):
-        sentence = why(flown(), flown(altitude=2000.0))
-        assert sentence.startswith("Thinner air (−18 %): induced +")
-        assert "parasite −" in sentence
-        assert why(flown(altitude=2000.0), flown()).startswith("Denser air (+22 %): induced −")
-
-    def test_without_tip_loss_the_induced_power_falls(self):
-        sectors = flown(inflow="local-momentum")
-        assert why(sectors, without(sectors, "tip_loss")).startswith("Without tip loss: induced −")
-        assert why(without(sectors, "tip_loss"), sectors).startswith("With tip loss: induced +")
-        assert why(flown(), without(flown(), "tip_loss")).endswith(
-            "no change in power (tip loss is part of this wake)."
-        )
-
-    def test_without_compressibility_drag_divergence_disappears(self):
-        assert why(flown(0.37), without(flown(0.37), "compressibility")).endswith("drag divergence disappeared.")
-
-    def test_another_inflow_model_or_rotor_is_named(self):
-        flight = flown()
-        uniform = solved(replace(flight.design, models=replace(flight.design.models, inflow="uniform")))
-        assert why(flight, uniform).startswith("Uniform")
-        assert " instead of Lifting line" in why(flight, uniform)
-        hover = flown(0.0)
-        closed = solved(replace(hover.design, models=replace(hover.design.models, hover_inflow="closed-form")))
-        assert why(hover, closed).startswith("Closed form instead of annulus balance in hover: ")
-        slow = flown(0.05)
-        wake = solved(replace(slow.design, models=replace(slow.design.models, low_speed="wake")))
-        assert why(slow, wake).startswith("Without passage to hover at low speed: ")
-        coarse = solved(replace(hover.design, models=replace(hover.design.models, elements=20)))
-        assert why(hover, coarse).startswith("Another model: ")
-        other = solved(make_design(rotor="s61"))
-        assert why(flight, other).startswith(f"{other.design.aircraft.name} instead of UH-60A: ")
-
-    def test_several_changes_are_not_put_down_to_one(self):
-        assert why(flown(), flown(0.25, "linear:-5", 9000.0)).startswith("Several changes at once: ")
-        assert why(flown(), flown(0.2, "linear:-5", 9000.0)).startswith("8.1 % more weight and a new twist: ")
+UNTWISTED, TWISTED = {"mu": 0.0, "twist": "linear:0"}, {"mu": 0.0, "twist": "linear:-8"}
+SLOW: dict[str, Any] = {"mu": 0.2}
+FAST: dict[str, Any] = {"mu": 0.3}
+HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
 
 
-class TestNoEffect:
-    def test_the_same_design(self):
-        assert why(flown(), flown()) == "Nothing has changed."
+@pytest.mark.parametrize(
+    ("before", "after", "said"),
+    [
+        (UNTWISTED, TWISTED, r"^Lift moved inboard: induced −\d+, tail rotor −"),
+        (TWISTED, UNTWISTED, r"^Lift moved outboard: induced \+"),
+        # Beyond the optimum twist costs induced power, although the lift moves inboard.
+        ({"mu": 0.0, "twist": "linear:-20"}, {"mu": 0.0, "twist": "linear:-28"}, r"^Lift moved inboard: induced \+"),
+        (
+            {"mu": 0.35, "twist": "segments:-17.4,-4@0.5"},
+            {"mu": 0.35, "twist": "segments:-17.4,-16.6@0.5"},
+            r"^Lift moved inboard and towards the advancing side: induced −.*drag divergence shrank",
+        ),
+        (LIGHT, HEAVY, r"^12 % more weight: induced \+.*; (negative )?stall grew .*on the retreating side"),
+        (HEAVY, LIGHT, r"^11 % less weight: induced −"),
+        (SLOW, FAST, r"^Faster \(µ 0\.3\): parasite \+"),
+        ({"mu": 0.1}, {"mu": 0.15}, r"^Faster \(µ 0\.15\): induced −"),
+        ({"mu": 0.1}, {"mu": 0.0}, r"^Hover: induced \+"),
+        (SLOW, FAST, "drag divergence appeared near the tip on the advancing side"),
+        ({"mu": 0.25}, FAST, "drag divergence grew near the tip on the advancing side"),
+        (FAST, {"mu": 0.25}, "drag divergence shrank"),
+        ({"mu": 0.3, "mass": 9.8e3}, {"mu": 0.42, "mass": 9.8e3}, "stall grew .*on the retreating side"),
+        ({"mu": 0.0}, {"mu": 0.15}, "stall appeared inboard on the retreating side"),
+        (SLOW, {"altitude": 2000.0}, r"^Thinner air \(−18 %\): induced \+.*parasite −"),
+        ({"altitude": 2000.0}, SLOW, r"^Denser air \(\+22 %\): induced −"),
+        (SLOW, {"mu": 0.25, "twist": "linear:-5", "mass": 9000.0}, "^Several changes at once: "),
+        (SLOW, {"twist": "linear:-5", "mass": 9000.0}, r"^8\.1 % more weight and a new twist: "),
+        (SLOW, SLOW, r"^Nothing has changed\.$"),
+        ({"twist": "linear:-8"}, {"twist": "linear:-8.001"}, r"^Lift hardly moved: no change in power\.$"),
+        ({"mu": 0.45, "mass": 14_000.0}, SLOW, "no trim"),
+    ],
+)
+def test_a_known_cause_is_named(before: dict[str, Any], after: dict[str, Any], said: str):
+    assert re.search(said, why(flown(**before), flown(**after)))
 
-    def test_a_switch_without_effect_says_why(self):
-        sentence = why(flown(), without(flown(), "hub_loss"))
-        assert sentence.startswith("Without hub loss: no change in power (")
-        assert why(flown(0.0), without(flown(0.0), "fuselage")).startswith("Without fuselage drag: no change in power")
 
-    def test_a_twist_too_small_to_matter(self):
-        sentence = why(flown(twist="linear:-8"), flown(twist="linear:-8.001"))
-        assert sentence == "Lift hardly moved: no change in power."
+@pytest.mark.parametrize(
+    ("flight", "switch", "said"),
+    [
+        (SLOW, "tip_loss", r"no change in power \(tip loss is part of this wake\)\.$"),
+        ({"inflow": "local-momentum"}, "tip_loss", "^Without tip loss: induced −"),
+        ({"mu": 0.37}, "compressibility", r"drag divergence disappeared\.$"),
+        (SLOW, "hub_loss", r"^Without hub loss: no change in power \("),
+        ({"mu": 0.0}, "fuselage", "^Without fuselage drag: no change in power"),
+    ],
+)
+def test_a_switch_says_what_it_does_or_why_nothing(flight: dict[str, Any], switch: str, said: str):
+    solution = flown(**flight)
+    assert re.search(said, why(solution, solved(with_switches(solution.design, [switch]))))
 
 
-class TestWithoutTrim:
-    def test_a_design_without_trim_gives_the_first_sentence_of_its_message(self):
-        lost = flown(0.45, mass=14_000.0)
-        assert not lost.converged
-        sentence = why(flown(), lost)
-        assert sentence.endswith("beyond this rotor.")
-        assert sentence.count(". ") == 0
-        assert lost.message.startswith(sentence[:-1])
+def test_another_model_or_rotor_is_named():
+    cases: tuple[tuple[dict[str, Any], dict[str, Any], str], ...] = (
+        (SLOW, {"inflow": "uniform"}, "Uniform instead of Lifting line: "),
+        ({"mu": 0.0}, {"hover_inflow": "closed-form"}, "Closed form instead of annulus balance in hover: "),
+        ({"mu": 0.05}, {"low_speed": "wake"}, "Without passage to hover at low speed: "),
+        ({"mu": 0.0}, {"elements": 20}, "Another model: "),
+        (FAST, {"bending": True}, "With blade bending: "),
+    )
+    for flight, models, said in cases:
+        solution = flown(**flight)
+        other = solved(replace(solution.design, models=replace(solution.design.models, **models)))
+        assert why(solution, other).startswith(said)
+    other = solved(make_design(rotor="s61"))
+    assert why(flown(), other).startswith(f"{other.design.aircraft.name} instead of UH-60A: ")
 
-    def test_nothing_to_compare_with(self):
-        assert "no trim" in why(flown(0.45, mass=14_000.0), flown())
+
+def test_a_design_without_trim_gives_the_first_sentence_of_its_message():
+    lost = flown(0.45, mass=14_000.0)
+    assert not lost.converged
+    sentence = why(flown(), lost)
+    assert sentence.endswith("beyond this rotor.")
+    assert sentence.count(". ") == 0
+    assert lost.message.startswith(sentence[:-1])
 
 
 class TestNumbers:
@@ -177,10 +148,7 @@ class TestNumbers:
             assert_allclose(size, change, atol=0.51)
 
     def test_the_unit_stands_once_behind_the_last_part(self):
-        sentence = why(flown(0.3), flown(0.3, "linear:-4", 9500.0))
-        assert re.search(r": induced [+−]\d+(, [a-z ]+ [+−]\d+)+ kW[.;]", sentence)
-        assert sentence.count("kW") == 1
-
-    def test_aviation_units(self):
-        assert " hp" in why(flown(0.2), flown(0.3), AVIATION)
-        assert "kW" not in why(flown(0.2), flown(0.3), AVIATION)
+        before, after = flown(0.3), flown(0.3, "linear:-4", 9500.0)
+        for sentence, unit in ((why(before, after), "kW"), (why(before, after, AVIATION), "hp")):
+            assert re.search(rf": induced [+−]\d+(, [a-z ]+ [+−]\d+)+ {unit}[.;]", sentence)
+            assert sentence.count(unit) == 1

@@ -60,12 +60,6 @@ def shown_texts(path: Path) -> Iterator[str]:
             yield node.value
 
 
-def test_the_reader_finds_text_and_leaves_docstrings_out(tmp_path: Path):
-    file = tmp_path / "a.py"
-    file.write_text('"""A valley."""\nx = f"the {1} valley"\n', encoding="utf-8")
-    assert list(shown_texts(file)) == ["the ", " valley"]
-
-
 @pytest.mark.parametrize("package", ["explorer", "rotor"])
 def test_no_text_uses_a_second_name(package: str):
     phrases = {phrase.lower(): better for phrase, better in INSTEAD.items()}

@@ -7,11 +7,11 @@ from datetime import datetime
 import numpy as np
 
 from explorer.charts.plots import Range
+from explorer.colours import BASELINE
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, Units
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
-from explorer.theme.colours import BASELINE
 from rotor import Solution
 from rotor.actuator import ActuatorFlight, Verdict, fly
 

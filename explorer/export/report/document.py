@@ -12,7 +12,8 @@ from html import escape
 from pathlib import Path
 
 from explorer import web
-from explorer.charts.power_curve import PowerCurves
+from explorer.charts.plots import PowerCurves
+from explorer.colours import PARTS
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
 from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, judged_actuator, report_of
@@ -23,7 +24,6 @@ from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
-from explorer.theme.colours import PARTS
 from rotor import Design, Solution, load_design, solve
 from rotor.actuator import try_actuator
 from rotor.dynamics.structure import check_blade

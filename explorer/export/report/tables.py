@@ -6,6 +6,7 @@ from html import escape
 import numpy as np
 
 from explorer.charts.vibration import index_unit
+from explorer.colours import PARTS
 from explorer.export.report.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
@@ -13,7 +14,6 @@ from explorer.model.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, 
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
-from explorer.theme.colours import PARTS
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.trim import why_no_hub_loads

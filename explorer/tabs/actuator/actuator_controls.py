@@ -9,6 +9,7 @@ import numpy as np
 import viser
 
 from explorer.charts.plots import Plot, Range, held_range
+from explorer.colours import BASELINE, LIMIT, NOW, THIS
 from explorer.model.units import number
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_inputs import (
@@ -25,7 +26,6 @@ from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.electrodes import ElectrodesPanel
 from explorer.tabs.live_charts import Chart, line, points
 from explorer.text.glossary import hint
-from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
 from rotor.actuator import (
     Actuator,
     ExtensionTwist,

@@ -6,11 +6,11 @@ from html import escape
 import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
+from explorer.colours import css
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
-from explorer.theme.colours import css
 from rotor import Design, Solution
 from rotor.actuator import (
     Actuator,

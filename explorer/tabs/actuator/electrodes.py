@@ -8,10 +8,10 @@ import numpy as np
 import viser
 
 from explorer.charts.plots import Plot, held_range
+from explorer.colours import BASELINE, IDEAL, NOW, THIS, colour_map
 from explorer.model.units import number
 from explorer.picture.disk_image import encode_png
 from explorer.tabs.live_charts import Chart, line, points
-from explorer.theme.colours import BASELINE, IDEAL, NOW, THIS, colour_map
 from rotor.actuator import Actuator, PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
 from rotor.arrays import Array

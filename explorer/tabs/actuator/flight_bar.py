@@ -15,7 +15,7 @@ from explorer.model.units import Units
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.actuator_tasks import flight_legs
 from explorer.tabs.context import TabContext
-from explorer.text.balance import balance, fuel_used, fuel_words, pair_words, signed
+from explorer.text.readout import balance, fuel_used, fuel_words, pair_words, signed
 from rotor import Design
 from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict, verdict_sentence
 from rotor.actuator.verdict import reference

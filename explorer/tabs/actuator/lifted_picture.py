@@ -9,13 +9,13 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from explorer.colours import Rgb, css
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
 from explorer.model.units import number
 from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
-from explorer.theme.colours import Rgb, css
 from rotor import Design, Solution
 from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
 from rotor.arrays import Array

@@ -3,8 +3,8 @@
 from functools import lru_cache
 from html import escape
 
+from explorer.colours import css
 from explorer.tabs.actuator.lifted_picture import drive_colour
-from explorer.theme.colours import css
 from rotor.actuator import InstalledActuator, PiezoPly
 from rotor.actuator.pictures import Part, section_picture
 

@@ -15,6 +15,7 @@ import trimesh
 import viser
 from trimesh.visual.color import ColorVisuals
 
+from explorer.colours import START_COLOURS, colour_map, css
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
@@ -25,7 +26,6 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.map_panel import COLOURS_END, Map, MapPanel
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
-from explorer.theme.colours import START_COLOURS, colour_map, css
 from rotor import Design
 from rotor.arrays import Array
 from rotor.design import TwistLaw

@@ -10,6 +10,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from explorer.colours import NOW, colour_map, css
 from explorer.model.inputs import with_optimum
 from explorer.model.units import SI, Units, number
 from explorer.picture.disk_image import encode_png
@@ -18,7 +19,6 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
-from explorer.theme.colours import NOW, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design

@@ -4,6 +4,7 @@ from typing import Any
 
 import viser
 
+from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.inputs import with_optimum
 from explorer.tabs.context import Player, TabContext
 from explorer.tabs.live_charts import Chart, line
@@ -12,7 +13,6 @@ from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
 from explorer.text.glossary import hint
-from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import round_ticks
+from explorer.colours import NOW, START_COLOURS, THIS, css
 from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun, StartTrace
-from explorer.theme.colours import NOW, START_COLOURS, THIS, css
 from rotor import Optimum
 from rotor.design import PiecewiseLinearTwist
 from rotor.optimisation import Concept

@@ -8,13 +8,13 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.charts.svg import Point
+from explorer.colours import NOW, THIS
 from explorer.model.units import degrees, number
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
 from explorer.tabs.probe.probe_measured import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.theme.colours import NOW, THIS
 from rotor import Solution
 from rotor.arrays import Array
 

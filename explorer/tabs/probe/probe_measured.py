@@ -7,14 +7,14 @@ from html import escape
 import numpy as np
 
 from explorer.charts import svg
+from explorer.colours import LIMIT, NOW, THIS
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
-from explorer.theme.colours import LIMIT, NOW, THIS
 from rotor import Solution
-from rotor.airfoil.public_points import SOURCES, PublicPoint, nearest_points, points_near
+from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array
 from rotor.line_chart import round_ticks
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
@@ -81,7 +81,7 @@ def lift_curve(probe: Probe) -> str:
         end = math.degrees(angle)
         if low < end < high:
             marks.append(svg.line((x(end), _TOP), (x(end), _BOTTOM), LIMIT, 1.2, 'stroke-dasharray="4 3"'))
-    for point in _near(probe):
+    for point in points_near(probe.section.main.name, probe.table_mach):
         at = x(math.degrees(point.alpha + probe.section.main.incidence_offset)), y(point.cl)
         if low < math.degrees(point.alpha) < high and bottom <= point.cl <= top:
             marks.append(
@@ -136,10 +136,6 @@ def public_table(probe: Probe) -> str:
     )
 
 
-def _near(probe: Probe) -> tuple[PublicPoint, ...]:
-    return points_near(probe.section.main.name, probe.table_mach)
-
-
 def _cells(cl: float, cd: float, cm: float | None) -> str:
     texts = (number(cl, 3), number(cd, 4), "–" if cm is None else number(cm, 3))
     return "".join(f'<td class="rx-num">{text}</td>' for text in texts)
@@ -183,10 +179,7 @@ def measured_panel(beside: BesideMeasured, psi: float) -> str:
     condition = condition_of(beside.case.rotor, beside.case.name)
     name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"
     report = escape(REPORTS[beside.case.test])
-    differs = [
-        *([] if beside.at_test else ["at another condition"]),
-        *([] if beside.blade else ["of another twist"]),
-    ]
+    differs = ["at another condition"] * (not beside.at_test) + ["of another twist"] * (not beside.blade)
     words = f"Ours is {' and '.join(differs)}." if differs else ""
     press = (
         ""

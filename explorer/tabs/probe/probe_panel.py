@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer import colours
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
@@ -24,7 +25,6 @@ from explorer.tabs.probe.probe_drawing import outline, probe_panel
 from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
-from explorer.theme import colours
 from rotor import Rotor, Solution
 from rotor.arrays import Array
 
@@ -47,10 +47,9 @@ class Cursor:
         self._rotor: Rotor | None = None
         self._turned = api.add_frame(_DISK, show_axes=False, visible=False)
         self._at = api.add_frame(f"{_DISK}/at", show_axes=False)
-        some = circle_segments(0.1, 8)
-        self._ray = self._cased(api, f"{_DISK}/ray", some, 1.2, 2.8)
-        self._ring = self._cased(api, f"{_DISK}/at/ring", some, 2.2, 5.0)
-        self._section = self._cased(api, _BLADE, some, 2.2, 5.0)
+        self._ray = _cased(api, f"{_DISK}/ray", 1.2, 2.8)
+        self._ring = _cased(api, f"{_DISK}/at/ring", 2.2, 5.0)
+        self._section = _cased(api, _BLADE, 2.2, 5.0)
         for handle in self._section:
             handle.visible = False
         self._drawn: tuple[object, ...] | None = None
@@ -97,15 +96,15 @@ class Cursor:
         _draw(self._ray, ray)
         _draw(self._ring, circle_segments(_RING * radius, 28))
 
-    def _cased(self, api: viser.SceneApi, name: str, segments: Array, pixels: float, casing: float) -> Cased:
-        """A light line in a dark casing, that reads on every colour of the disk and on the blade."""
-        under, over = (
-            api.add_line_segments(
-                name + end, segments.astype(np.float32), colour, thickness=width, thickness_units="screen"
-            )
-            for end, colour, width in (("_casing", colours.CASING_DARK, casing), ("", colours.CASING_LIGHT, pixels))
-        )
-        return under, over
+
+def _cased(api: viser.SceneApi, name: str, pixels: float, casing: float) -> Cased:
+    """A light line in a dark casing, that reads on every colour of the disk and on the blade; no place as yet."""
+    some = circle_segments(0.1, 8).astype(np.float32)
+    under, over = (
+        api.add_line_segments(name + end, some, colour, thickness=width, thickness_units="screen")
+        for end, colour, width in (("_casing", colours.CASING_DARK, casing), ("", colours.CASING_LIGHT, pixels))
+    )
+    return under, over
 
 
 def _draw(lines: Cased, segments: Array) -> None:
@@ -182,9 +181,11 @@ class ProbePanel(Tab):
             # Where the blade is by now: an older place would pull a slider that is dragged back.
             self._psi.value = self._context.view().azimuth_deg
         solution = state.solution
-        self._r.min = _innermost(solution.design.rotor)
+        # The first step of r/R on the blade.
+        self._r.min = round(_R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
         place = self._place()
-        here = self._probe(solution, place)
+        r = min(max(place.r, self._r.min), 1.0)
+        here = probe(solution, r, math.radians(place.psi_deg))
         tied = (
             self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         )
@@ -263,10 +264,6 @@ class ProbePanel(Tab):
     def _place(self) -> _ProbePoint:
         return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
 
-    def _probe(self, solution: Solution, place: _ProbePoint) -> Probe:
-        r = min(max(place.r, _innermost(solution.design.rotor)), 1.0)
-        return probe(solution, r, math.radians(place.psi_deg))
-
     def _set(self, r: float, psi_deg: float | None = None) -> None:
         """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
         self._r.value = round(min(max(r, self._r.min), 1.0), 2)
@@ -302,11 +299,6 @@ class ProbePanel(Tab):
         if picked is not None:
             self._set(picked[0], round(math.degrees(picked[1])) % 360)
             self._context.layout.open_drawer("probe")
-
-
-def _innermost(rotor: Rotor) -> float:
-    """The first step of r/R on the blade."""
-    return round(_R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
 
 
 def _drawn_pitch(state: SessionState, here: Probe) -> float:
