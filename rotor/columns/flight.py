@@ -54,14 +54,19 @@ to 1e-5, and a step with its derivatives leaves 1e-5 to 6e-3 of an error on 120 
 class SystemTolerances:
     """Residuals at which a trim is solved, and the largest steps towards it."""
 
-    residual: float
-    """Of the trim equations, as a fraction of `Problem.scale`."""
-    inflow: float
-    """Of the nodes, as a fraction of `Problem.scale`."""
-    torsion: float
-    """[rad]; of bending in coordinates."""
-    angle_step: float
-    inflow_step: float
+    residual_tolerance: float = 1e-10
+    """Largest residual of the trim equations, as a fraction of C_W; it keeps the energy identity to 1e-9."""
+    inflow_tolerance: float = 1e-8
+    """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
+    torsion_tolerance: float = 1e-10
+    """Largest residual of the equations of torsion and bending [rad]."""
+    angle_step: float = 0.08
+    """Largest Newton step of an angle [rad]: beyond it the section slopes no longer hold."""
+    inflow_step: float = 0.02
+    """Largest Newton step of λ0, over ΩR."""
+
+
+DEFAULT_TOLERANCES = SystemTolerances()
 
 
 @dataclass(frozen=True)
@@ -150,7 +155,9 @@ def _shapes(key: _ShapesKey) -> Shapes:
     return Shapes(key.structure, values, disk.dr)
 
 
-def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequence[Freedom] = ()) -> System:
+def flight_system(
+    problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCES, added: Sequence[Freedom] = ()
+) -> System:
     """The equations of a design in forward flight, with further degrees of freedom of the blade."""
     terms, freedoms = problem.inflow_terms, (*freedoms_of(problem), *added)
     values: dict[Hashable, float] = {**trim_numbers(problem)}
@@ -160,8 +167,8 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms, problem.interface))
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
-    tolerance, limits = _tolerances(problem, structure, tolerances)
-    nodes = terms.nodes(tolerances.inflow * problem.scale, problem.scale)
+    tolerance, limits = _tolerances(problem, structure, wanted)
+    nodes = terms.nodes(wanted.inflow_tolerance * problem.scale, problem.scale)
     if nodes is not None:
         points = len(nodes.matrix)
         tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
@@ -211,9 +218,9 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
 
 def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:
     """Of every equation; and the largest step of every state solved for."""
-    tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
+    tolerance = np.full(len(structure.equations), wanted.residual_tolerance * problem.scale)
     for kind in ("twist", "bend"):
-        tolerance[structure.equations_of(kind)] = wanted.torsion
+        tolerance[structure.equations_of(kind)] = wanted.torsion_tolerance
     limits = np.full(len(structure.free), wanted.angle_step)
     limits[structure.states_of("lambda0")] = wanted.inflow_step
     return tolerance, limits

@@ -7,12 +7,12 @@ from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
 from rotor.columns.flight import elements_of, flight_system
 from rotor.engine.linearise import Point, evaluate, jacobian
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, tolerances
+from rotor.trim.newton import Guess, first_point
 
 
 def point_at(problem: Problem, state: TrimState) -> Point:
     """With all eight quantities as in the state, also those that a trim gives another value."""
-    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
+    system = flight_system(problem)
     x = first_point(problem, system, Guess(state))
     x[[system.structure.states[name] for name in STATE_NAMES]] = state.array()
     return evaluate(system, system.grid, x, slopes=True, flow=True)

@@ -24,11 +24,11 @@ from rotor.dynamics.torsion import TorsionBeam, torsion_beam
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design
 from rotor.study.study_file import parse_study
+from rotor.trim.forward import course_of
 from rotor.trim.newton import SolverOptions
 from rotor.trim.power import control_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.trim.wake_course import course_of
 
 DEGREE = math.radians(1.0)
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)

@@ -17,11 +17,12 @@ from rotor.design.twist import (
     TwistLaw,
     ideal_tip_pitch,
     parse_twist,
+    shipped_twist,
 )
-from rotor.files.make_design import make_design, uh60a_twist
+from rotor.files.make_design import make_design
 
 R = np.linspace(0.13, 1.0, 88)
-BUILTIN = uh60a_twist()
+BUILTIN = shipped_twist("uh60a")
 
 
 def parse(spec: str) -> TwistLaw:

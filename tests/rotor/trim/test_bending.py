@@ -20,7 +20,7 @@ from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate, jacobian, transposed
 from rotor.engine.waves import wave_grid, waves_at
 from rotor.trim.adjoint import Adjoint, power_gradient
-from rotor.trim.hub_loads import displacements, hub_load_gradient, hub_loads, root_loads, why_no_hub_loads
+from rotor.trim.hub_loads import displacements, hub_loads, index_along, root_loads, why_no_hub_loads
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import HubLoads, Solution
 from rotor.units import GRAVITY
@@ -200,12 +200,11 @@ def test_gradients(inflow: str) -> None:
         rotor.solve(_design(0.3, inflow, twist=f"linear:{-12 + sign * step}"), options=tight).require()
         for sign in (-1.0, 1.0)
     )
-    gradient = hub_load_gradient(before)
-    slopes = (np.radians(1.0) * (gradient.r - 0.75))[None]
+    slopes = np.radians(1.0) * (before.disk.r - 0.75)
     expected = (_loads(high).index - _loads(low).index) / (2.0 * step)
-    assert_allclose(gradient.along(slopes), expected, rtol=3e-4)
+    assert_allclose(index_along(Adjoint(before))[1] @ slopes, expected, rtol=3e-4)
     expected = (high.power.total - low.power.total) / (2.0 * step)
-    assert_allclose(power_gradient(before).along(slopes), expected, rtol=3e-5)
+    assert_allclose(power_gradient(before).by_element @ slopes, expected, rtol=3e-5)
 
 
 def test_where_there_are_no_hub_loads() -> None:
@@ -222,8 +221,6 @@ def test_where_there_are_no_hub_loads() -> None:
         assert reason is not None
         assert words in reason.sentence
         assert rotor.solve(design).hub_loads is None
-    with pytest.raises(RuntimeError, match="do not bend"):
-        hub_load_gradient(rotor.solve(rotor.make_design(mu=0.3)))
 
 
 def test_solution_has_hub_loads_with_their_band() -> None:

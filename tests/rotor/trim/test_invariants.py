@@ -14,7 +14,6 @@ from rotor.design.twist import LinearTwist
 from rotor.engine.linearise import System, evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import DEFAULT_OPTIONS, tolerances
 from rotor.trim.solve import solve
 
 
@@ -175,7 +174,7 @@ def test_azimuths_that_cannot_be_thinned():
     """No fewer than 40 are left, and all of a lifting line."""
 
     def system(of: Design) -> System:
-        return flight_system(trim_problem(of), tolerances(DEFAULT_OPTIONS))
+        return flight_system(trim_problem(of))
 
     few = make_design(mu=0.2, inflow="drees")
     few = replace(few, models=replace(few.models, azimuths=72))

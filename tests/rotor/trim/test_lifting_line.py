@@ -14,12 +14,11 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
 from rotor.trim.adjoint import power_gradient
-from rotor.trim.forward import trim
+from rotor.trim.forward import along, trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.power import power_budget
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.trim.wake_course import along
 
 
 def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:

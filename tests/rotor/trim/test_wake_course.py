@@ -5,10 +5,9 @@ from dataclasses import replace
 from numpy.testing import assert_allclose
 
 from rotor.design.design import Design
-from rotor.trim.forward import trim
+from rotor.trim.forward import along, trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solve import solve
-from rotor.trim.wake_course import along
 from rotor.validation.compare import design_at
 from rotor.validation.measured import load_set
 
