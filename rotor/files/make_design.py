@@ -12,7 +12,7 @@ from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
-from rotor.design.blade import Rotor, parse_airfoils
+from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import (
     HOVER_INFLOWS,
     LOW_SPEEDS,
@@ -243,8 +243,16 @@ def _test(
 
 
 def change_airfoils(rotor: Rotor, spec: str) -> Rotor:
-    """The rotor with the airfoils of a SPEC (`parse_airfoils`). Raises ValueError for an unknown SPEC or section."""
-    changed = parse_airfoils(rotor, spec)
+    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`.
+
+    Raises ValueError for another SPEC, or a section that is not known.
+    """
+    names, _, places = spec.strip().partition("@")
+    try:
+        breaks = [float(item) for item in places.split(",")] if places else []
+    except ValueError:
+        raise ValueError(f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5") from None
+    changed = with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
     for span in changed.blade.spans:
         changed.blade.installed(span.section)
     return changed
