@@ -20,6 +20,7 @@ from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import SUSPECT_STALL, solve
+from tests.tools.designs import FIRST, RIGHT, run, share
 
 TRIMMABLE = 0.08
 """C_W/σ up to which every design must trim: the level-flight sweeps of the UH-60A Airloads Program, up to µ 0.37, had
@@ -210,3 +211,25 @@ def test_a_solve_ends_when_it_is_told_to_stop():
     assert len(asked) == 2
     easy = make_design(mu=0.2)
     assert solve(easy, options=replace(DEFAULT_OPTIONS, stop=lambda: True)).converged
+
+
+def check_random(count: int, seed: int) -> None:
+    """Over all rotors, presets, stands, climb, n/rev inputs and bending; what is right: `tests.tools.designs`."""
+    outcomes = run(count, seed)
+    assert [(one.kind, one.said, one.asked) for one in outcomes if one.kind not in RIGHT] == []
+    plain = sum(one.plain for one in outcomes)
+    # Three hundred designs have some sixty in plain level flight, of which one is 2 %: a second one is chance.
+    assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
+    assert sum(one.kind == "trimmed" for one in outcomes) > 0.8 * count  # 88 % of 3000.
+
+
+@pytest.mark.slow
+def test_three_hundred_designs():
+    check_random(300, seed=5)
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_ten_thousand_designs(seed: int):
+    check_random(1000, seed)
