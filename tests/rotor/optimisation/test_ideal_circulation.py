@@ -7,7 +7,6 @@ import pytest
 from inflow_tables import table
 from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
-from rotor.trim.wake_course import with_course
 
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line
@@ -23,6 +22,7 @@ from rotor.optimisation.ideal_bound import (
     least_induced_power,
     least_twisted_power,
 )
+from rotor.trim.forward import with_course
 
 COARSE = Line(4, 0.13, 16, 36)
 BLADE = LinearBlade()
