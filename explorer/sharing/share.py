@@ -21,8 +21,8 @@ from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from rotor import Design, make_design
-from rotor.design.retired import Tell, warn
 from rotor.files.design_file import design_from_record, parse_design
+from rotor.files.make_design import Tell, warn
 from rotor.user_input import refusing
 
 VERSION = 1

@@ -75,7 +75,7 @@ class Problem:
     expected: Wake
     """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
     course: WakeCourse
-    """Along which a wake of vortices lies; see `rotor.trim.wake_course`."""
+    """Along which a wake of vortices lies; see `rotor.trim.forward`."""
     joined: tuple[Array, Array] | None = None
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
 

@@ -54,14 +54,19 @@ to 1e-5, and a step with its derivatives leaves 1e-5 to 6e-3 of an error on 120 
 class SystemTolerances:
     """Residuals at which a trim is solved, and the largest steps towards it."""
 
-    residual: float
-    """Of the trim equations, as a fraction of `Problem.scale`."""
-    inflow: float
-    """Of the nodes, as a fraction of `Problem.scale`."""
-    torsion: float
-    """[rad]; of bending in coordinates."""
-    angle_step: float
-    inflow_step: float
+    residual_tolerance: float = 1e-10
+    """Largest residual of the trim equations, as a fraction of C_W; it keeps the energy identity to 1e-9."""
+    inflow_tolerance: float = 1e-8
+    """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
+    torsion_tolerance: float = 1e-10
+    """Largest residual of the equations of torsion and bending [rad]."""
+    angle_step: float = 0.08
+    """Largest Newton step of an angle [rad]: beyond it the section slopes no longer hold."""
+    inflow_step: float = 0.02
+    """Largest Newton step of λ0, over ΩR."""
+
+
+DEFAULT_TOLERANCES = SystemTolerances()
 
 
 @dataclass(frozen=True)
@@ -150,7 +155,9 @@ def _shapes(key: _ShapesKey) -> Shapes:
     return Shapes(key.structure, values, disk.dr)
 
 
-def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequence[Freedom] = ()) -> System:
+def flight_system(
+    problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCES, added: Sequence[Freedom] = ()
+) -> System:
     """The equations of a design in forward flight, with further degrees of freedom of the blade."""
     terms, freedoms = problem.inflow_terms, (*freedoms_of(problem), *added)
     values: dict[Hashable, float] = {**trim_numbers(problem)}
@@ -160,8 +167,12 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms, problem.interface))
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
-    tolerance, limits = _tolerances(problem, structure, tolerances)
-    nodes = terms.nodes(tolerances.inflow * problem.scale, problem.scale)
+    tolerance = np.full(len(structure.equations), wanted.residual_tolerance * problem.scale)
+    for kind in ("twist", "bend"):
+        tolerance[structure.equations_of(kind)] = wanted.torsion_tolerance
+    limits = np.full(len(structure.free), wanted.angle_step)
+    limits[structure.states_of("lambda0")] = wanted.inflow_step
+    nodes = terms.nodes(wanted.inflow_tolerance * problem.scale, problem.scale)
     if nodes is not None:
         points = len(nodes.matrix)
         tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
@@ -207,16 +218,6 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
         varying = {TH: problem.waves[:, ::step], RATE: problem.wave_rates[0][:, ::step]}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
     return Grid(waves, steady, varying, problem.grid_data(step))
-
-
-def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:
-    """Of every equation; and the largest step of every state solved for."""
-    tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
-    for kind in ("twist", "bend"):
-        tolerance[structure.equations_of(kind)] = wanted.torsion
-    limits = np.full(len(structure.free), wanted.angle_step)
-    limits[structure.states_of("lambda0")] = wanted.inflow_step
-    return tolerance, limits
 
 
 class _Flow:
@@ -283,18 +284,13 @@ def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array, A
     return state_of(structure, x), x[first:bending], x[bending:end], x[structure.given :]
 
 
-def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:
-    """β(ψ), (azimuths,)."""
-    state, disk = state_of(structure, x), problem.disk
-    return state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin
-
-
 def elements_of(problem: Problem, point: Point) -> BladeElements:
     """The blade elements at a point that has the flow at the sections."""
     c, f, s, x = point.channels, point.forces, point.flow, point.x
     terms, torsion, structure = problem.inflow_terms, problem.torsion, point.system.structure
-    flow = point.system.make
-    assert isinstance(flow, _Flow)
+    state, disk, make = state_of(structure, x), problem.disk, point.system.make
+    assert isinstance(make, _Flow)
+    flow = make.flow(x)
     induced = part(point, UP, list(terms.names))
     own: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
     induced += own
@@ -311,14 +307,15 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
     bent = None
     if problem.bending is not None:
-        offset = c[UR] - flow.flow(x).mu_x * problem.disk.cos
+        offset = c[UR] - flow.mu_x * disk.cos
         q, _ = coordinates_of(problem.bending, structure, point.z)
         modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
         lift = modes @ wave_grid(q.shape[1], c.shape[2]).at
         bent = BentState(c[SLOPES[0] :], offset, lift)
+    beta = state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin
     return BladeElements(
-        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
-        loss=c[LOSS], rate=c[RATE], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl, fz=f[FZ],
+        state=state, flow=flow, theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
+        loss=c[LOSS], rate=c[RATE], beta=beta, induced=induced, swirl=swirl, fz=f[FZ],
         fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
         bent=bent,
     )  # fmt: skip

@@ -23,13 +23,11 @@ leaves it out of the unknowns.
 
 import math
 from dataclasses import dataclass, replace
-from functools import cache
 
 from rotor.aero.elements import TrimState, Unknown
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
 from rotor.columns.bending import FLAPPING_STATES, bends, torque_terms
-from rotor.columns.blade import FLAPPING
 from rotor.design.design import Design
 from rotor.engine.terms import ONE, Structure
 from rotor.engine.waves import COS, SIN, STEADY, times_wave
@@ -43,17 +41,13 @@ class Trim:
     """The quantities solved for; all others keep their given values."""
     equations: tuple[str, ...]
 
-    def __post_init__(self) -> None:
-        if len(self.unknowns) != len(self.equations):
-            raise ValueError(f"{len(self.unknowns)} unknowns with {len(self.equations)} equations: give one for each")
 
-
-_FORCES: dict[str, tuple[tuple[Unknown, ...], tuple[str, ...]]] = {
-    "propulsive": (("collective", "shaft_tilt"), ("vertical", "forward")),
-    "thrust": (("collective",), ("thrust",)),
-    "wind-tunnel": (("collective",), ("thrust",)),
-    "free-rotor": (("shaft_tilt", "collective"), ("torque", "thrust")),
-    "controls": ((), ()),
+_FORCES: dict[str, list[tuple[Unknown, str]]] = {
+    "propulsive": [("collective", "vertical"), ("shaft_tilt", "forward")],
+    "thrust": [("collective", "thrust")],
+    "wind-tunnel": [("collective", "thrust")],
+    "free-rotor": [("shaft_tilt", "torque"), ("collective", "thrust")],
+    "controls": [],
 }
 """Unknowns and equations of each trim beside flapping and inflow; with the collective given it is no unknown."""
 
@@ -61,29 +55,20 @@ _FORCES: dict[str, tuple[tuple[Unknown, ...], tuple[str, ...]]] = {
 def trim_of(design: Design) -> Trim:
     """The unknowns and equations that a design solves."""
     models, stand = design.models, design.condition.stand
-    given = stand is not None and stand.collective is not None
-    return _trim(
-        models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design), _moments(design)
-    )
-
-
-@cache
-def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cyclic: bool, moments: bool) -> Trim:
-    unknowns, equations = _FORCES[name]
-    if given_collective and "collective" in unknowns:
-        unknowns = unknowns[:-1] if unknowns[-1] == "collective" else unknowns[1:]
-        equations = tuple(equation for equation in equations if equation != "thrust")
-    if flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
-        if coning:
-            cone: tuple[Unknown, ...] = ("coning",)
-            unknowns, equations = unknowns + cone, (*equations, "coning")
-        angles: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s") if cyclic else ("flap_1c", "flap_1s")
-        unknowns, equations = unknowns + angles, (*equations, "flap_1c", "flap_1s")
-    if moments:
-        cyclics: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s")
-        unknowns, equations = unknowns + cyclics, (*equations, "pitching", "rolling")
-    mean: tuple[Unknown, ...] = ("lambda0",)
-    return Trim(unknowns + mean, (*equations, "momentum"))
+    pairs = list(_FORCES[models.trim])
+    if stand is not None and stand.collective is not None:
+        pairs = [pair for pair in pairs if pair[0] != "collective"]
+    if models.flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
+        if design.rotor.precone is None:
+            pairs.append(("coning", "coning"))
+        if _cyclic_trims(design):
+            pairs += [("cyclic_1c", "flap_1c"), ("cyclic_1s", "flap_1s")]
+        else:
+            pairs += [("flap_1c", "flap_1c"), ("flap_1s", "flap_1s")]
+    if _moments(design):
+        pairs += [("cyclic_1c", "pitching"), ("cyclic_1s", "rolling")]
+    unknowns, equations = zip(*pairs, ("lambda0", "momentum"), strict=True)
+    return Trim(unknowns, equations)
 
 
 def _cyclic_trims(design: Design) -> bool:
@@ -96,11 +81,6 @@ def _moments(design: Design) -> bool:
     """Whether cyclic gives the hub moments asked for on a test stand."""
     stand = design.condition.stand
     return design.models.flapping and stand is not None and stand.flapping == "hub-moments"
-
-
-def unknowns_of(design: Design) -> tuple[Unknown, ...]:
-    """The quantities that a design solves for."""
-    return trim_of(design).unknowns
 
 
 def with_given_values(problem: Problem, start: TrimState) -> TrimState:
@@ -148,7 +128,7 @@ def drag_terms(s: Structure) -> list[tuple[float, int, int]]:
     terms = [(1.0, ONE, across), (1.0, ONE, along)]
     if bends(s):
         return terms
-    for name, wave in FLAPPING:
+    for wave, name in enumerate(FLAPPING_STATES):
         terms += [(-share, s.states[name], s.measure(FZ, "one", both)) for both, share in times_wave(wave, COS)]
     return terms
 

@@ -29,7 +29,7 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, newton, tolerances
+from rotor.trim.newton import Guess, first_point, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -244,7 +244,7 @@ def _gradient(cases: _Cases, k: int) -> float:
 
 def _hybr(problem: Problem, start: Guess) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
-    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
+    system = flight_system(problem)
     first, free = first_point(problem, system, start), system.structure.free
 
     def residual(states: Any) -> Any:

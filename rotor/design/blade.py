@@ -179,18 +179,8 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
     return replace(rotor, blade=replace(rotor.blade, spans=spans))
 
 
-def parse_airfoils(rotor: Rotor, spec: str) -> Rotor:
-    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`."""
-    names, _, places = spec.strip().partition("@")
-    try:
-        breaks = [float(item) for item in places.split(",")] if places else []
-    except ValueError:
-        raise ValueError(f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5") from None
-    return with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
-
-
 def airfoils_spec(rotor: Rotor) -> str | None:
-    """The SPEC of the sections for `parse_airfoils`; None where neighbouring sections are blended."""
+    """The SPEC of the sections for `change_airfoils`; None where neighbouring sections are blended."""
     spans = rotor.blade.spans
     if any(inner.end != outer.start for inner, outer in pairwise(spans)):
         return None

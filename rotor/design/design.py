@@ -24,7 +24,7 @@ from rotor.design.active_twist import (
 )
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, advance_ratio, number
 from rotor.design.blade import Rotor, airfoils_spec
-from rotor.design.stand import STAND_TRIMS, Stand, StandTrim
+from rotor.design.stand import STAND_TRIMS, StandTrim
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.user_input import check_suffix, write_whole
 
@@ -257,7 +257,7 @@ class Design:
         changed = self.rotor != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
-        preset = preset_models(self.preset)
+        preset, stand = preset_models(self.preset), self.condition.stand
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -277,7 +277,7 @@ class Design:
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
-            **({} if self.condition.stand is None else self._stand_record(self.condition.stand)),
+            **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
         }
 
     def _per_rev_record(self) -> dict[str, Any]:
@@ -288,9 +288,6 @@ class Design:
         elif active is not None:
             made["active_twist"] = active_twist_record(active)
         return made | ({"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {})
-
-    def _stand_record(self, stand: Stand) -> dict[str, Any]:
-        return {"trim": self.models.trim, "stand": stand.record()}
 
     def save(self, path: str | Path) -> None:
         """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
@@ -361,11 +358,9 @@ class Design:
             return self.condition.weight / self.thrust_unit
         if stand.ct_over_sigma is not None:
             return stand.ct_over_sigma * self.rotor.solidity
-        return (
-            self._estimated_thrust(stand.collective)
-            if stand.collective is not None
-            else ((stand.thrust or 0.0) / self.thrust_unit)
-        )
+        if stand.collective is not None:
+            return self._estimated_thrust(stand.collective)
+        return (stand.thrust or 0.0) / self.thrust_unit
 
     def _estimated_thrust(self, collective: float) -> float:
         """C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) with a = 5.9 and λ = √(C_T/2) or C_T/2µ, never below 0.02 σ."""

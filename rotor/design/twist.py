@@ -97,8 +97,7 @@ class PiecewiseLinearTwist:
         return np.interp(r, knots, values) - np.interp(REFERENCE_RADIUS, knots, values)
 
     def spec(self) -> str:
-        rates = ",".join(_degrees(rate) for rate in self.rates)
-        return f"segments:{rates}" + (f"@{','.join(f'{b:.10g}' for b in self.breaks)}" if self.breaks else "")
+        return f"segments:{_pairs(self.rates, self.breaks)}"
 
 
 @dataclass(frozen=True)
@@ -130,8 +129,7 @@ class SplineTwist:
         return spline_basis(self.stations, radii) @ angles - spline_basis(self.stations, REFERENCE_RADIUS) @ angles
 
     def spec(self) -> str:
-        angles = ",".join(_degrees(angle) for angle in self.angles)
-        return f"spline:{angles}@{','.join(f'{station:.10g}' for station in self.stations)}"
+        return f"spline:{_pairs(self.angles, self.stations)}"
 
 
 @dataclass(frozen=True)
@@ -197,6 +195,12 @@ def _degrees(angle: float) -> str:
     return f"{round(math.degrees(angle), 6):.10g}"
 
 
+def _pairs(angles: tuple[float, ...], places: tuple[float, ...]) -> str:
+    """Angles in degrees, and r/R after @."""
+    at = f"@{','.join(f'{place:.10g}' for place in places)}" if places else ""
+    return ",".join(map(_degrees, angles)) + at
+
+
 def ideal_tip_pitch(ct: float, solidity: float, lift_slope: float) -> float:
     """θ_tip [rad] of the ideal twist θ_tip/r, eq. (1.1), that carries C_T in hover with uniform inflow.
 
@@ -259,32 +263,20 @@ def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: 
         if not rest and ideal_tip_pitch is None:
             raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
         return IdealTwist(math.radians(_number(rest, spec)) if rest or ideal_tip_pitch is None else ideal_tip_pitch)
+    before, _, after = rest.partition("@")
     if kind == "linear":
         return LinearTwist(math.radians(_number(rest, spec)))
     if kind == "quadratic":
-        values = [_number(item, spec) for item in rest.split(",")]
+        values = _angles(rest, spec)
         if len(values) != 2:
             raise ValueError(f"twist {spec!r} needs two numbers: write quadratic:A,D, for example quadratic:6,-14")
-        return QuadraticTwist(math.radians(values[0]), math.radians(values[1]))
+        return QuadraticTwist(*values)
     if kind == "segments":
-        rates, _, breaks = rest.partition("@")
-        return PiecewiseLinearTwist(
-            tuple(math.radians(_number(item, spec)) for item in rates.split(",")),
-            tuple(_number(item, spec) for item in breaks.split(",")) if breaks else (),
-        )
+        return PiecewiseLinearTwist(_angles(before, spec), _stations(after, spec))
     if kind == "spline":
-        angles, _, stations = rest.partition("@")
-        return SplineTwist(
-            tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
-            tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
-        )
+        return SplineTwist(_stations(after, spec), _angles(before, spec))
     if kind == "points":
-        angles, _, stations = rest.partition("@")
-        return TableTwist(
-            tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
-            tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
-            name=spec.strip(),
-        )
+        return TableTwist(_stations(after, spec), _angles(before, spec), name=spec.strip())
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     number = _NUMBER.fullmatch(spec.strip())
@@ -310,8 +302,7 @@ def inline_spec(law: TwistLaw) -> str:
     """The SPEC of a law as any other machine can read it: the rows of a table file in place of its name."""
     match law:
         case TableTwist(stations, angles, name) if name.startswith("table"):
-            degrees = ",".join(f"{round(math.degrees(angle), 6):.10g}" for angle in angles)
-            return f"points:{degrees}@{','.join(f'{station:.10g}' for station in stations)}"
+            return f"points:{_pairs(angles, stations)}"
         case SumTwist(base, change):
             return f"{inline_spec(base)}+{inline_spec(change)}"
         case _:
@@ -343,6 +334,15 @@ def read_twist_table(path: Path) -> TableTwist:
     if len(rows) > _MOST_ROWS:
         raise ValueError(f"twist table {str(path)!r} has {len(rows)} rows: give at most {_MOST_ROWS}")
     return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
+
+
+def _angles(text: str, spec: str) -> tuple[float, ...]:
+    """[rad]"""
+    return tuple(math.radians(_number(item, spec)) for item in text.split(","))
+
+
+def _stations(text: str, spec: str) -> tuple[float, ...]:
+    return tuple(_number(item, spec) for item in text.split(",")) if text else ()
 
 
 def _number(text: str, spec: str) -> float:

@@ -14,13 +14,15 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
-from rotor.design.retired import Tell, current_model, warn
-from rotor.files.make_design import make_design
+from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
 
 _LARGEST_NUMBER = 1e12
 """No quantity of a design is larger; JSON has integers of any length. NaN is refused with the range of its quantity."""
+_KINDS: dict[type, tuple[str, Any]] = {
+    float: ("a number", int | float), int: ("a whole number", int), str: ("a text", str), bool: ("true or false", bool),
+}  # fmt: skip
 READS = (1, VERSION)
 """Version 1 had no `rotor`: its designs are of the UH-60A."""
 
@@ -87,8 +89,8 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
             f"design file is {record.get('format')!r} version {record.get('version')!r}: this program reads "
             f"{FORMAT!r} version {' and '.join(map(str, READS))}"
         )
-    preset = _text(record, "preset", "flight")
-    twist = _text(record, "twist", "")
+    preset = _value(record, "preset", "flight")
+    twist = _value(record, "twist", "")
     stand = record.get("stand")
     if not isinstance(stand, dict | None):
         raise ValueError(
@@ -100,31 +102,30 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         twist=twist or None,
         twist_per_rev=record.get("twist_per_rev"),
         pitch_per_rev=record.get("pitch_per_rev"),
-        mu=_number(record, "advance_ratio", 0.2),
-        mass_kg=_number(record, "mass_kg", None),
-        altitude_m=_number(record, "altitude_m", 0.0),
-        climb_m_s=_number(record, "climb_m_s", 0.0),
-        low_speed=_text(record, "low_speed", "") or None,
-        airfoils=_text(record, "airfoils", "") or None,
-        trim=_text(record, "trim", "") or None,
+        mu=_value(record, "advance_ratio", 0.2),
+        mass_kg=_value(record, "mass_kg", None, float),
+        altitude_m=_value(record, "altitude_m", 0.0),
+        climb_m_s=_value(record, "climb_m_s", 0.0),
+        low_speed=_value(record, "low_speed", "") or None,
+        airfoils=_value(record, "airfoils", "") or None,
+        trim=_value(record, "trim", "") or None,
         stand=cast(dict[str, Any] | None, stand),
     )
-    inflow = current_model("inflow", _text(record, "inflow", design.models.inflow), tell)
-    inflow_model(inflow)
-    hover_inflow = current_model("hover_inflow", _text(record, "hover_inflow", design.models.hover_inflow), tell)
+    named = {
+        option: current_model(option, _value(record, option, getattr(design.models, option)), tell)
+        for option in ("inflow", "hover_inflow")
+    }
+    inflow_model(named["inflow"])
+    switches = ("bending", "dynamic_stall", *SWITCHES)
     models = replace(
-        design.models,
-        inflow=inflow,
-        hover_inflow=hover_inflow,
-        bending=_flag(record, "bending", design.models.bending),
-        dynamic_stall=_flag(record, "dynamic_stall", design.models.dynamic_stall),
-        **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
+        design.models, **named, **{name: _value(record, name, getattr(design.models, name)) for name in switches}
     )
     if "active_twist" in record:
         if design.active_twist is not None:
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
-    return replace(design, models=with_grid(models, _count(record, "elements"), _count(record, "azimuths")))
+    models = with_grid(models, _value(record, "elements", None, int), _value(record, "azimuths", None, int))
+    return replace(design, models=models)
 
 
 def load_design(path: str | Path) -> Design:
@@ -173,31 +174,11 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     return cast(dict[str, Any], record)
 
 
-def _number(record: dict[str, Any], key: str, default: Any) -> Any:
-    value = record.get(key, default)
-    if value is default:
+def _value(record: dict[str, Any], key: str, default: Any, kind: type | None = None) -> Any:
+    """A value of the record, or the default; ValueError for one of another kind, which is by default that of the
+    default."""
+    value, (what, types) = record.get(key, default), _KINDS[kind or type(default)]
+    fits = isinstance(value, types) and isinstance(value, bool) == (types is bool)
+    if value is default or (fits and not (isinstance(value, int | float) and abs(value) >= _LARGEST_NUMBER)):
         return value
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and not abs(value) >= _LARGEST_NUMBER:
-        return value
-    raise ValueError(f"design file key {key!r} is {value!r}: give a number")
-
-
-def _count(record: dict[str, Any], key: str) -> int | None:
-    value = record.get(key)
-    if value is None or (isinstance(value, int) and not isinstance(value, bool)):
-        return value
-    raise ValueError(f"design file key {key!r} is {value!r}: give a whole number")
-
-
-def _text(record: dict[str, Any], key: str, default: str) -> str:
-    value = record.get(key, default)
-    if isinstance(value, str):
-        return value
-    raise ValueError(f"design file key {key!r} is {value!r}: give a text")
-
-
-def _flag(record: dict[str, Any], key: str, default: bool) -> bool:
-    value = record.get(key, default)
-    if isinstance(value, bool):
-        return value
-    raise ValueError(f"design file key {key!r} is {value!r}: give true or false")
+    raise ValueError(f"design file key {key!r} is {value!r}: give {what}")

@@ -1,8 +1,9 @@
-"""A design from names: preset, aircraft, twist SPEC."""
+"""A design from names: preset, aircraft, twist SPEC, models; also the names of models that were retired."""
 
 import tomllib
-from collections.abc import Mapping
-from dataclasses import replace
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -11,7 +12,7 @@ from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
-from rotor.design.blade import Rotor, parse_airfoils
+from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import (
     HOVER_INFLOWS,
     LOW_SPEEDS,
@@ -23,14 +24,58 @@ from rotor.design.design import (
     preset_models,
     with_grid,
 )
-from rotor.design.retired import current_model
 from rotor.design.stand import LOAD_KEYS, STAND_TRIMS, Stand, read_stand
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
-from rotor.user_input import did_you_mean
+from rotor.user_input import Notice, did_you_mean
 
 ADVANCE_RATIO = 0.2
 """Of a design whose speed is not given."""
+Tell = Callable[[str], object]
+"""Takes a sentence for the user."""
+
+
+@dataclass(frozen=True)
+class RetiredModel:
+    """What stands in for a model that is gone, which old design files, links, study files and commands still name."""
+
+    sentence: str
+    option: str = "inflow"
+    """The field of `Models` that named it."""
+    replacement: str = "lifting-line"
+
+
+RETIRED = {
+    "free-wake": RetiredModel(
+        "The free wake in hover was retired; hover is solved by the annulus balance.", "hover_inflow", "annulus"
+    ),
+    "dynamic-wake": RetiredModel("The dynamic wake was retired; the lifting line stands in for it."),
+    "dynamic-wake-quick": RetiredModel(
+        "The dynamic wake of few states was retired; the lifting line stands in for it."
+    ),
+    "dynamic-wake-infinite-blades": RetiredModel(
+        "The dynamic wake of infinitely many blades was retired; the lifting line of the rotor's own blades stands in "
+        "for it."
+    ),
+    "vortex-wake": RetiredModel("The vortex wake of rigid helices was retired; the lifting line stands in for it."),
+}
+
+
+def warn(sentence: str) -> None:
+    """The sentence as a warning: one line on stderr in the command lines, a warning in a notebook."""
+    warnings.warn(sentence, Notice, stacklevel=1)
+
+
+def current_model(option: str, name: str, tell: Tell = warn) -> str:
+    """The name itself, or that of the model in place of a retired one of this option, after telling the user.
+
+    Whoever reads the name of a model from outside passes it through here.
+    """
+    retired = RETIRED.get(name)
+    if retired is None or retired.option != option:
+        return name
+    tell(retired.sentence)
+    return retired.replacement
 
 
 @cache
@@ -43,11 +88,6 @@ def uh60a_rotor(preset: str) -> Rotor:
     """The UH-60A's main rotor as flown (`flight`) or as the document states it (`thesis`)."""
     check_preset(preset)
     return shipped_aircraft("uh60a").rotor_for(preset)
-
-
-def uh60a_twist() -> TwistLaw:
-    """The UH-60A's nonlinear built-in twist."""
-    return shipped_aircraft("uh60a").rotor.builtin_twist
 
 
 def make_design(
@@ -118,6 +158,7 @@ def make_design(
     if models is None:
         models = case.models if case and preset is None else preset_models(name)
     models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
+    models = replace(models, bending=models.bending or bending, dynamic_stall=models.dynamic_stall or dynamic_stall)
     blades, before = aircraft.rotor_for(name), case.condition if case else None
     speed = advance_ratio(blades.tip_speed, mu, speed_kt, hover)
     mass = before.mass if before and rotor is None else aircraft.mass
@@ -130,10 +171,9 @@ def make_design(
         if climb_m_s is None
         else number("climb_m_s", climb_m_s, "5"),
     )
-    active = blade.active_twist if blade else None
+    active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
-    pitch = case.pitch_per_rev if case else ()
     design = Design(
         preset=name,
         aircraft=aircraft,
@@ -142,20 +182,7 @@ def make_design(
         condition=condition,
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=with_grid(
-            _changed(
-                replace(
-                    models,
-                    bending=models.bending or bending,
-                    dynamic_stall=models.dynamic_stall or dynamic_stall,
-                ),
-                inflow,
-                low_speed,
-                off,
-            ),
-            elements,
-            azimuths,
-        ),
+        models=with_grid(_changed(models, inflow, low_speed, off), elements, azimuths),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
@@ -216,8 +243,16 @@ def _test(
 
 
 def change_airfoils(rotor: Rotor, spec: str) -> Rotor:
-    """The rotor with the airfoils of a SPEC (`parse_airfoils`). Raises ValueError for an unknown SPEC or section."""
-    changed = parse_airfoils(rotor, spec)
+    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`.
+
+    Raises ValueError for another SPEC, or a section that is not known.
+    """
+    names, _, places = spec.strip().partition("@")
+    try:
+        breaks = [float(item) for item in places.split(",")] if places else []
+    except ValueError:
+        raise ValueError(f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5") from None
+    changed = with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
     for span in changed.blade.spans:
         changed.blade.installed(span.section)
     return changed

@@ -429,24 +429,20 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
     """
     path = Path(path)
     with refusing(f"rotor file {shorten(path.name)!r}", "check its values, see docs/rotor_file.md"):
-        return _load(path, allow_outside)
-
-
-def _load(path: Path, allow_outside: bool) -> Aircraft:
-    texts = {path.name: _read(path)}
-    top = rotor_toml(path.name, texts[path.name])
-    for name in named_files(top):
-        beside = path.parent / name
-        if not is_file(beside):
-            continue
-        if not allow_outside and not beside.resolve().is_relative_to(path.parent.resolve()):
-            raise top.fail(
-                None,
-                f"{path.name} names {shorten(name)!r}, which is outside its folder: copy it there, "
-                "or allow it with --allow-outside",
-            )
-        texts[name] = _read(beside)
-    return read_aircraft(path.name, texts)
+        texts = {path.name: _read(path)}
+        top = rotor_toml(path.name, texts[path.name])
+        for name in named_files(top):
+            beside = path.parent / name
+            if not is_file(beside):
+                continue
+            if not allow_outside and not beside.resolve().is_relative_to(path.parent.resolve()):
+                raise top.fail(
+                    None,
+                    f"{path.name} names {shorten(name)!r}, which is outside its folder: copy it there, "
+                    "or allow it with --allow-outside",
+                )
+            texts[name] = _read(beside)
+        return read_aircraft(path.name, texts)
 
 
 def _read(path: Path) -> str:

@@ -42,12 +42,7 @@ class TomlTable:
     ) -> Any:
         """A number within low…high, or the default where the key is missing."""
         value = self._take(key, default, f"add {key} = …{f'  # {unit}' if unit else ''}")
-        if value is default:
-            return value
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise self.fail(key, f"{key} is {value!r}, not a number: write for example {key} = {max(low, 1.0):g}")
-        self._within(key, _real(value), low, high, unit)
-        return float(value)
+        return value if value is default else self._real(key, value, "is", f"{max(low, 1.0):g}", low, high, unit)
 
     def count(self, key: str, default: Any = REQUIRED, *, low: int, high: int) -> Any:
         """A whole number within low…high."""
@@ -56,7 +51,7 @@ class TomlTable:
             return value
         if isinstance(value, bool) or not isinstance(value, int):
             raise self.fail(key, f"{key} is {value!r}, not a whole number: write for example {key} = {low}")
-        self._within(key, _real(value), low, high, "")
+        self._real(key, value, "is", "", low, high)
         return value
 
     def numbers(self, key: str, default: Any = REQUIRED, *, low: float = -math.inf, high: float = math.inf) -> Any:
@@ -65,11 +60,7 @@ class TomlTable:
         if value is default:
             return value
         items = cast(list[Any], value if isinstance(value, list) else [value])
-        for item in items:
-            if isinstance(item, bool) or not isinstance(item, (int, float)):
-                raise self.fail(key, f"{key} holds {item!r}, not a number: write for example {key} = [0.2, 1.0]")
-            self._within(key, _real(item), low, high, "")
-        return tuple(float(item) for item in items)
+        return tuple(self._real(key, item, "holds", "[0.2, 1.0]", low, high) for item in items)
 
     def string(self, key: str, default: Any = REQUIRED, *, choices: Sequence[str] = ()) -> Any:
         """A text, one of `choices` where they are given."""
@@ -127,20 +118,20 @@ class TomlTable:
             raise self.fail(None, f"{where} has no {key}: {remedy}")
         return default
 
-    def _within(self, key: str, value: float, low: float, high: float, unit: str) -> None:
+    def _real(self, key: str, value: Any, says: str, example: str, low: float, high: float, unit: str = "") -> float:
+        """The number as a float within low…high."""
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise self.fail(key, f"{key} {says} {value!r}, not a number: write for example {key} = {example}")
+        try:
+            value = float(value)
+        except OverflowError:  # TOML allows integers of any length.
+            value = math.inf
         if not (math.isfinite(value) and low <= value <= high):
             bounds = f"{low:g}…{high:g}" if math.isfinite(high) else f"{low:g} or more"
             raise self.fail(
                 key, f"{key} is {value:g}, outside {bounds}{f' {unit}' if unit else ''}: check value and unit"
             )
-
-
-def _real(value: int | float) -> float:
-    """The number as a float; infinity for integers beyond them, which TOML allows."""
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf
+        return value
 
 
 def read_toml(file: str, text: str) -> TomlTable:

@@ -26,8 +26,8 @@ from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
+from rotor.trim.forward import with_course
 from rotor.trim.low_speed import hover_share
-from rotor.trim.wake_course import with_course
 
 RADIAL_SHAPES = 7
 """Chebyshev polynomials over the span."""

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor.files.make_design import make_design, uh60a_twist
+from rotor.design.twist import shipped_twist
+from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.ladder import RUNGS, moving_twist
@@ -136,7 +137,7 @@ def _band(one: ConceptOptimum, key: str) -> tuple[float, float]:
 
 def figure_4_11() -> Report:
     """The flown twist and −16°."""
-    law = uh60a_twist()
+    law = shipped_twist("uh60a")
     r = np.linspace(0.2, 1.0, 321)
     angle = np.degrees(law(r))
     plain = float(np.polyfit(r, angle, 1)[0])

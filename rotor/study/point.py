@@ -24,9 +24,8 @@ from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design, check_preset, preset_models
-from rotor.design.retired import Tell, current_model, warn
 from rotor.design.stand import STAND_KEYS
-from rotor.files.make_design import make_design
+from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.design.design import Design
-from rotor.design.retired import Tell, warn
+from rotor.files.make_design import Tell, warn
 from rotor.spawn import start_process
 from rotor.study.chunks import CONVERGED, StudyProvenance, describe
 from rotor.study.point import design_of

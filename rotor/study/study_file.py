@@ -14,9 +14,8 @@ from typing import Any, cast
 
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.design.retired import current_model
 from rotor.design.twist import inline_spec
-from rotor.files.make_design import make_design
+from rotor.files.make_design import current_model, make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point

@@ -16,7 +16,6 @@ import numpy as np
 
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow.local_momentum import BALANCED
-from rotor.aero.problem import Problem
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
@@ -24,13 +23,13 @@ from rotor.columns.bending import bending_work, bends, torque_terms
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms
-from rotor.engine.linearise import Measure, Point, evaluate, jacobian, transposed
+from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
-from rotor.trim.newton import DEFAULT_OPTIONS, LinearisedTrim, first_point, tolerances
+from rotor.trim.newton import LinearisedTrim, first_point
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
@@ -82,74 +81,6 @@ class Weights:
     """A sum of terms of the trim's own equations."""
 
 
-class Adjoint:
-    """The linearised trim of a converged solution: the gradient of any measure by the pitch along the blade."""
-
-    def __init__(self, solution: Solution) -> None:
-        """Raises RuntimeError with the solution's sentence when it is not converged."""
-        solution.require()
-        self.solution = solution
-        with one_blas_thread():
-            start, linear = solution.start, solution.linear or _linearised(solution)
-            same = start.structure == linear.point.system.structure.name
-            self._own = _Linear(linear, start.factors if same else None)
-        self.problem: Problem = self._own.problem
-
-    @property
-    def elements(self) -> BladeElements:
-        """The blade elements at the trim."""
-        return self._own.elements
-
-    def by_pitch(self, weights: Weights) -> Array:
-        """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
-        with one_blas_thread():
-            if self.solution.design.hovering:
-                return self._own.by_pitch(self._own.hover_measure(weights))[0]
-            measure = self._own.flight_measure(weights)
-            found, by_channel = self._own.by_pitch(measure)
-            joined = joined_hover(self.solution.design)
-            return found if joined is None else found + self._by_difference(*joined, weights, by_channel)
-
-    def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
-        """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
-        shape = self.problem.disk.shape
-        on_inflow = share * (by_channel[UP] + np.broadcast_to(weights.inflow, shape).sum(axis=1))
-        on_swirl = share * (np.broadcast_to(weights.swirl, shape).sum(axis=1) - by_channel[UT])
-        around = np.ones(shape) / shape[1]
-        hovering = Weights(
-            fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
-            u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
-        )  # fmt: skip
-        own = _difference_adjoint(difference)
-        return own.by_pitch(own.hover_measure(hovering))[0]
-
-    @property
-    def point(self) -> Point:
-        """The trim's equations there."""
-        return self._own.point
-
-    @property
-    def power_terms(self) -> Terms:
-        """Induced and profile power in terms of the trim's equations."""
-        return self._own.power_terms
-
-    @property
-    def total_terms(self) -> Terms:
-        """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
-        on_stand = self.problem.design.condition.stand is not None
-        return _stand_terms(self.point.system.structure) if on_stand else self.power_terms
-
-
-def _linearised(solution: Solution) -> LinearisedTrim:
-    """The equations at a solution that came without them, from another process."""
-    problem = trim_problem(solution.design)
-    if solution.design.hovering:
-        return hover(problem, solution.start).linear
-    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
-    x = first_point(problem, system, solution.start)
-    return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
-
-
 class _Linear:
     """A linearised trim with its factors: what every adjoint of one solution shares."""
 
@@ -160,7 +91,13 @@ class _Linear:
 
     @property
     def elements(self) -> BladeElements:
+        """The blade elements at the trim."""
         return self.trim.elements
+
+    @property
+    def power_terms(self) -> Terms:
+        """Induced and profile power in terms of the trim's equations."""
+        return _power_terms(self.point.system.structure)
 
     @cached_property
     def _linearised(self) -> tuple[Factors, Array]:
@@ -168,7 +105,7 @@ class _Linear:
         matrix, power = jacobian(self.point, self.power_terms)
         return Factors.of_matrix(matrix), power[0]
 
-    def by_pitch(self, measure: Measure) -> tuple[Array, Array]:
+    def slopes(self, measure: Measure) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
         multipliers = np.zeros(len(point.system.free))
@@ -198,21 +135,23 @@ class _Linear:
         """Weights as the engine takes them."""
         terms, shape = self.problem.inflow_terms, self.problem.disk.shape
         given = {FZ: weights.fz, FX: weights.fx}
-        forces = {force: _on(own, shape) for force, own in given.items() if not isinstance(own, float)}
+        forces = {force: np.broadcast_to(own, shape) for force, own in given.items() if not isinstance(own, float)}
         channels = dict[int, Array]()
         for channel, own in ((TH, weights.theta), (UT, weights.u_t), (UP, weights.u_p), (UR, weights.u_r)):
             if not isinstance(own, float):
-                channels[channel] = _on(own, shape)
+                channels[channel] = np.broadcast_to(own, shape)
         parts = list[tuple[int, list[Hashable], Array]]()
         if not isinstance(weights.inflow, float):
-            parts.append((UP, list(terms.names), _on(weights.inflow, shape)))
+            parts.append((UP, list(terms.names), np.broadcast_to(weights.inflow, shape)))
         if terms.interface.balanced is not None and weights.terms is None:
-            forces[terms.interface.balanced] = _on(weights.u_p, shape) + _on(weights.inflow, shape)
+            forces[terms.interface.balanced] = np.broadcast_to(weights.u_p, shape) + np.broadcast_to(
+                weights.inflow, shape
+            )
         if not isinstance(weights.swirl, float):
-            parts.append((UT, [SWIRL, SWIRL_SLOPE], -_on(weights.swirl, shape)))
+            parts.append((UT, [SWIRL, SWIRL_SLOPE], -np.broadcast_to(weights.swirl, shape)))
         nodes = None
         if self.point.system.nodes is not None and not isinstance(weights.inflow, float):
-            nodes = _on(weights.inflow, shape)
+            nodes = np.broadcast_to(weights.inflow, shape)
         return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes, terms=weights.terms)
 
     def hover_measure(self, weights: Weights) -> Measure:
@@ -231,10 +170,55 @@ class _Linear:
         forces = {FZ: summed(weights.fz), FX: summed(weights.fx), BALANCED: balanced}
         return Measure(forces=forces, channels={TH: summed(weights.theta)})
 
+
+class Adjoint(_Linear):
+    """The linearised trim of a converged solution: the gradient of any measure by the pitch along the blade."""
+
+    def __init__(self, solution: Solution) -> None:
+        """Raises RuntimeError with the solution's sentence when it is not converged."""
+        self.solution = solution.require()
+        with one_blas_thread():
+            start, linear = solution.start, solution.linear or _linearised(solution)
+            same = start.structure == linear.point.system.structure.name
+            super().__init__(linear, start.factors if same else None)
+
+    def by_pitch(self, weights: Weights) -> Array:
+        """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
+        with one_blas_thread():
+            if self.solution.design.hovering:
+                return self.slopes(self.hover_measure(weights))[0]
+            found, by_channel = self.slopes(self.flight_measure(weights))
+            joined = joined_hover(self.solution.design)
+            return found if joined is None else found + self._by_difference(*joined, weights, by_channel)
+
+    def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
+        """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
+        shape = self.problem.disk.shape
+        on_inflow = share * (by_channel[UP] + np.broadcast_to(weights.inflow, shape).sum(axis=1))
+        on_swirl = share * (np.broadcast_to(weights.swirl, shape).sum(axis=1) - by_channel[UT])
+        around = np.ones(shape) / shape[1]
+        hovering = Weights(
+            fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
+            u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
+        )  # fmt: skip
+        own = _difference_adjoint(difference)
+        return own.slopes(own.hover_measure(hovering))[0]
+
     @property
-    def power_terms(self) -> Terms:
-        """Induced and profile power."""
-        return _power_terms(self.point.system.structure)
+    def total_terms(self) -> Terms:
+        """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
+        on_stand = self.problem.design.condition.stand is not None
+        return _stand_terms(self.point.system.structure) if on_stand else self.power_terms
+
+
+def _linearised(solution: Solution) -> LinearisedTrim:
+    """The equations at a solution that came without them, from another process."""
+    problem = trim_problem(solution.design)
+    if solution.design.hovering:
+        return hover(problem, solution.start).linear
+    system = flight_system(problem)
+    x = first_point(problem, system, solution.start)
+    return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
 
 
 @lru_cache(maxsize=64)
@@ -248,9 +232,7 @@ def _power_terms(s: Structure) -> Terms:
     if "mu_x" in s.derived:
         mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
         rows += [(0, measure, mu_x, atom, share) for share, atom, measure in drag_terms(s)]
-        rows += [
-            (0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0),
-        ]
+        rows += [(0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0)]
         if bends(s):
             return Terms.of(rows + [(0, measure, i, j, -share) for share, i, j, measure in bending_work(s)], 1)
         rows += [
@@ -266,10 +248,6 @@ def _stand_terms(s: Structure) -> Terms:
     work = bending_work(s) if bends(s) else []
     rows = torque_terms(s) + [(-share, i, j, measure) for share, i, j, measure in work]
     return Terms.of([(0, measure, i, j, share) for share, i, j, measure in rows], 1)
-
-
-def _on(field: Array | float, shape: tuple[int, int]) -> Array:
-    return np.broadcast_to(np.asarray(field, dtype=float), shape)
 
 
 @lru_cache(maxsize=4)
@@ -299,17 +277,14 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             "A free rotor takes no power from its shaft, so shaft power has no gradient: use the objective induced, or "
             "trim wind-tunnel."
         )
-    gain = 1.0
     if objective == "induced":
-        elements = adjoint.elements
+        elements, gain = adjoint.elements, 1.0
         weights = Weights(
             fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
             swirl=cell * elements.fx,
         )  # fmt: skip
     else:
-        weights = Weights(terms=adjoint.total_terms)
-    if objective == "total":
-        gain = tail_gain(adjoint.solution)
+        weights, gain = Weights(terms=adjoint.total_terms), tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 

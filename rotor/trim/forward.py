@@ -1,13 +1,23 @@
-"""Trim in forward flight: warm start, cold start, then continuation from an easier condition."""
+"""Trim in forward flight: the course of the wake, warm start, cold start, continuation from an easier condition.
+
+The wake of a lifting line lies along the trim of the same rotor with linear inflow and its blade as built. That trim
+knows the tilt, the flapping and the mean inflow, and nothing of the twist that is being designed. So one wake serves
+all twists of a condition, and the gradient by twist is exact. Laid along the trim found with it, power moves by less
+than 0.05 % (tested). A free rotor finds its tilt, which linear inflow misses by up to 2°: its wake is laid again along
+the trim found, once.
+"""
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from itertools import chain
 
 from rotor.aero.elements import TrimState
-from rotor.aero.problem import Problem, build_problem
-from rotor.columns.trims import unknowns_of
+from rotor.aero.inflow.lifting_line import LiftingLineInflow
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.problem import Problem, build_problem, in_disk_axes
+from rotor.columns.trims import trim_of
 from rotor.design.aircraft import LEAST_MASS, FlightCondition
 from rotor.design.design import Design
 from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
@@ -17,6 +27,60 @@ LINEAR = "pitt-peters"
 """The linear inflow along whose trim the wake of a lifting line lies, and from which it starts below `FAST`."""
 FAST = 0.25
 """µ from which simple estimates are the better start: with linear inflow more of the disk stalls there. Our choice."""
+SLOWEST = 1e-4
+"""Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
+
+
+def with_course(problem: Problem, flown: Design | None = None) -> Problem:
+    """The problem with the course of its wake, or that of `flown`; itself where the inflow has none, and in hover."""
+    design = flown or problem.design
+    if design.hovering or not problem.inflow.fine_tip:
+        return problem
+    models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
+    course = _course(
+        replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
+    )
+    return problem if course is None else replace(problem, course=course)
+
+
+@lru_cache(maxsize=64)
+def _course(design: Design) -> WakeCourse | None:
+    """Along the trim of a design with linear inflow; None where it has none."""
+    problem = linear_problem(design)
+    found = trim(problem)
+    return along(found, problem.course) if found.converged else None
+
+
+def course_of(problem: Problem) -> WakeCourse | None:
+    """The course that the inflow's wake lies on; None for other inflow models, and in hover."""
+    lies = isinstance(problem.inflow, LiftingLineInflow) and not problem.design.hovering
+    return problem.course if lies else None
+
+
+def along(found: TrimResult, course: WakeCourse) -> WakeCourse:
+    """The course along a trim.
+
+    The thesis' trim leaves µ sin α out of U_P, and its α is that of the disk, not of the shaft, from which the blades
+    flap. Its wake still lies below the disk that carries weight and drag: with µ_z = 0 it would stay among the blades.
+    """
+    problem, state, flow = found.problem, found.state, found.linear.elements.flow
+    design, tilt = problem.design, state.shaft_tilt
+    if not design.models.disk_axial_flow:
+        tilt -= state.flap_1c
+    mu_x, mu_z = in_disk_axes(design.condition.advance_ratio, problem.climb, tilt)
+    return replace(
+        course, mu_x=mu_x, mu_z=mu_z, lambda0=flow.lambda0, coning=state.coning, flap_1c=state.flap_1c,
+        flap_1s=state.flap_1s,
+    )  # fmt: skip
+
+
+def trim_on_course(problem: Problem, start: Guess | None, options: SolverOptions) -> TrimResult:
+    """`trim`, and of a free rotor once more with its wake along the trim found."""
+    found = trim(problem, start, options)
+    if problem.design.models.trim != "free-rotor" or not problem.inflow.fine_tip or not found.converged:
+        return found
+    again = trim(replace(problem, course=along(found, problem.course)), found.guess, options)
+    return replace(again, passes=found.passes + again.passes)
 
 
 def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
@@ -100,15 +164,15 @@ def first_guess(problem: Problem) -> Guess:
         state = replace(state, shaft_tilt=math.atan2(wake.mu_z, wake.mu_x))
     if stand is not None and stand.collective is not None:
         state = replace(state, collective=stand.collective)
-    if "cyclic_1c" in unknowns_of(design):
+    if "cyclic_1c" in trim_of(design).unknowns:
         cyclic = {"cyclic_1s": -8.0 / 3.0 * mu * collective, "cyclic_1c": 4.0 / 3.0 * mu * coning}
         return Guess(replace(state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s))
     return Guess(replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning))
 
 
-def _easier(design: Design, t: float) -> Design:
+def _easier(design: Design, t: float) -> Problem:
     """The design in the flight condition of `easier_condition`."""
-    return replace(design, condition=easier_condition(design, t))
+    return build_problem(replace(design, condition=easier_condition(design, t)))
 
 
 def easier_condition(design: Design, t: float) -> FlightCondition:
@@ -146,7 +210,7 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
 def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOptions) -> TrimResult:
     """Follow the trim from an easier condition in adaptive steps; where it ends on the way, tell how far it came."""
     design = problem.design
-    easy = build_problem(_easier(design, 0.0))
+    easy = _easier(design, 0.0)
     result = newton(easy, first_guess(easy), options)
     passes += result.passes
     if not result.converged:
@@ -159,7 +223,7 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
         if passes >= options.most_passes or options.asked_to_stop:
             break
         ahead = min(1.0, t + step)
-        near = problem if ahead == 1.0 else build_problem(_easier(design, ahead))
+        near = problem if ahead == 1.0 else _easier(design, ahead)
         state = latest[1].state
         if before is not None:  # Along the secant through the last two trims.
             guess, last = state.array(), before[1].state.array()

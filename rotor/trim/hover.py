@@ -1,8 +1,6 @@
 """Hover and axial flight: collective, coning and steady elastic twist for a given thrust, see `rotor.columns.hover`."""
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -11,38 +9,12 @@ from rotor.aero.problem import Problem
 from rotor.arrays import Array
 from rotor.columns.hover import hover_system
 from rotor.engine.linearise import Point, System, evaluate, jacobian
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, LinearisedTrim, SolverOptions
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult
 
 _LARGEST_COLLECTIVE = math.radians(40.0)
 
 
-@dataclass(frozen=True, eq=False)
-class HoverResult:
-    """Where the hover solution ended."""
-
-    problem: Problem
-    point: Point
-    residual: float
-    """|C_T − C_W| over C_W."""
-    converged: bool
-    passes: int
-    """Evaluations of the annuli."""
-    reached: float
-    """C_T over C_W."""
-
-    @cached_property
-    def linear(self) -> LinearisedTrim:
-        """The equations there."""
-        return LinearisedTrim(self.problem, self.point)
-
-    @property
-    def guess(self) -> Guess:
-        """A start for hovering rotors nearby."""
-        elements = self.linear.elements
-        return Guess(elements.state, None if elements.torsion is None else elements.torsion.coordinates)
-
-
-def hover(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> HoverResult:
+def hover(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
     """Collective for a thrust equal to the weight; Newton with a bracket, from an optional start.
 
     On a test stand the thrust is the one given; with the collective given only the elastic twist is to be found. An
@@ -68,7 +40,7 @@ def _first(problem: Problem, system: System, collective: float, start: Guess | N
     return np.concatenate([system.numbers, [collective, coning], twist])
 
 
-def _with_collective(problem: Problem, system: System, x: Array, options: SolverOptions) -> HoverResult:
+def _with_collective(problem: Problem, system: System, x: Array, options: SolverOptions) -> TrimResult:
     """Coning and elastic twist at a given collective."""
     passes, error = 0, math.inf
     point = evaluate(system, system.grid, x, slopes=True, flow=True)
@@ -80,7 +52,7 @@ def _with_collective(problem: Problem, system: System, x: Array, options: Solver
         x = point.x.copy()
         x[system.structure.free] -= np.linalg.solve(jacobian(point)[0], point.residual)
         point = evaluate(system, system.grid, x, slopes=True, flow=True)
-    return HoverResult(problem, point, 0.0, error <= options.accepted_hover, passes, 1.0)
+    return TrimResult(problem, point, 0.0, error <= options.accepted_hover, passes, 1.0)
 
 
 def _error(point: Point, problem: Problem, first: int = 0) -> float:
@@ -91,7 +63,7 @@ def _error(point: Point, problem: Problem, first: int = 0) -> float:
     return max(float(twist.max(initial=0.0)), float(coning.max(initial=0.0)) / problem.scale)
 
 
-def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptions) -> HoverResult:
+def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptions) -> TrimResult:
     """Newton's method for the collective with a bracket; coning and elastic twist go with every step."""
     collective, free = system.structure.states["collective"], system.structure.free
     low, high, best, passes = -0.3, _LARGEST_COLLECTIVE, (math.inf, x), 0
@@ -123,4 +95,4 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
     point = evaluate(system, system.grid, best[1], slopes=True, flow=True)
     residual = abs(float(point.residual[0])) / problem.scale
     converged = max(residual, _error(point, problem, 1)) <= options.accepted_hover
-    return HoverResult(problem, point, residual, converged, passes, 1.0 + float(point.residual[0]) / problem.scale)
+    return TrimResult(problem, point, residual, converged, passes, 1.0 + float(point.residual[0]) / problem.scale)

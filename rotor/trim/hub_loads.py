@@ -26,7 +26,7 @@ from rotor.design.design import Design
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
 from rotor.engine.waves import wave_grid, waves_at
-from rotor.trim.adjoint import Adjoint, PitchGradient, Weights
+from rotor.trim.adjoint import Adjoint, Weights
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
 from rotor.units import GRAVITY
@@ -138,26 +138,11 @@ def index_of(design: Design, values: Array) -> tuple[float, Array]:
     return force + moment, slopes
 
 
-def hub_load_gradient(solution: Solution) -> PitchGradient:
-    """∂(index)/∂θ(r) [%/rad] of a converged solution with hub loads; trim, bending and inflow follow.
-
-    Raises RuntimeError where there are none, with the reason.
-    """
-    reason = why_no_hub_loads(solution.require().design)
-    if reason is not None:
-        raise RuntimeError(reason.sentence)
-    if not solution.design.models.bending:
-        raise RuntimeError("The blades do not bend in this solution: solve the design with bending first.")
-    adjoint = Adjoint(solution)
-    return PitchGradient(adjoint.problem.disk.r, adjoint.problem.disk.dr, index_along(adjoint)[1])
-
-
 def hub_index(adjoint: Adjoint) -> float:
     """The index [%] of a trim that has hub loads, with blades that bend."""
     problem, point = adjoint.problem, adjoint.point
-    return (
-        100.0 * index_of(problem.design, scaled_loads(problem, load_terms(problem, point).value(point.z, point.q)))[0]
-    )
+    loads = load_terms(problem, point).value(point.z, point.q)
+    return 100.0 * index_of(problem.design, scaled_loads(problem, loads))[0]
 
 
 def index_along(adjoint: Adjoint) -> tuple[float, Array]:

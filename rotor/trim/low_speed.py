@@ -22,8 +22,9 @@ from rotor.aero.momentum import vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.trim.hover import HoverResult, hover
-from rotor.trim.wake_course import with_course, with_slow_course
+from rotor.trim.forward import SLOWEST, with_course
+from rotor.trim.hover import hover
+from rotor.trim.newton import TrimResult
 
 FASTEST = 1.5
 """µ̄ from which on forward flight owes nothing to hover: µ 0.086 for a UH-60A at sea level. Our choice."""
@@ -33,7 +34,7 @@ FASTEST = 1.5
 class HoverDifference:
     """The hovering rotor of a design, and what the forward-flight model lacks there; over ΩR, (elements,)."""
 
-    hover: HoverResult
+    hover: TrimResult
     axial: Array
     """A_0, from the load of hover to the mean inflow, (elements, elements)."""
     by_speed: Array
@@ -54,7 +55,7 @@ def hover_difference(design: Design) -> HoverDifference | None:
     elements, disk = hovering.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
-    axial, slope = with_slow_course(problem).inflow_terms.axial(flow, elements.u_t[:, 0])
+    axial, slope = with_course(problem, design.at(mu=SLOWEST)).inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     inflow = elements.induced[:, 0] - axial @ load
     return HoverDifference(hovering, axial, slope * load, inflow, elements.swirl - uniform)

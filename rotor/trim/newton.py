@@ -1,7 +1,7 @@
-"""The trim of a problem from a guess, and whether it is accepted."""
+"""The trim of a problem from a guess by Newton's method, and whether it is accepted."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,38 +14,21 @@ from rotor.columns.flight import SystemTolerances, elements_of, flight_system, p
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, Solved, solve
+from rotor.engine.newton import Factors, NewtonLimits, solve
 from rotor.engine.waves import STEADY
 
 
 @dataclass(frozen=True)
-class SolverOptions:
+class SolverOptions(SystemTolerances):
     """Tolerances and limits of the solvers. The defaults serve every design; a test may tighten them."""
 
-    residual_tolerance: float = 1e-10
-    """Largest residual of the trim equations, as a fraction of C_W; it keeps the energy identity to 1e-9."""
-    inflow_tolerance: float = 1e-8
-    """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
-    torsion_tolerance: float = 1e-10
-    """Largest residual of the equations of torsion and bending [rad]."""
     accepted_residual: float = 1e-7
     accepted_inflow: float = 1e-6
-    """The same two where Newton's method makes no more progress: the slopes of stall data jump from one table cell to
-    the next, and a root element on such a jump can keep the last digits of its own inflow from settling. Power still
-    closes to 1e-6."""
-    max_passes: int = DEFAULT_LIMITS.most_passes
+    """Residuals of trim and inflow where Newton's method makes no more progress: the slopes of stall data jump from one
+    table cell to the next, and a root element on such a jump can keep the last digits of its own inflow from settling.
+    Power still closes to 1e-6."""
+    max_passes: int = 60
     """Evaluations of the blade elements in one run of Newton's method."""
-    most_old_steps: float = DEFAULT_LIMITS.most_steps
-    """This and the next two as in `NewtonLimits`."""
-    most_old_steps_of_nodes: float = 10.0
-    """The same with unknowns at every point, whose derivatives cost as much as ten steps; and of the next."""
-    kept_ratio_of_nodes: float = 0.5
-    most_old_steps_of_start: float = DEFAULT_LIMITS.most_steps_on_few
-    kept_ratio: float = DEFAULT_LIMITS.kept_ratio
-    angle_step: float = 0.08
-    """Largest Newton step of an angle [rad]: beyond it the section slopes no longer hold."""
-    inflow_step: float = 0.02
-    """Largest Newton step of λ0, over ΩR."""
     hover_tolerance: float = 1e-12
     """Difference of C_T from C_W in hover at which the iteration ends, as a fraction of C_W."""
     accepted_hover: float = 1e-10
@@ -102,17 +85,17 @@ class LinearisedTrim:
 
 @dataclass(frozen=True, eq=False)
 class TrimResult:
-    """Where Newton's method ended."""
+    """Where the solution of a trim or of hover ended."""
 
     problem: Problem
     point: Point
     residual: float
-    """Largest residual over `Problem.scale`."""
+    """Largest residual over `Problem.scale`; in hover |C_T − C_W| over C_W."""
     converged: bool
     passes: int
     """Evaluations of the blade elements."""
     reached: float = 1.0
-    """How far continuation from an easier condition came (1: all the way)."""
+    """How far continuation from an easier condition came (1: all the way); in hover C_T over C_W."""
     factors: Factors | None = None
     """Those of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
     nearest: "TrimResult | None" = None
@@ -120,11 +103,12 @@ class TrimResult:
 
     @property
     def state(self) -> TrimState:
+        """In forward flight."""
         return state_of(self.point.system.structure, self.point.x)
 
     @property
     def thrust(self) -> float:
-        """C_T along the shaft."""
+        """C_T along the shaft in forward flight."""
         return float(self.point.q[self.point.system.structure.measure(FZ, "one", STEADY)])
 
     @cached_property
@@ -138,6 +122,9 @@ class TrimResult:
     @property
     def guess(self) -> Guess:
         """A start for trims nearby."""
+        if self.problem.design.hovering:
+            hovering = self.linear.elements
+            return Guess(hovering.state, None if hovering.torsion is None else hovering.torsion.coordinates)
         structure = self.point.system.structure
         state, twist, bending, inflow = parts_of(structure, self.point.x)
         modes = len(self.problem.given_torsion)
@@ -147,28 +134,16 @@ class TrimResult:
         )  # fmt: skip
 
 
-def tolerances(options: SolverOptions) -> SystemTolerances:
-    """As the system of a flight takes them."""
-    return SystemTolerances(
-        options.residual_tolerance, options.inflow_tolerance, options.torsion_tolerance, options.angle_step,
-        options.inflow_step,
-    )  # fmt: skip
-
-
 def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
     """Newton's method on trim unknowns, elastic twist and inflow together, see `rotor.engine.newton`."""
-    system = flight_system(problem, tolerances(options))
+    system = flight_system(problem, options)
     factors = start.factors if start.structure == system.structure.name else None
-    most_on_few = options.most_old_steps_of_start if problem.inflow.load_dependent else 0.0
-    most_steps, kept_ratio = options.most_old_steps, options.kept_ratio
-    if system.nodes is not None:
-        most_steps, kept_ratio = options.most_old_steps_of_nodes, options.kept_ratio_of_nodes
-    limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio)
-    return _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
-
-
-def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResult:
-    """Whether the iteration ended at a trim."""
+    limits = NewtonLimits(options.max_passes)
+    if not problem.inflow.load_dependent:
+        limits = replace(limits, most_steps_on_few=0.0)
+    if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as ten steps.
+        limits = replace(limits, most_steps=10.0, kept_ratio=0.5)
+    found = solve(system, first_point(problem, system, start), factors, limits)
     residual, twisting, difference = _errors(found.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = found.point.size <= 1.0 or accepted

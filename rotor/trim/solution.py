@@ -367,7 +367,7 @@ class Solution:
 
     def to_dict(self) -> dict[str, Any]:
         """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
-        design, controls, power = self.design, self.controls, self.last_power
+        design, controls, power, stand = self.design, self.controls, self.last_power, self.design.condition.stand
         values: dict[str, Any] = {
             "power_w": {
                 "total": power.total,
@@ -409,18 +409,13 @@ class Solution:
             "preset": design.preset,
             "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
             "twist": design.twist.spec(),
-            **self._test(),
+            **({} if stand is None else {"trim": design.models.trim, "stand": stand.record()}),
             **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
             **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
             **self._switches(),
             **(values if self.converged else _emptied(values)),
             "elapsed_ms": 1e3 * self.elapsed,
         }
-
-    def _test(self) -> dict[str, Any]:
-        """Trim and inputs of a test; nothing in flight."""
-        stand = self.design.condition.stand
-        return {} if stand is None else {"trim": self.design.models.trim, "stand": stand.record()}
 
     def _switches(self) -> dict[str, Any]:
         """What is switched off, and the hub moment, which is then not zero; nothing for the full model."""

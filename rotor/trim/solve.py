@@ -3,6 +3,7 @@
 import math
 import time
 from dataclasses import replace
+from functools import partial
 
 from rotor.aero.display import areas, as_asked, unsteady_part
 from rotor.aero.elements import BladeElements, disk_sums
@@ -11,15 +12,14 @@ from rotor.aero.section import stall_margins
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
-from rotor.trim.forward import first_guess, trim, trim_along
-from rotor.trim.hover import HoverResult, hover
+from rotor.trim.forward import course_of, first_guess, trim_along, trim_on_course
+from rotor.trim.hover import hover
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
-from rotor.trim.solution import DiskFields, ElasticTwist, HubLoads, Solution, Status
+from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
-from rotor.trim.wake_course import course_of, laid_again
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -36,30 +36,21 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     problem = trim_problem(require_design(design))
-    if vortex_ring(design):
-        return _assemble(problem, _without_trim(problem), begin)
+    if vortex_ring(design):  # There is no steady wake: a state near it.
+        once = replace(DEFAULT_OPTIONS, max_passes=1)
+        near = hover(problem) if design.hovering else newton(problem, first_guess(problem), once)
+        return _assemble(replace(near, converged=False), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
-    result = hover(problem, guess, options) if design.hovering else trim(problem, guess, options)
-    if isinstance(result, TrimResult) and (again := laid_again(problem, result)) is not None:
-        problem, passes = again, result.passes
-        result = trim(problem, result.guess, options)
-        result = replace(result, passes=passes + result.passes)
-    solution = _assemble(problem, result, begin)
+    result = (hover if design.hovering else trim_on_course)(problem, guess, options)
+    solution = _assemble(result, begin)
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)
         if other is not None:
-            return _least(solution, _assemble(problem, replace(other, passes=result.passes + other.passes), begin))
+            return _least(solution, _assemble(replace(other, passes=result.passes + other.passes), begin))
     return solution
 
 
-def _without_trim(problem: Problem) -> HoverResult | TrimResult:
-    """A state near a design that has no steady wake."""
-    if problem.design.hovering:
-        return replace(hover(problem), converged=False)
-    return replace(newton(problem, first_guess(problem), replace(DEFAULT_OPTIONS, max_passes=1)), converged=False)
-
-
-def _may_be_of_another_branch(solution: Solution, result: HoverResult | TrimResult) -> bool:
+def _may_be_of_another_branch(solution: Solution, result: TrimResult) -> bool:
     """Whether forward flight closes with so much stall, or so implausibly, that it may not be the trim of least power.
 
     Free of charge for every other design.
@@ -82,8 +73,8 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
     return earlier.start
 
 
-def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) -> Solution:
-    design, elements = problem.design, result.linear.elements
+def _assemble(result: TrimResult, begin: float) -> Solution:
+    problem, design, elements = result.problem, result.problem.design, result.linear.elements
     total = disk_sums(problem.disk, elements)
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
@@ -110,7 +101,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, total, fields, stalled, moment, power, elastic) if converged else (),
+        caveats=tuple(caveats(problem, elements, total, fields, stalled, moment, power, elastic)) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -128,12 +119,8 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         start=result.guess,
         wake_course=course_of(problem),
         linear=result.linear,
-        find_hub_loads=_hub_loads,
+        find_hub_loads=partial(hub_loads, solve=solve),
     )
-
-
-def _hub_loads(solution: Solution) -> HubLoads | None:
-    return hub_loads(solution, solve)
 
 
 def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
@@ -181,11 +168,10 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     )
 
 
-def _stalled(result: HoverResult | TrimResult, last: float) -> float:
+def _stalled(result: TrimResult, last: float) -> float:
     """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
-    near = result.nearest if isinstance(result, TrimResult) else None
-    if near is None:
+    if result.nearest is None:
         return last
-    problem, elements = as_asked(near.problem, near.linear.elements)
+    problem, elements = as_asked(result.nearest.problem, result.nearest.linear.elements)
     fields = _fields(problem, elements)
     return areas(problem.disk, elements, fields.stall_margin, fields.unsteady)[1]

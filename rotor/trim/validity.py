@@ -1,6 +1,7 @@
 """The limits of validity of a solution, and why a design did not trim, in sentences for the user."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -53,19 +54,14 @@ def caveats(
     moment: HubMoment,
     power: PowerBudget,
     elastic: ElasticTwist | None,
-) -> tuple[Caveat, ...]:
+) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
-    found: list[Caveat] = []
-
-    def add(name: str, sentence: str) -> None:
-        found.append(Caveat(name, sentence))
-
     for remark in design.aircraft.remarks:
-        add("rotor-file", remark)
+        yield Caveat("rotor-file", remark)
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        add(
+        yield Caveat(
             "teetering",
             "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
         )
@@ -74,23 +70,23 @@ def caveats(
         ends = design.twist(np.array([root, 1.0]))
         change = float(ends[1] - ends[0])
         if abs(change) > LARGEST_BUILT_TWIST:
-            add(
+            yield Caveat(
                 "twist-beyond-built",
                 f"The blade twists by {math.degrees(change):.0f}° from root to tip; helicopter blades are built with "
                 "about 20° or less. Read the result as an extrapolation.",
             )
     if design.tail_rotor is None and design.models.tail_rotor_solved and design.condition.stand is None:
-        add(
+        yield Caveat(
             "no-tail-rotor",
             f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead.",
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
-        add(
+        yield Caveat(
             "thesis-models",
             f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade.",
         )
     if design.models.has("elastic_twist") and design.rotor.blade.structure is None:
-        add(
+        yield Caveat(
             "no-blade-structure",
             "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
             "degrees in flight.",
@@ -98,31 +94,33 @@ def caveats(
     off = switched_off(design.models)
     if off:
         names = ", ".join(switch.title.lower() for switch in off)
-        add("switched-off", f"Switched off: {names}. The result is for teaching, not for the aircraft.")
+        yield Caveat("switched-off", f"Switched off: {names}. The result is for teaching, not for the aircraft.")
     if not design.models.flapping and mu > 0.0:
-        add("rigid-blades", _rigid(moment))
+        yield Caveat("rigid-blades", _rigid(moment))
         if not problem.inflow.load_dependent:
-            add(
+            yield Caveat(
                 "rigid-blades-linear-inflow",
                 "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
             )
     if design.active_twist and design.hovering:
-        add("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
+        yield Caveat("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
     if design.pitch_per_rev and design.hovering:
-        add(
+        yield Caveat(
             "root-pitch-rests", "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
         )
     if design.pitch_waves:
-        found += _pitch_waves(design, power, elastic)
+        yield from _pitch_waves(design, power, elastic)
     if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
-        add("low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
+        yield Caveat(
+            "low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+        )
     elif 0.0 < mu < LOWEST_SPEED:
-        add(
+        yield Caveat(
             "low-speed-inflow",
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
         )
     if hover_share(design) and problem.joined is None:
-        add(
+        yield Caveat(
             "low-speed-not-matched",
             "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed.",
         )
@@ -130,40 +128,40 @@ def caveats(
         inflow = math.sqrt(0.5 * design.weight_coefficient)
         descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
         if descent > -VORTEX_RING_ONSET and edge < math.inf:
-            add(
+            yield Caveat(
                 "vortex-ring",
                 f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
                 f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {edge:.2f} the vortex ring "
                 "state begins.",
             )
     if power.main_rotor < 0.0 and design.condition.stand is None:
-        add(
+        yield Caveat(
             "beyond-autorotation",
             "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
             "engine off the rotor turns faster.",
         )
     installed = design.aircraft.installed_power
     if installed is not None and power.total > installed and design.condition.stand is None:
-        add(
+        yield Caveat(
             "installed-power",
             f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
             "and less at altitude.",
         )
     if mu > HIGH_SPEED:
-        add(
+        yield Caveat(
             "high-speed",
             f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
             "approximation.",
         )
     loading = total.thrust / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
-        add(
+        yield Caveat(
             "blade-loading",
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
             f"too low. {_nearest_to_stall(fields.stall_margin, disk.r)}",
         )
     if stalled > STALL_SHARE:
-        add(
+        yield Caveat(
             "stall",
             f"{100.0 * stalled:.1f} % of the disk is stalled; "
             + (
@@ -175,53 +173,46 @@ def caveats(
     top_mach = float(fields.mach.max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
-            add(
+            yield Caveat(
                 "no-compressibility",
                 f"The section polar holds for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
             )
         if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
-            add(
+            yield Caveat(
                 "mixed-section-data",
                 f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
                 "tables with Mach number: their difference is one of data, not of airfoils.",
             )
         clamped = _outside_fit(fields, disk.fit_range)
         if clamped > 0.0:
-            add(
+            yield Caveat(
                 "polynomial-clamped",
                 f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped.",
             )
     elif top_mach > disk.mach_limit:
-        add(
+        yield Caveat(
             "mach-outside-data",
             f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant above.",
         )
-    return tuple(found)
 
 
-def _pitch_waves(design: Design, power: PowerBudget, elastic: ElasticTwist | None) -> list[Caveat]:
+def _pitch_waves(design: Design, power: PowerBudget, elastic: ElasticTwist | None) -> Iterator[Caveat]:
     """What the models leave out of pitch that follows the azimuth."""
-    found: list[Caveat] = []
     highest = max((one.per_rev for wave in design.pitch_waves for one in wave.harmonics), default=0)
     frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)
     if frequency > FAST_PITCH and not design.models.dynamic_stall:
-        found.append(
-            Caveat(
-                "fast-pitch",
-                f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and "
-                "only the wake that a lifting line sheds and the damping of the pitch rate answer to it.",
-            )
+        yield Caveat(
+            "fast-pitch",
+            f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and "
+            "only the wake that a lifting line sheds and the damping of the pitch rate answer to it.",
         )
     moved = 0.0 if elastic is None else elastic.control_power
     if abs(moved) > CONTROL_SHARE * abs(power.main_rotor):
-        found.append(
-            Caveat(
-                "control-power",
-                f"Pitch links and actuators put {moved / 1e3:.1f} kW into the pitching blades; that is not part of the "
-                "power here.",
-            )
+        yield Caveat(
+            "control-power",
+            f"Pitch links and actuators put {moved / 1e3:.1f} kW into the pitching blades; that is not part of the "
+            "power here.",
         )
-    return found
 
 
 def _nearest_to_stall(margin: Array, r: Array) -> str:

@@ -6,9 +6,8 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 from rotor.design.design import HOVER_INFLOWS, Design
-from rotor.design.retired import current_model
 from rotor.design.stand import Stand
-from rotor.files.make_design import make_design
+from rotor.files.make_design import current_model, make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution

@@ -19,8 +19,8 @@ from explorer.tabs.design_files import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
-from rotor.design.retired import RETIRED
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
+from rotor.files.make_design import RETIRED
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
 """Characters of a query that the parser of addresses leaves as they are; a `#` would end the query."""

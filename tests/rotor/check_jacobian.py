@@ -5,14 +5,15 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
+from rotor.arrays import Array
 from rotor.columns.flight import elements_of, flight_system
-from rotor.engine.linearise import Point, evaluate, jacobian
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, tolerances
+from rotor.engine.linearise import Point, evaluate, jacobian, transposed
+from rotor.trim.newton import Guess, first_point
 
 
 def point_at(problem: Problem, state: TrimState) -> Point:
     """With all eight quantities as in the state, also those that a trim gives another value."""
-    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
+    system = flight_system(problem)
     x = first_point(problem, system, Guess(state))
     x[[system.structure.states[name] for name in STATE_NAMES]] = state.array()
     return evaluate(system, system.grid, x, slopes=True, flow=True)
@@ -34,3 +35,19 @@ def check_jacobian(problem: Problem, state: TrimState) -> None:
         step[atom] = 1e-6 * (0.1 if atom == system.structure.states["lambda0"] else 1.0)
         ahead, behind = (evaluate(system, system.grid, point.x + sign * step).residual for sign in (1.0, -1.0))
         assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[atom]), rtol=2e-5, atol=2e-7)
+
+
+def check_along(point: Point, along: Array, tolerance: float) -> None:
+    """The Jacobian along a change of all unknowns against differences of fourth order; and its transpose."""
+    system, exact = point.system, jacobian(point)[0]
+
+    def residual(share: float) -> Array:
+        x = point.x.copy()
+        x[system.free] += share * along
+        return evaluate(system, point.grid, x).residual
+
+    near, far = residual(0.1) - residual(-0.1), residual(0.2) - residual(-0.2)
+    expected = (8.0 * near - far) / 1.2
+    assert_allclose(exact @ along, expected, atol=tolerance * float(np.abs(expected).max()))
+    weights = np.random.default_rng(2).standard_normal(len(along)) / system.tolerance
+    assert_allclose(transposed(point, weights)[0] @ along, weights @ exact @ along, rtol=1e-9)

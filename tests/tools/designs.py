@@ -25,7 +25,7 @@ from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.hover import _error
-from rotor.trim.newton import DEFAULT_OPTIONS, _errors, tolerances
+from rotor.trim.newton import DEFAULT_OPTIONS, _errors
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -176,7 +176,7 @@ def _open(solution: Solution) -> str:
         thrust = 0.0 if given else abs(float(point.residual[0]))
         error = max(thrust / problem.scale, _error(point, problem, 0 if given else 1))
         return "" if error <= 2.0 * options.accepted_hover else f"hover is open by {error:.1e}"
-    system = flight_system(problem, tolerances(options))
+    system = flight_system(problem)
     point = evaluate(system, system.grid, solution.linear.point.x)
     trim, elastic, inflow = _errors(point, options)
     held = max(trim, elastic) <= options.accepted_residual and inflow <= options.accepted_inflow

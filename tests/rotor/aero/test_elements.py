@@ -15,7 +15,7 @@ from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import CHANNELS, FX, FZ, LOSS, PAIRS, RATE, section
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import elements_of
-from rotor.columns.trims import unknowns_of
+from rotor.columns.trims import trim_of
 from rotor.engine.linearise import evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
@@ -138,7 +138,7 @@ def test_newton_converges_quadratically():
     """Near the root each residual is of the order of the last one squared: the mark of an exact Jacobian."""
     p = problem(mu=0.2)
     point = newton(p, first_guess(p)).point
-    free, count = point.system.structure.free, len(unknowns_of(p.design))
+    free, count = point.system.structure.free, len(trim_of(p.design).unknowns)
     x, sizes = point.x.copy(), list[float]()
     x[free[:count]] += 2e-3
     for _ in range(4):

@@ -22,7 +22,7 @@ from rotor.aero.section import LOSS
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
-from rotor.columns.trims import unknowns_of
+from rotor.columns.trims import trim_of
 from rotor.design.design import BEYOND_DOCUMENT, Design
 from rotor.design.twist import TableTwist
 from rotor.files.design_file import design_from_record
@@ -92,7 +92,7 @@ def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
 @pytest.mark.parametrize("trim", ["propulsive", "thrust"])
 def test_jacobian_against_differences(off: tuple[str, ...], trim: str):
     problem = build_problem(with_switches(small(0.35, inflow="pitt-peters", trim=trim), off))
-    unknowns = unknowns_of(problem.design)
+    unknowns = trim_of(problem.design).unknowns
     state = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
     if "flapping" in off:
         state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)

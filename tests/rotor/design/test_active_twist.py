@@ -11,32 +11,17 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import dynamic_twist, phase_sweep, power_map, tip_response, with_harmonic
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
-from rotor.aero.problem import build_problem
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.design.stand import Stand
-from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
-from rotor.trim.forward import first_guess
-from rotor.trim.newton import newton
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import check_jacobian
 
 DEGREE = math.radians(1.0)
 
 
 def turning(design: Design, *harmonics: Harmonic, **shape: tuple[float, ...]) -> Design:
     return replace(design, active_twist=ActiveTwist(harmonics, **shape))
-
-
-@pytest.mark.parametrize("inflow", ["lifting-line", "pitt-peters", "local-momentum"])
-@pytest.mark.parametrize("per_rev", [1, 2, 3])
-def test_energy_identity(inflow: str, per_rev: int):
-    """Torque × Ω is the sum of the parts, whatever the pitch does around the disk."""
-    design = make_design(mu=0.25)
-    design = replace(design, models=replace(design.models, inflow=inflow))
-    solution = solve(turning(design, Harmonic(per_rev, 1.5 * DEGREE, 0.7))).require()
-    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
 
 
 def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
@@ -49,35 +34,6 @@ def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
     shift = 2.0 * DEGREE * np.array([math.cos(0.5), math.sin(0.5)])
     cyclic = [solution.controls.cyclic_1c, solution.controls.cyclic_1s]
     assert_allclose(np.array(cyclic) + shift, [plain.controls.cyclic_1c, plain.controls.cyclic_1s], atol=1e-9)
-
-
-def test_zero_active_twist_changes_nothing():
-    design = make_design(mu=0.2)
-    assert solve(turning(design, Harmonic(2, 0.0))).power.total == solve(design).power.total
-
-
-def test_field_by_hand():
-    """shape(r) A cos(nψ − φ): half the tip's amplitude half-way out, largest nose-up at ψ = φ/n."""
-    act = ActiveTwist((Harmonic(2, 0.02, math.pi / 2.0),), stations=(0.2, 1.0), shape=(0.0, 1.0))
-    field = act(np.array([0.1, 0.6, 1.0]), np.array([0.0, math.pi / 4.0, 3.0 * math.pi / 4.0]))
-    assert_allclose(field, [[0.0, 0.0, 0.0], [0.0, 0.01, -0.01], [0.0, 0.02, -0.02]], atol=1e-15)
-
-
-def test_the_jacobian_is_still_exact():
-    """Newton needs no more iterations, and the Jacobian agrees with differences of the residuals."""
-    design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
-    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
-    done, still = newton(problem, first_guess(problem)), build_problem(replace(problem.design, active_twist=None))
-    assert done.converged
-    assert done.passes <= newton(still, first_guess(still)).passes + 1
-    check_jacobian(problem, done.state)
-
-
-def test_active_twist_is_off_in_hover():
-    design = turning(make_design(mu=0.0), Harmonic(2, DEGREE))
-    solution = solve(design).require()
-    assert solution.power.total == solve(replace(design, active_twist=None)).power.total
-    assert "active-twist-rests" in [caveat.name for caveat in solution.caveats]
 
 
 def test_twice_per_revolution_saves_power_at_high_speed():
@@ -172,16 +128,3 @@ def test_the_saving_grows_with_speed():
     assert slow.net_saving < 0.0 < fast.net_saving
     assert slow.gross_saving > slow.net_saving
     assert fast.gross_saving > fast.net_saving
-
-
-@pytest.mark.parametrize(
-    "make", [lambda: Harmonic(0, 0.01), lambda: Harmonic(2, -0.1), lambda: ActiveTwist((), (0.5,), (1.0,))]
-)
-def test_bad_input(make: object):
-    with pytest.raises(ValueError, match=r"give|choose|move"):
-        make()  # type: ignore[operator]
-
-
-def test_bad_active_twist_in_a_design_file_is_one_sentence():
-    with pytest.raises(ValueError, match="'active_twist' is 3"):
-        design_from_record({"active_twist": 3})

@@ -12,13 +12,15 @@ from numpy.testing import assert_allclose
 from rotor import make_design
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
 from rotor.airfoil.decks import on_run_time_grid
-from rotor.airfoil.polars import Polar, parse_polar_file, read_polars
+from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.trim.solve import solve
 
+POLARS = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
+DECK = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
 GOOD = """\
 name = "Test rotor"
 
@@ -125,23 +127,21 @@ def test_a_bad_span_is_reported_with_its_line():
 
 
 def test_a_users_deck_is_used_and_pickles():
-    deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
     text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\noutline = "naca0012"\n'
-    craft = read(text, **{"mine.c81": deck})
+    craft = read(text, **{"mine.c81": DECK})
     assert craft.remarks == ()
     section = pickle.loads(pickle.dumps(craft)).rotor.blade.installed("mine")
     alpha, mach = np.deg2rad(np.linspace(-180.0, 180.0, 73)), 0.37
     assert_allclose(section.table(alpha, mach).cl, load_installed("naca0012").table(alpha, mach).cl, atol=1e-12)
     assert craft.files is not None
-    assert dict(craft.files.texts) == {"my.toml": text, "mine.c81": deck}
+    assert dict(craft.files.texts) == {"my.toml": text, "mine.c81": DECK}
 
 
 SECTION = '\n[sections.mine]\npolars = ["a.txt", "b.txt"]\noutline = "naca0012"\n'
 
 
 def test_xfoil_polars_give_the_bundled_deck():
-    polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
-    files = {"a.txt": polar_file(polars[2]), "b.txt": polar_file(polars[3])}
+    files = {"a.txt": polar_file(POLARS[2]), "b.txt": polar_file(POLARS[3])}
     craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + SECTION, **files)
     assert len(craft.remarks) == 1
     assert "Mach 0.3, 0.4" in craft.remarks[0]
@@ -155,14 +155,9 @@ def test_xfoil_polars_give_the_bundled_deck():
     assert_allclose(mine(small, 0.6).cl, ours(small, 0.6).cl, atol=0.02)
 
 
-def test_polars_in_the_bundled_csv_format_are_read():
-    text = asset_path("airfoils/naca0012_trip5.polars.csv").read_text(encoding="utf-8")
-    assert [p.mach for p in parse_polar_file("all.csv", text)] == [0.1, 0.2, 0.3, 0.4]
-
-
 def test_bad_section_files_get_one_sentence():
-    polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
-    fine, deck = polar_file(polar), asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+    polar, deck = POLARS[2], DECK
+    fine = polar_file(polar)
     toml = GOOD.replace('"naca0012"', '"mine"', 1)
     one = '\n[sections.mine]\npolars = "a.txt"\n'
     of_deck = '\n[sections.mine]\ndeck = "a.c81"\n'
@@ -186,13 +181,6 @@ def test_bad_section_files_get_one_sentence():
         assert "\n" not in str(caught.value)
 
 
-def test_a_missing_outline_is_a_symmetric_section_with_a_remark():
-    deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
-    craft = read(GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "a.c81"\n', **{"a.c81": deck})
-    assert craft.remarks == ("The outline of section mine is not given: it is drawn as a symmetric 12 % section.",)
-    assert craft.rotor.blade.installed("mine").outline.name == "naca0012"
-
-
 def test_other_decks_are_interpolated_to_the_run_time_grid():
     """A deck with odd angles and Machs that ends at stall: its own values inside, the closed form far out."""
     ours = read_c81(asset_path("airfoils/naca0012.c81"))
@@ -210,9 +198,8 @@ def test_other_decks_are_interpolated_to_the_run_time_grid():
 
 
 def test_assumptions_about_files_are_caveats():
-    polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
     one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
-    craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(polar)})
+    craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(POLARS[2])})
     caveats = solve(make_design(rotor=craft, mu=0.2)).require().caveats
     assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor", "no-blade-structure"]
 
@@ -222,8 +209,7 @@ def test_the_examples_in_the_docs_are_rotor_files(page: str):
     text = (Path(__file__).parent.parent.parent.parent / page).read_text(encoding="utf-8")
     found = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
     assert found is not None
-    polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
-    files = {f"n23012_m0{k + 1}.txt": polar_file(polars[k]) for k in (1, 2, 3)}
+    files = {f"n23012_m0{k + 1}.txt": polar_file(POLARS[k]) for k in (1, 2, 3)}
     assert solve(make_design(rotor=read(found[1], **files), mu=0.2)).converged
 
 
@@ -232,7 +218,13 @@ def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
     (tmp_path / "my.toml").write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is missing"):
         load_rotor(tmp_path / "my.toml")
-    (tmp_path / "mine.c81").write_bytes(asset_path("airfoils/naca0012.c81").read_bytes())
+    (tmp_path / "mine.c81").write_text(DECK, encoding="utf-8")
+    craft = load_rotor(tmp_path / "my.toml")
+    assert craft.remarks == ("The outline of section mine is not given: it is drawn as a symmetric 12 % section.",)
+    assert craft.rotor.blade.installed("mine").outline.name == "naca0012"
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "mine.c81").rename(tmp_path / "sub" / "mine.c81")
+    (tmp_path / "my.toml").write_text(text.replace("mine.c81", "sub/mine.c81"), encoding="utf-8")
     assert load_rotor(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
     with pytest.raises(ValueError, match="does not exist"):
         load_rotor(tmp_path / "other.toml")

@@ -22,7 +22,7 @@ from rotor.optimisation.ideal_bound import (
     least_induced_power,
     least_twisted_power,
 )
-from rotor.trim.wake_course import with_course
+from rotor.trim.forward import with_course
 
 COARSE = Line(4, 0.13, 16, 36)
 BLADE = LinearBlade()

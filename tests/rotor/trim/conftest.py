@@ -6,17 +6,17 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.trim import wake_course
+from rotor.trim import forward
 
 
 @pytest.fixture
 def same_course(monkeypatch: pytest.MonkeyPatch) -> WakeCourse:
     """The course of every wake of a lifting line: that of the UH-60A at µ = 0.2."""
-    course = wake_course.with_course(build_problem(make_design(mu=0.2))).course
+    course = forward.with_course(build_problem(make_design(mu=0.2))).course
 
     def given(design: Design) -> WakeCourse:
         del design
         return course
 
-    monkeypatch.setattr(wake_course, "_course", given)
+    monkeypatch.setattr(forward, "_course", given)
     return course

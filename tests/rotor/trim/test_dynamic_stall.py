@@ -1,17 +1,16 @@
 """Trims with dynamic stall: exact derivatives, gradients, convergence, and nothing where it is off."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from rotor import load_design, make_design, solve
+from rotor import make_design, solve
 from rotor.design.design import Design
-from rotor.engine.linearise import evaluate, jacobian, transposed
 from rotor.trim.adjoint import Adjoint, power_gradient
 from rotor.trim.distribution import distribution
+from tests.rotor.check_jacobian import check_along
 
 HEAVY: dict[str, Any] = {"mu": 0.35, "mass_kg": 9500.0}
 
@@ -26,20 +25,8 @@ def test_the_jacobian_is_exact(changed: dict[str, Any]):
     assert solution.disk.unsteady is not None
     assert solution.disk.unsteady.separation.min() < 0.5
     point = Adjoint(solution).point
-    system, rng = point.system, np.random.default_rng(0)
-    matrix = jacobian(point)[0]
-    v = rng.normal(size=len(system.free)) * system.limits
-    v *= 1e-3 / np.abs(v).max()
-
-    def residual(step: float):
-        x = point.x.copy()
-        x[system.free] += step * v
-        return evaluate(system, system.grid, x).residual
-
-    expected, found = matrix @ v, (residual(1e-3) - residual(-1e-3)) / 2e-3
-    assert np.abs(found - expected).max() < 1e-5 * np.abs(expected).max()
-    w = rng.normal(size=len(matrix)) / system.tolerance
-    assert transposed(point, w)[0] @ v == pytest.approx(w @ expected, rel=1e-9)
+    along = np.random.default_rng(0).normal(size=len(point.system.free)) * point.system.limits
+    check_along(point, along * (1e-5 / np.abs(along).max()), 1e-5)
 
 
 def test_the_gradient_is_that_of_trims():
@@ -74,17 +61,3 @@ def test_stalled_lift_comes_later_and_is_more():
 def test_no_effect_in_hover_and_where_the_section_balances_itself(given: dict[str, Any]):
     design = make_design(**given, dynamic_stall=True)
     assert solve(design).power.total == solve(steady(design)).power.total
-
-
-def test_design_files_keep_it(tmp_path: Path):
-    design = make_design(mu=0.3, dynamic_stall=True)
-    design.save(tmp_path / "own.json")
-    read = load_design(tmp_path / "own.json")
-    assert read == design
-    assert make_design(case=read, off="dynamic-stall") == make_design(mu=0.3)
-    assert "dynamic_stall" not in make_design(mu=0.3).to_dict()
-
-
-def test_it_is_off_unless_asked_for():
-    assert not make_design().models.dynamic_stall
-    assert solve(make_design(mu=0.3)).disk.unsteady is None

@@ -16,11 +16,9 @@ from rotor.aero.problem import build_problem
 from rotor.aero.section import LOSS, RATE, TH, UP, UR, UT, M, section
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.design.twist import TableTwist
 from rotor.engine.newton import Factors
 from rotor.engine.waves import rate_of, wave_grid
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.solution import Solution
@@ -36,9 +34,11 @@ def design(mu: float, *, inflow: str | None = None, small: bool = False, on: boo
 
 
 def flapping(made: Design) -> Design:
-    """With given flapping and active twist, so that every term of the equations is there."""
-    active = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))
-    return replace(made, condition=replace(made.condition, flap_1c=-0.02, flap_1s=0.01), active_twist=active)
+    """With given flapping, active twist and n/rev root pitch, so that every term of the equations is there."""
+    active = ActiveTwist((Harmonic(2, 0.02, 0.3), Harmonic(3, 0.02, 1.5)), (0.2, 0.9), (0.0, 1.0))
+    pitch = tuple(Harmonic(n, size, 0.5 * n) for n, size in ((2, 0.017), (3, 0.012), (5, 0.005)))
+    condition = replace(made.condition, flap_1c=-0.02, flap_1s=0.01)
+    return replace(made, condition=condition, active_twist=active, pitch_per_rev=pitch)
 
 
 def with_structure(made: Design, **changes: object) -> Design:
@@ -68,19 +68,15 @@ def test_a_stiff_blade_is_the_rigid_one(mu: float):
     assert rigid.disk.elastic_twist is None
 
 
-def test_the_document_has_no_elastic_blade():
-    made = make_design(preset="thesis", mu=0.2)
-    switched = replace(made, models=replace(made.models, elastic_twist=True))
-    assert solve(switched).power == solve(made).power
-
-
 @pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_energy(inflow: str):
-    """Shaft power is the sum of the parts, to rounding.
+    """Shaft power is the sum of the parts, to rounding, whatever the pitch does around the disk.
 
     What pitch links and plies put into the blades is what the air takes, −Σ dC_M θ': all else stores energy.
     """
     made = flapping(design(0.23, inflow=inflow, small=True))
+    rigid = solve(replace(made, models=replace(made.models, elastic_twist=False)), options=TIGHT).require()
+    assert_allclose(rigid.power.shaft, rigid.power.main_rotor, rtol=1e-9)
     solution = solve(made, options=TIGHT).require()
     assert solution.elastic is not None
     assert solution.linear is not None
@@ -88,36 +84,9 @@ def test_energy(inflow: str):
     assert problem.torsion is not None
     air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
     taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
-    assert abs(taken) * made.power_unit > 10.0
+    assert abs(taken) * made.power_unit > 400.0
     assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
-
-
-@pytest.mark.parametrize("inflow", INFLOW_MODELS)
-def test_gradient_by_pitch(inflow: str):
-    check_gradient(flapping(design(0.23, inflow=inflow, small=True)))
-
-
-def test_gradient_in_hover():
-    check_gradient(design(0.0, small=True))
-
-
-def check_gradient(made: Design) -> None:
-    """dP/dθ(r) against differences, total and induced."""
-    solution = solve(made, options=TIGHT)
-    found = [power_gradient(solution), power_gradient(solution, "induced")]
-    r, twist = solution.disk.r, made.twist(solution.disk.r)
-    for k in (1, 12):
-        powers: list[np.ndarray] = []
-        for step in (2e-5, -2e-5):
-            changed = twist + step * np.eye(len(r))[k]
-            law = TableTwist(tuple(r.tolist()), tuple(changed.tolist()), name="changed")
-            power = solve(replace(made, twist=law), solution, TIGHT).require().power
-            powers.append(np.array([power.total, power.induced]))
-        measured = (powers[0] - powers[1]) / 4e-5
-        for value, gradient in zip(measured, found, strict=True):
-            scale = max(float(np.abs(gradient.by_element).max()), 1e-2 * solution.power.total)
-            assert_allclose(value, gradient.by_element[k], atol=1e-5 * scale)
 
 
 def test_static_twist_in_hover_by_integration():
@@ -221,19 +190,6 @@ def test_nose_down_in_the_second_quadrant_at_high_speed():
     assert max(load) == load[1]  # It holds the nose up.
 
 
-def test_sizes_of_the_elastic_twist():
-    """Bounds of our own answers: a change of sign, unit or data leaves them. No published size is claimed here."""
-    for mu, peak in ((0.3, (-5.5, -3.5)), (0.36, (-6.0, -4.0))):
-        elastic = solve(design(mu)).require().elastic
-        assert elastic is not None
-        record = elastic.record()["elastic_twist_deg"]
-        assert -3.5 < record["mean_tip"] < -2.0
-        assert 1.0 < record["amplitude_1_tip"] < 2.0
-        assert peak[0] < record["min_tip"] < peak[1]
-        azimuth = np.degrees(2.0 * math.pi * int(elastic.tip.argmin()) / len(elastic.tip))
-        assert 45.0 < azimuth < 180.0
-
-
 def test_two_modes_suffice(monkeypatch: pytest.MonkeyPatch):
     """Power within 0.03 %, the tip within 0.1° and within 0.03° in the mean of six modes."""
     few = solve(design(0.35)).require()
@@ -246,17 +202,6 @@ def test_two_modes_suffice(monkeypatch: pytest.MonkeyPatch):
     assert_allclose(few.power.total, many.power.total, rtol=3e-4)
     assert_allclose(few.elastic.tip, many.elastic.tip, atol=math.radians(0.1))
     assert_allclose(few.elastic.tip.mean(), many.elastic.tip.mean(), atol=math.radians(0.03))
-
-
-def test_warm_and_cold_start_agree():
-    cold = solve(design(0.25)).require()
-    near = solve(design(0.248)).require()
-    warm = solve(design(0.25), near).require()
-    assert cold.elastic is not None
-    assert warm.elastic is not None
-    assert warm.start.factors is near.start.factors  # A few evaluations, and no new derivatives.
-    assert_allclose(warm.elastic.tip, cold.elastic.tip, atol=1e-8)
-    assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
 
 
 def test_more_inertia_of_the_tip_mass_lifts_the_nose():
@@ -290,23 +235,6 @@ def mean_tip(solution: Solution) -> float:
     elastic = solution.require().elastic
     assert elastic is not None
     return float(elastic.tip.mean())
-
-
-def test_a_rotor_without_structure_is_rigid_with_a_caveat():
-    made = make_design(rotor="r22", mu=0.2)
-    solution = solve(replace(made, models=replace(made.models, elastic_twist=True))).require()
-    assert solution.elastic is None
-    assert "no-blade-structure" in [caveat.name for caveat in solution.caveats]
-    assert solution.power == solve(replace(made, models=replace(made.models, elastic_twist=False))).power
-
-
-def test_results_by_name():
-    record = solve(design(0.2)).require().to_dict()
-    assert set(record["elastic_twist_deg"]) == {"mean_tip", "amplitude_1_tip", "min_tip", "max_tip"}
-    assert record["elastic_twist_deg"]["min_tip"] < record["elastic_twist_deg"]["mean_tip"] < 0.0
-    assert_allclose(record["torsion_frequencies_per_rev"][0], 4.97, atol=0.01)
-    assert record["pitch_link_load_n"]["mean"] > record["pitch_link_load_n"]["amplitude"] > 0.0
-    assert solve(design(0.2, on=False)).to_dict()["elastic_twist_deg"] is None
 
 
 def test_the_next_trim_uses_the_derivatives_of_the_last(evaluated: list[Factors]):

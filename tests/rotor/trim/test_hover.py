@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.aero.losses import loss_factor
 from rotor.aero.problem import build_problem
 from rotor.airfoil.sections import load_installed
 from rotor.columns.hover import closed_form_inflow, hover_system, lift_curve
@@ -26,12 +25,13 @@ def hover(preset: str = "flight", twist: str = "linear:-12", mass: float = 8322.
     return solve(replace(design, models=replace(design.models, **models))).require()
 
 
-@pytest.mark.parametrize("factor", [1.0, 0.6])
-def test_closed_form_closes_the_balance(factor: float):
-    """(3.3) is the root of 4Fλ²r = ½σC_lα(θr² − λr)."""
-    pitch = np.radians(14.0 - 10.0 * R)
-    lam = closed_form_inflow(R, pitch, SIGMA, SLOPE, factor=factor)
-    assert_allclose(4.0 * factor * lam**2 * R, 0.5 * SIGMA * SLOPE * (pitch * R**2 - lam * R), rtol=1e-12)
+@pytest.mark.parametrize(("factor", "climb"), [(1.0, 0.0), (0.6, 0.0), (1.0, 0.02)])
+def test_closed_form_closes_the_balance(factor: float, climb: float):
+    """(3.3), and (2.28) with λ_c, are the root of 4Fλ(λ − λ_c)r = ½σC_lα(θr² − λr)."""
+    pitch = np.radians(16.0 - 8.0 * R)
+    lam = closed_form_inflow(R, pitch, SIGMA, SLOPE, factor=factor, climb=climb)
+    left = 4.0 * factor * lam * (lam - climb) * R
+    assert_allclose(left, 0.5 * SIGMA * SLOPE * (pitch * R**2 - lam * R), rtol=1e-11)
 
 
 def test_eq_3_3_as_printed():
@@ -39,13 +39,6 @@ def test_eq_3_3_as_printed():
     pitch, factor = np.radians(12.0 - 8.0 * R), 0.8
     printed = SIGMA * SLOPE / (16 * factor) * (np.sqrt(1.0 + 32 * factor / (SIGMA * SLOPE) * pitch * R) - 1.0)
     assert_allclose(closed_form_inflow(R, pitch, SIGMA, SLOPE, factor=factor), printed, rtol=1e-13)
-
-
-def test_eq_2_28_climb():
-    """(2.28) with λ_c closes 4λ(λ − λ_c) r = ½σC_lα(θr² − λr)."""
-    pitch, climb = np.radians(16.0 - 8.0 * R), 0.02
-    lam = closed_form_inflow(R, pitch, SIGMA, SLOPE, climb=climb)
-    assert_allclose(4.0 * lam * (lam - climb) * R, 0.5 * SIGMA * SLOPE * (pitch * R**2 - lam * R), rtol=1e-11)
 
 
 def test_negative_pitch_mirrors():
@@ -56,29 +49,6 @@ def test_ideal_twist_gives_uniform_inflow():
     """θ = θ_tip/r, no losses, linear lift: λ is the same at every radius (eq. 1.1)."""
     lam = closed_form_inflow(R, 0.11 / R, SIGMA, SLOPE)
     assert_allclose(lam, lam[0], rtol=1e-12)
-
-
-def test_thesis_hover_is_the_closed_form_with_its_factor():
-    """The solver's inflow is eq. (3.3) with the F that belongs to that inflow, and 0.75 R pitch the collective."""
-    solution = hover("thesis")
-    rotor = solution.design.rotor
-    r, lam = solution.disk.r, solution.disk.induced[:, 0]
-    factor, _ = loss_factor(r, lam, rotor.blades, rotor.blade.root_cutout)
-    table = load_installed(rotor.blade.spans[0].section).table
-    pitch = solution.disk.theta[:, 0] - table.zero_lift_alpha(0.3)
-    expected = closed_form_inflow(r, pitch, rotor.solidity, float(table.lift_slope(0.3)), factor=factor)
-    assert_allclose(lam, expected, rtol=1e-10)
-    assert_allclose(np.interp(0.75, r, solution.disk.theta[:, 0]), solution.controls.collective, atol=1e-12)
-
-
-@pytest.mark.parametrize("twist", ["linear:0", "linear:-16", "uh60a", "ideal", "linear:-24"])
-def test_annulus_balance_closes_with_the_real_polar(twist: str):
-    """4Fλ|λ|r = dC_T/dr at every element."""
-    solution = hover(twist=twist)
-    disk, rotor = solution.disk, solution.design.rotor
-    factor, _ = loss_factor(disk.r, disk.induced[:, 0], rotor.blades, rotor.blade.root_cutout)
-    lam = disk.induced[:, 0]
-    assert_allclose(4.0 * factor * lam * np.abs(lam) * disk.r, disk.dct[:, 0], rtol=1e-8, atol=1e-12)
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
@@ -96,15 +66,6 @@ def test_without_losses_power_is_above_momentum_theory():
     for twist, largest in (("linear:-12", 1.06), ("linear:0", 1.15)):
         induced = hover(twist=twist, tip_loss=False, hub_loss=False, swirl=False, download=False).power.induced
         assert 1.0 < induced / ideal < largest
-
-
-@pytest.mark.parametrize("preset", ["flight", "thesis"])
-@pytest.mark.parametrize("mass", [5000.0, 7000.0, 9000.0])
-@pytest.mark.parametrize("twist", ["linear:0", "linear:-12", "ideal"])
-def test_figure_of_merit_is_below_one(preset: str, mass: float, twist: str):
-    merit = hover(preset, twist, mass).figure_of_merit
-    assert merit is not None
-    assert 0.5 < merit < 0.9
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])

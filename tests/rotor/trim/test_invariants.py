@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,54 +10,39 @@ from numpy.testing import assert_allclose
 
 from rotor.columns.flight import LEAST_AZIMUTHS, flight_system
 from rotor.design.design import Design
-from rotor.design.structure import BladeStructure
 from rotor.design.twist import LinearTwist
 from rotor.engine.linearise import System, evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import DEFAULT_OPTIONS, tolerances
 from rotor.trim.solve import solve
 
 
 def test_scaling_at_fixed_mach_leaves_coefficients():
     """Twice the radius at half the speed of rotation, masses to match: all coefficients and angles stay."""
+
+    def grown(thing: Any, **powers: int) -> Any:
+        """With fields times 2 to a power."""
+        values = {name: (getattr(thing, name), 2.0**power) for name, power in powers.items()}
+        return replace(thing, **{
+            name: tuple(gain * one for one in value) if isinstance(value, tuple) else gain * value
+            for name, (value, gain) in values.items()
+        })  # fmt: skip
+
     design = make_design(mu=0.25)
-    rotor, blade, structure = design.rotor, design.rotor.blade, design.rotor.blade.structure
-    assert structure is not None
     # Weight does not scale with a speed squared at fixed g, nor skin friction with the Reynolds number twice as large.
-    models = replace(design.models, blade_weight=False, radial_friction=False)
-    big = replace(
-        rotor,
-        radius=2.0 * rotor.radius,
-        angular_speed=0.5 * rotor.angular_speed,
-        reference_chord=2.0 * rotor.reference_chord,
-        blade=replace(
-            blade,
-            chords=tuple(2.0 * c for c in blade.chords),
-            flap_inertia=32.0 * blade.flap_inertia,
-            flap_static_moment=16.0 * blade.flap_static_moment,
-            mass=8.0 * blade.mass,
-            structure=BladeStructure(
-                radius=2.0 * structure.radius,
-                stations=tuple(2.0 * r for r in structure.stations),
-                torsional_stiffness=tuple(16.0 * gj for gj in structure.torsional_stiffness),
-                mass_per_length=tuple(4.0 * m for m in structure.mass_per_length),
-                torsional_inertia=tuple(16.0 * i for i in structure.torsional_inertia),
-                tension_gyration=4.0 * structure.tension_gyration,
-                clamp=2.0 * structure.clamp,
-                control_stiffness=8.0 * structure.control_stiffness,
-                pitch_horn=2.0 * structure.pitch_horn,
-            ),
-        ),
-    )
+    design = replace(design, models=replace(design.models, blade_weight=False, radial_friction=False))
+    structure = grown(
+        design.rotor.blade.structure, radius=1, stations=1, torsional_stiffness=4, mass_per_length=2,
+        torsional_inertia=4, tension_gyration=2, clamp=1, control_stiffness=3, pitch_horn=1,
+    )  # fmt: skip
+    blade = replace(design.rotor.blade, structure=structure)
+    blade = grown(blade, chords=1, flap_inertia=5, flap_static_moment=4, mass=3)
     scaled = replace(
         design,
-        rotor=big,
-        condition=replace(design.condition, mass=4.0 * design.condition.mass),
-        fuselage=replace(design.fuselage, drag_area=4.0 * design.fuselage.drag_area),
-        models=models,
+        rotor=grown(replace(design.rotor, blade=blade), radius=1, angular_speed=-1, reference_chord=1),
+        condition=grown(design.condition, mass=2),
+        fuselage=grown(design.fuselage, drag_area=2),
     )
-    design = replace(design, models=models)
     a, b = solve(design).require(), solve(scaled).require()
     assert_allclose(b.ct, a.ct, rtol=1e-9)
     assert_allclose(b.cp, a.cp, rtol=1e-8)
@@ -66,23 +52,6 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
     assert b.elastic is not None
     assert_allclose(b.elastic.tip, a.elastic.tip, atol=1e-9)
     assert_allclose(b.elastic.pitch_link_load, 4.0 * a.elastic.pitch_link_load, rtol=1e-7)
-
-
-def test_start_of_azimuth_does_not_matter():
-    """Uniform grids of a multiple share stations: 60 azimuths are every second of 120."""
-    design = make_design(mu=0.2, inflow="drees")
-    coarse = solve(replace(design, models=replace(design.models, azimuths=60))).require()
-    fine = solve(design).require()
-    assert_allclose(coarse.power.total, fine.power.total, rtol=1e-4)
-    assert_allclose(coarse.disk.psi, fine.disk.psi[::2], rtol=1e-14)
-
-
-def test_warm_start_changes_nothing():
-    design = make_design(mu=0.22, twist="linear:-9")
-    other = solve(make_design(mu=0.222, twist="linear:-9.5"))
-    cold, warm = solve(design).require(), solve(design, other).require()
-    assert_allclose(warm.power.total, cold.power.total, rtol=1e-9)
-    assert warm.passes <= cold.passes
 
 
 def test_twist_offset_is_absorbed_by_collective():
@@ -97,19 +66,12 @@ def test_twist_offset_is_absorbed_by_collective():
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_low_speed_tends_to_symmetry(preset: str):
-    """With no losses and uniform inflow, µ → 0 leaves no azimuthal dependence: hover's limit of the trim."""
+    """With no losses and uniform inflow, µ → 0 leaves no azimuthal dependence, and the induced power T v_h."""
     design = make_design(preset=preset, mu=1e-4, twist="linear:-8")
     models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False, swirl=False)
     solution = solve(replace(design, models=models)).require()
     assert np.ptp(solution.disk.dct, axis=1).max() < 2e-3 * solution.disk.dct.max()
     assert_allclose(solution.controls.lambda0, math.sqrt(solution.ct / 2.0), rtol=1e-4)
-
-
-def test_uniform_inflow_hover_limit_is_momentum_theory():
-    """µ → 0, uniform inflow: induced power T v_h, within the 10⁻⁴ of µ²."""
-    design = make_design(mu=1e-4)
-    models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False, swirl=False)
-    solution = solve(replace(design, models=models)).require()
     assert_allclose(solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4)
 
 
@@ -125,18 +87,6 @@ def test_elements_converge(preset: str, mu: float):
     errors = [abs(power(n) / fine - 1.0) for n in (20, 40, 80)]
     assert errors[1] < 6e-3
     assert errors[2] < errors[0]
-
-
-def test_azimuths_converge():
-    """Fig. 3.9: the document requires at least 100 azimuths; here 120 are within 0.02 % of 720."""
-    design = make_design(preset="thesis", twist="linear:-16", mu=0.3)
-
-    def power(azimuths: int) -> float:
-        return solve(replace(design, models=replace(design.models, azimuths=azimuths))).require().power.main_rotor
-
-    fine = power(720)
-    assert_allclose(power(120), fine, rtol=2e-4)
-    assert abs(power(16) / fine - 1.0) > abs(power(120) / fine - 1.0)
 
 
 def test_reverse_flow_area_is_the_circle():
@@ -175,7 +125,7 @@ def test_azimuths_that_cannot_be_thinned():
     """No fewer than 40 are left, and all of a lifting line."""
 
     def system(of: Design) -> System:
-        return flight_system(trim_problem(of), tolerances(DEFAULT_OPTIONS))
+        return flight_system(trim_problem(of))
 
     few = make_design(mu=0.2, inflow="drees")
     few = replace(few, models=replace(few.models, azimuths=72))

@@ -8,7 +8,6 @@ import pytest
 
 from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design, LowSpeed
-from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Objective, power_gradient
 from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
@@ -68,23 +67,6 @@ def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed():
     assert hover_difference.cache_info() == before
 
 
-def test_only_the_flight_preset_passes_over_to_hover():
-    assert make_design(preset="flight").models.low_speed == "hover"
-    assert make_design(preset="thesis").models.low_speed == "wake"
-
-
-@pytest.mark.slow
-def test_power_falls_from_hover_without_a_kink():
-    """The slope by µ² is momentum theory's at first, −P_i/4λ_h², and changes sign only at the speed of least power."""
-    at = design()
-    speeds = np.arange(0.0, 0.1501, 0.01)
-    power = np.array([watts(at.at(mu=mu)) for mu in speeds])
-    slope = np.diff(power) / np.diff(speeds)
-    assert (slope < 0.0).all()
-    bend = np.abs(np.diff(slope, 2))
-    assert bend.max() < 0.25 * np.abs(slope).max()
-
-
 @pytest.mark.parametrize("station", [0.4, 0.9])
 @pytest.mark.parametrize("objective", ["total", "induced"])
 @pytest.mark.parametrize("elastic", [True, False])
@@ -104,11 +86,6 @@ def test_gradient_by_pitch_agrees_with_differences(objective: Objective, station
     assert slope == pytest.approx(float(gradient.by_element @ change), rel=1e-4)
 
 
-def test_energy_closes():
-    power = solve(design().at(mu=0.01)).require().power
-    assert power.main_rotor == pytest.approx(power.shaft, rel=1e-9)
-
-
 def test_where_hover_has_no_answer_a_caveat_says_so():
     """So much weight stalls the hovering blade; in descent at speed it still flies."""
     at = make_design(rotor="r22", twist="linear:-22", mu=0.058, mass_kg=1240.0, climb_m_s=-8.0)
@@ -125,13 +102,3 @@ def test_linear_inflow_stays_what_it_is():
     with_ = replace(at, models=replace(at.models, inflow="drees"))
     without = replace(with_, models=replace(with_.models, low_speed="wake"))
     assert watts(with_) == watts(without)
-
-
-def test_design_files_keep_it():
-    at = design().at(mu=0.05)
-    assert design_from_record(at.to_dict()) == at
-    without = design(low_speed="wake").at(mu=0.05)
-    assert design_from_record(without.to_dict()) == without
-    assert "low_speed" not in at.to_dict()
-    with pytest.raises(ValueError, match="use one of wake, hover"):
-        design_from_record({**at.to_dict(), "low_speed": "fly"})

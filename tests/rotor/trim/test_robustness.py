@@ -1,4 +1,4 @@
-"""Over the whole input space: converged, or one sentence. Never NaN, a traceback or a warning."""
+"""Over the whole input space: converged, or one sentence, within bounds; among several trims that of least power."""
 
 import math
 import re
@@ -8,12 +8,19 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.problem import build_problem
+from rotor.design.aircraft import LEAST_MASS
 from rotor.design.design import PRESETS, Design
+from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
 from rotor.files.make_design import make_design
+from rotor.trim.forward import easier_condition, first_guess
+from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import SUSPECT_STALL, solve
+from tests.tools.designs import FIRST, RIGHT, run, share
 
 TRIMMABLE = 0.08
 """C_W/σ up to which every design must trim: the level-flight sweeps of the UH-60A Airloads Program, up to µ 0.37, had
@@ -44,6 +51,8 @@ def check(solution: Solution) -> None:
         for field in fields(solution.controls):
             assert math.isfinite(getattr(solution.controls, field.name))
         assert 0.0 < solution.power.main_rotor < 50e6
+        if solution.design.preset == "flight":  # The document's torque is not power.
+            assert solution.power.shaft == pytest.approx(solution.power.main_rotor, rel=1e-6)
         assert solution.power.profile > 0.0
         assert 0.0 <= solution.reverse_flow_area < 0.1
         assert 0.0 <= solution.stalled_area <= 1.0
@@ -86,50 +95,6 @@ def test_converged_or_a_sentence(
     assert solution.converged or blade_loading(design) > TRIMMABLE or faster
 
 
-@pytest.mark.slow
-def test_few_designs_at_high_blade_loading_fail_to_trim():
-    """200 random designs over the same ranges: 19 end at stall, 2 close at more flapping than is believed.
-
-    Followed by arc length beyond where continuation ends, each of the first turns back there (a limit point): with more
-    than a quarter of the disk stalled at the last trim found, no trim of attached flow lies further on.
-    """
-    random, stalled, flapping = np.random.default_rng(1), 0, 0
-    names = list(INFLOW_MODELS)
-    for k in range(200):
-        design = make_design(
-            preset=PRESETS[k % 2],
-            twist=f"linear:{random.uniform(-24.0, 5.0):.6f}",
-            mu=random.uniform(0.0005, 0.45),
-            mass_kg=random.uniform(5000.0, 11000.0),
-            altitude_m=random.uniform(0.0, 4000.0),
-        )
-        solution = solve(replace(design, models=replace(design.models, inflow=names[k % len(names)])))
-        if solution.converged:
-            continue
-        assert blade_loading(design) > TRIMMABLE or design.condition.advance_ratio > 0.4
-        if "balance at a flapping" in solution.message:
-            flapping += 1
-            continue
-        share = re.search(r"(\d+) % of the disk is stalled there", solution.message)
-        assert share, solution.message
-        assert int(share[1]) > 25
-        stalled += 1
-    assert stalled <= 19
-    assert flapping <= 2
-
-
-@given(
-    rates=st.lists(st.floats(-24.0, 5.0), min_size=2, max_size=3),
-    first=st.floats(0.25, 0.6),
-    gap=st.floats(0.05, 0.3),
-    mu=st.floats(0.0, 0.4),
-)
-@pytest.mark.slow
-def test_segments_converge_or_are_one_sentence(rates: list[float], first: float, gap: float, mu: float):
-    breaks = ",".join(f"{b:.6f}" for b in (first, first + gap)[: len(rates) - 1])
-    check(solve(make_design(twist=f"segments:{','.join(f'{r:.6f}' for r in rates)}@{breaks}", mu=mu)))
-
-
 @pytest.mark.parametrize("preset", PRESETS)
 @pytest.mark.parametrize("rate", [-24, -16, -8, 0, 5])
 def test_normal_flight_always_trims(preset: str, rate: int):
@@ -151,33 +116,120 @@ def test_caveats_are_named():
     assert not solve(make_design(mu=0.15, mass_kg=6000.0)).caveats
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"preset": "best"}, "'best'"),
-        ({"mass_kg": float("nan")}, "mass nan"),
-        ({"mu": -0.1}, "-0.1"),
-        ({"altitude_m": 20_000.0}, "20000 m"),
-        ({"twist": "linear:east"}, "'east'"),
-    ],
+DEEP_STALL = make_design(
+    rotor="s61",
+    preset="thesis",
+    inflow="local-momentum",
+    twist="linear:-6.86",
+    mu=0.273,
+    mass_kg=11000,
+    altitude_m=2021,
 )
-def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: str):
-    with pytest.raises(ValueError, match=re.escape(words)) as caught:
-        make_design(**arguments)  # pyright: ignore[reportArgumentType]
-    assert "\n" not in str(caught.value)
+"""C_W/σ 0.13: Newton's method from momentum theory ends deep in stall."""
+
+
+def at_mass(design: Design, mass: float) -> Design:
+    return replace(design, condition=replace(design.condition, mass=mass))
+
+
+def test_the_trim_of_least_power_is_found():
+    """The same as from a lighter rotor, whose mass is raised step by step."""
+    problem = build_problem(DEEP_STALL)
+    first = newton(problem, first_guess(problem))
+    assert first.converged
+    cold = solve(DEEP_STALL)
+    assert first.state.collective > cold.controls.collective + math.radians(1.0)  # The trap is still there.
+    heavier = None
+    for mass in (6500.0, 8000.0, 9500.0, 10000.0, 10490.0, 11000.0):
+        heavier = solve(at_mass(DEEP_STALL, mass), heavier)
+    assert heavier is not None
+    assert_allclose(cold.power.total, heavier.power.total, rtol=1e-6)
+    assert cold.stalled_area < SUSPECT_STALL
+
+
+def test_a_start_deep_in_stall_comes_back():
+    problem = build_problem(DEEP_STALL)
+    warm = solve(DEEP_STALL, newton(problem, first_guess(problem)).guess)
+    assert_allclose(warm.power.total, solve(DEEP_STALL).power.total, rtol=1e-6)
+
+
+def test_attached_flow_is_solved_without_a_further_pass(monkeypatch: pytest.MonkeyPatch):
+    def never(*_: object) -> None:
+        raise AssertionError("continuation was not needed")
+
+    monkeypatch.setattr("rotor.trim.solve.trim_along", never)
+    for mu in (0.1, 0.2, 0.3):
+        assert solve(make_design(mu=mu)).converged
+
+
+HOPELESS = make_design(mu=0.4, mass_kg=20_000, inflow="pitt-peters")
+"""No trim exists: C_W/σ is 0.2."""
+
+
+@pytest.mark.parametrize("mass", [100.0, 120.0, 400.0, 900.0])
+def test_continuation_never_leaves_the_masses_that_exist(mass: float):
+    """A light rotor at high altitude: the easier condition of C_T/σ 0.045 would weigh less than any aircraft."""
+    design = make_design(rotor="r22", mu=0.45, mass_kg=mass, altitude_m=8000)
+    small = replace(design, rotor=replace(design.rotor, radius=1.2, angular_speed=150.0))
+    for t in (0.0, 0.5, 1.0):
+        assert LEAST_MASS <= easier_condition(small, t).mass <= mass
+    solution = solve(small)
+    assert solution.message
+
+
+def test_continuation_on_a_stand_stays_within_its_limits():
+    design = make_design(mu=0.3)
+    stand = Stand(thrust=1.9e6)
+    models = replace(design.models, trim="wind-tunnel")
+    overloaded = replace(design, models=models, condition=replace(design.condition, stand=stand))
+    assert overloaded.weight_coefficient / overloaded.rotor.solidity > LARGEST_CT_OVER_SIGMA
+    solution = solve(overloaded)
+    assert not solution.converged
+    assert solution.message
+
+
+def test_a_hopeless_design_ends_within_the_passes_allowed():
+    solution = solve(HOPELESS)
+    assert not solution.converged
+    assert solution.passes <= DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes
+    few = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, most_passes=60))
+    assert few.passes < solution.passes
+    assert not few.converged
+
+
+def test_a_solve_ends_when_it_is_told_to_stop():
+    asked: list[int] = []
+
+    def stop() -> bool:
+        asked.append(1)
+        return len(asked) > 1
+
+    stopped = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, stop=stop))
+    assert not stopped.converged
+    assert stopped.passes <= 2 * DEFAULT_OPTIONS.max_passes
+    assert stopped.message
+    assert len(asked) == 2
+    easy = make_design(mu=0.2)
+    assert solve(easy, options=replace(DEFAULT_OPTIONS, stop=lambda: True)).converged
+
+
+def check_random(count: int, seed: int) -> None:
+    """Over all rotors, presets, stands, climb, n/rev inputs and bending; what is right: `tests.tools.designs`."""
+    outcomes = run(count, seed)
+    assert [(one.kind, one.said, one.asked) for one in outcomes if one.kind not in RIGHT] == []
+    plain = sum(one.plain for one in outcomes)
+    # Three hundred designs have some sixty in plain level flight, of which one is 2 %: a second one is chance.
+    assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
+    assert sum(one.kind == "trimmed" for one in outcomes) > 0.8 * count  # 88 % of 3000.
 
 
 @pytest.mark.slow
-def test_two_hundred_random_blades_trim_with_the_lifting_line():
-    """Three random slopes −25…+8 °/R, random breaks, µ 0.03…0.4 at the reference weight: at most 1 % do not trim."""
-    random = np.random.default_rng(2)
-    lost = 0
-    for _ in range(200):
-        rates = ",".join(f"{rate:.4f}" for rate in random.uniform(-25.0, 8.0, 3))
-        first = random.uniform(0.25, 0.6)
-        second = first + random.uniform(0.05, 0.35)
-        twist = f"segments:{rates}@{first:.4f},{second:.4f}"
-        solution = solve(make_design(twist=twist, mu=random.uniform(0.03, 0.4)))
-        check(solution)
-        lost += not solution.converged
-    assert lost <= 2
+def test_three_hundred_designs():
+    check_random(300, seed=5)
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_ten_thousand_designs(seed: int):
+    check_random(1000, seed)
