@@ -7,7 +7,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -114,21 +114,14 @@ class Facts:
         return {name: one.words(units) for name, one in self.numbers.items()}
 
 
-@dataclass(frozen=True)
-class FactsTask:
-    """One step's, for a worker process. It pickles."""
-
-    step: int
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Facts:
-        """The facts; RuntimeError where a design of the step does not trim."""
-        del tell, stop  # Some seconds at most.
-        return facts_of(STEPS[self.step])
-
-
 def facts_of(step: LectureStep) -> Facts:
     """Compute what a step tells. RuntimeError with a sentence where a design of the step does not trim."""
     return _FINDERS[step.name](step)
+
+
+def facts_at(number: int) -> Facts:
+    """The same by the number of the step, from 0: a step cannot be pickled for a worker process."""
+    return facts_of(STEPS[number])
 
 
 def _trim(step: LectureStep) -> Facts:

@@ -176,7 +176,7 @@ def test_optimise(watched: Watched, app: App, take: Callable[..., None]):
     page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=LONG)
     watched.answered()
-    run = app.sessions[-1].page.optimise._run
+    run = app.sessions[-1].page.optimise.run
     assert run is not None
     assert run.best is not None
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)

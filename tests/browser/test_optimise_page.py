@@ -65,14 +65,14 @@ def press(watched: Watched, name: str) -> None:
 
 def optimise(watched: Watched, session: Session) -> None:
     """Begin a search: what the page says from then on is not of the last one."""
-    before = session.page.optimise._run
+    before = session.page.optimise.run
     press(watched, "Optimise")
-    watched.until(lambda: session.page.optimise._run is not before)
+    watched.until(lambda: session.page.optimise.run is not before)
     watched.drawn()
 
 
 def run_of(session: Session) -> Any:
-    run = session.page.optimise._run
+    run = session.page.optimise.run
     assert run is not None
     return run
 

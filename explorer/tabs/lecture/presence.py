@@ -11,16 +11,8 @@ from numpy.typing import NDArray
 
 from explorer.hosting import browser
 from explorer.model.session_state import SessionState
-from explorer.sharing.address import Address
-from explorer.sharing.presentation import (
-    FOLLOW,
-    PRESENT,
-    Point,
-    Presentations,
-    PresentedView,
-    follow_name,
-    new_secret,
-)
+from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import Address
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.text.glossary import hint
@@ -29,14 +21,10 @@ _CAMERA_EVERY = 0.1
 """[s] between two poses of the presenter's camera."""
 _LONGEST = 40
 """Characters of a name in the address that are looked at."""
-
-
 _WORDS = (
     '<div class="rx rx-dim rx-small">Copies a link. Anyone with the link sees what you set here, as you set it, '
     "and may leave at any time.</div>"
 )
-
-
 _FOLLOWING = "Following a presentation: controlled by the presenter."
 _DUPLICATE = (
     "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
@@ -219,8 +207,7 @@ class Presence(Tab):
 
     def _say(self, text: str, leave: bool = False) -> None:
         content = f'<div class="rx rx-presence" data-explorer="presence">{text}</div>' if text else ""
-        if self._banner.content != content:
-            self._banner.content = content
+        self._banner.content = content
         self._banner.visible, self._leave.visible = bool(text), leave
 
 
