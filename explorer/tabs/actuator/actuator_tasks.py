@@ -36,8 +36,9 @@ class Call:
     function: Callable[..., Any]
     arguments: tuple[Hashable, ...]
 
-    def run(self, *_: object) -> Any:
+    def run(self, tell: object = None, stop: object = None) -> Any:
         """What the function returns; for a ValueError or RuntimeError its sentence."""
+        del tell, stop  # Some seconds at most.
         try:
             return self.function(*self.arguments)
         except (ValueError, RuntimeError) as error:
@@ -147,7 +148,7 @@ class PoolAnswers:
     def answer(self, task: Call | None) -> Any:
         """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
         with _lock:
-            return _known.get(task, None if task is None else self._failures.get(task))
+            return None if task is None else _known.get(task, self._failures.get(task))
 
     def stop(self) -> None:
         """The browser has left."""
