@@ -90,10 +90,9 @@ class Presence(Tab):
         """Begin to present; the link of followers goes into the clipboard. The page keeps the secret over a reload."""
         if self._name:
             self.leave()
-        if not self._secret:
-            self._secret = new_secret()
-            self._presentations.claim(self._secret, self._page, self)
-            browser.keep(self._context.client, PRESENT, self._secret)
+        self._secret = new_secret()
+        self._presentations.claim(self._secret, self._page, self)
+        browser.keep(self._context.client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
         browser.copy_link(self._context.client, self._link)
@@ -102,13 +101,12 @@ class Presence(Tab):
 
     def end(self) -> None:
         """Stop presenting."""
-        if self._secret:
-            self._presentations.end(self._secret)
-            self._presentations.release(self)
-            self._secret = ""
-            browser.keep(self._context.client, PRESENT, "")
-            self._say("")
-            self._name_present()
+        self._presentations.end(self._secret)
+        self._presentations.release(self)
+        self._secret = ""
+        browser.keep(self._context.client, PRESENT, "")
+        self._say("")
+        self._name_present()
 
     def leave(self) -> None:
         """Stop following: the page stays as it is, and is the user's."""
