@@ -21,9 +21,8 @@ from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import Strip, ghost_of
 from explorer.sharing import share
-from explorer.sharing.address import Address
 from explorer.sharing.presentation import PRESENT
-from explorer.sharing.share import VIEW, view_from
+from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.actuator.per_rev import PerRevControls
 from explorer.tabs.context import SharedServices, Tab, TabContext

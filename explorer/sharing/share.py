@@ -6,15 +6,21 @@ query of the address anew without its escapes, after which a plus sign reads as 
 
 A view, `1;field=mach;stall=off`, holds what differs from how a page begins, but for azimuth and dark page. Steps to
 undo are kept as codes of designs; one of a rotor of one's own, which no address holds, is left out.
+
+The server keeps the query of the address, in which several parts of the page have a name: `Address`.
 """
 
 import json
+import math
 import re
+import threading
+import time
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
+from urllib.parse import parse_qsl, quote
 
 from explorer.model.inputs import LAWS, TWIST_SHOWN, Inputs, ViewState, inputs_of
 from explorer.model.sliders import SLIDERS, limits, slider
@@ -59,6 +65,13 @@ _PLAIN_VIEW = ViewState()
 _NAMES = tuple(item.name for item in fields(ViewState) if item.name not in ("azimuth_deg", "dark"))
 _SWITCHED = {"on": True, "off": False}
 
+_READABLE = ":;,@/="
+"""Characters that are not escaped in the query, so that a design in it can be read."""
+_PAUSE = 0.4
+"""[s] between two changes of the address: browsers refuse a hundred in half a minute."""
+
+_Part = TypeVar("_Part")
+
 
 def code_of(design: Design) -> str:
     """The design as text; ValueError with one sentence for one that does not fit into an address."""
@@ -76,20 +89,16 @@ def code_of(design: Design) -> str:
     return code
 
 
+@refusing("The design in the address", "ask for a new link")
 def design_from(code: str, tell: Tell = warn) -> Design:
     """The design of a text; ValueError with one sentence for an invalid one. `tell` as in `design_from_record`."""
-    with refusing("The design in the address", "ask for a new link"):
-        return _design_from(code, tell)
-
-
-def _design_from(code: str, tell: Tell) -> Design:
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
     if len(code) > LONGEST:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
     twist, *words = _LOST_PLUS.sub("+", rest).replace(_PLUS, "+").split(";")
-    if _reads_file(twist):
+    if "table:" in twist:  # An address must not make the server open a file.
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
     record: dict[str, Any] = {"twist": twist}
     for word in words:
@@ -105,6 +114,7 @@ def _design_from(code: str, tell: Tell) -> Design:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
+@refusing("The design in the address", "ask for a new link")
 def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs:
     """The slider positions of a text; ValueError also for a position outside a slider's range.
 
@@ -112,10 +122,8 @@ def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs
     """
     if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
-    with refusing("The design in the address", "ask for a new link"):
-        own = kept if code == KEPT else None
-        design = parse_design(own.encode(), "of this page", tell) if own else design_from(code, tell)
-        return within(inputs_of(design))
+    own = kept if code == KEPT else None
+    return within(inputs_of(parse_design(own.encode(), "of this page", tell) if own else design_from(code, tell)))
 
 
 def tell_retired(notices: list[tuple[str, str]], sentence: str) -> None:
@@ -145,11 +153,6 @@ def within(inputs: Inputs) -> Inputs:
 def _holds(name: str, inputs: Inputs) -> bool:
     low, high = limits(name, inputs.aircraft)
     return low - 1e-9 <= getattr(inputs, name) <= high + 1e-9
-
-
-def _reads_file(twist: str) -> bool:
-    """Whether a SPEC names a file: an address must not make the server open one."""
-    return "table:" in twist
 
 
 def _word(value: object) -> str:
@@ -240,7 +243,8 @@ _WORDS = {name: {title: word for word, title in choices.items()} for name, choic
 
 def view_code(view: ViewState) -> str | None:
     """The view as a text; None for one that shows what every page begins with."""
-    words = [f"{name}={_view_word(name, value)}" for name in _NAMES if (value := getattr(view, name)) != _default(name)]
+    shown = ((name, getattr(view, name)) for name in _NAMES)
+    words = [f"{name}={_view_word(name, value)}" for name, value in shown if value != getattr(_PLAIN_VIEW, name)]
     return ";".join((str(VERSION), *words)) if words else None
 
 
@@ -258,10 +262,6 @@ def view_from(code: str) -> ViewState:
     return view
 
 
-def _default(name: str) -> Any:
-    return getattr(_PLAIN_VIEW, name)
-
-
 def _view_word(name: str, value: Any) -> str:
     if name in _CHOICES:
         return _WORDS[name][value]
@@ -269,7 +269,7 @@ def _view_word(name: str, value: Any) -> str:
 
 
 def _view_value(name: str, word: str) -> Any:
-    if isinstance(_default(name), float):
+    if isinstance(getattr(_PLAIN_VIEW, name), float):
         return _number(name, word)
     choices: dict[str, Any] = _CHOICES.get(name, _SWITCHED)
     if word not in choices:
@@ -286,3 +286,94 @@ def _number(name: str, word: str) -> float:
     if not low <= value <= high:
         raise ValueError(f"The view in the address has {name}={cut(word)!r}: give a number from {low:g} to {high:g}.")
     return value
+
+
+def parameter(query: str, name: str) -> str | None:
+    """The value of a name; None where it is not there."""
+    return dict(parse_qsl(query.lstrip("?"), keep_blank_values=True)).get(name)
+
+
+def with_parameter(query: str, name: str, value: str | None) -> str:
+    """The query with a name set, at its end; None removes it. Everything else stays."""
+    pairs = [pair for pair in parse_qsl(query.lstrip("?"), keep_blank_values=True) if pair[0] != name]
+    if value is not None:
+        pairs.append((name, value))
+    return "?" + "&".join(f"{quote(key, _READABLE)}={quote(text, _READABLE)}" for key, text in pairs)
+
+
+class Address:
+    """The address of one page; safe from any thread."""
+
+    def __init__(self, query: str | None, write: Callable[[str], None], pause: float = _PAUSE) -> None:
+        """`query`: that of the opened page; None, not known, is never written over. `write` puts another into the
+        address, at least `pause` [s] apart."""
+        self._query, self._pause = query or "", pause
+        self._write = write if query is not None else lambda query: None
+        self._lock = threading.Lock()
+        self._written = -math.inf
+        self._waiting: threading.Timer | None = None
+        self._unread: dict[str, list[str | None]] = {}
+        """Names whose value could not be read, with what the page opened with instead, once that is known."""
+
+    def __getitem__(self, name: str) -> str | None:
+        return parameter(self._query, name)
+
+    def read(
+        self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
+    ) -> _Part:
+        """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`.
+
+        A bad value stays in the address until the page shows something else than it opened with: whoever wrote it can
+        mend it there.
+        """
+        value = self[name]
+        if value is None:
+            return usual
+        try:
+            with refusing(f"What the address holds as {name!r}", "ask for a new link"):
+                return meaning(value)
+        except ValueError as error:
+            problems.append((title, str(error)))
+            self._unread[name] = []
+            return usual
+
+    def __setitem__(self, name: str, value: str | None) -> None:
+        with self._lock:
+            if (opened := self._unread.get(name)) is not None:
+                if not opened:
+                    opened.append(value)
+                if opened == [value]:
+                    return
+                del self._unread[name]
+            if value == parameter(self._query, name):
+                return
+            self._query = with_parameter(self._query, name, value)
+            wait = self._pause - (time.monotonic() - self._written)
+            if self._waiting is not None:
+                return  # The waiting write will take the newest value.
+            if wait > 0.0:
+                self._waiting = threading.Timer(wait, self._put)
+                self._waiting.daemon = True
+                self._waiting.start()
+                return
+        self._put()
+
+    @property
+    def query(self) -> str:
+        """As it is or is about to be written."""
+        return self._query
+
+    def write_over(self) -> None:
+        """What could not be read need not stay any longer."""
+        with self._lock:
+            self._unread.clear()
+
+    def stop(self) -> None:
+        with self._lock:
+            if self._waiting is not None:
+                self._waiting.cancel()
+
+    def _put(self) -> None:
+        with self._lock:
+            self._waiting, self._written = None, time.monotonic()
+            self._write(self._query)

@@ -7,7 +7,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -114,21 +114,14 @@ class Facts:
         return {name: one.words(units) for name, one in self.numbers.items()}
 
 
-@dataclass(frozen=True)
-class FactsTask:
-    """One step's, for a worker process. It pickles."""
-
-    step: int
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Facts:
-        """The facts; RuntimeError where a design of the step does not trim."""
-        del tell, stop  # Some seconds at most.
-        return facts_of(STEPS[self.step])
-
-
 def facts_of(step: LectureStep) -> Facts:
     """Compute what a step tells. RuntimeError with a sentence where a design of the step does not trim."""
     return _FINDERS[step.name](step)
+
+
+def facts_at(number: int) -> Facts:
+    """The same by the number of the step, from 0: a step cannot be pickled for a worker process."""
+    return facts_of(STEPS[number])
 
 
 def _trim(step: LectureStep) -> Facts:
@@ -174,8 +167,8 @@ def _hover_twist(step: LectureStep) -> Facts:
     return blades.facts(numbers, saving, chart, (a.power.total,) * len(totals), totals)
 
 
-def _changes(step: LectureStep, value: Callable[[Solution, Solution], float]) -> Facts:
-    """Changes of induced and profile power from A to B, over twist."""
+def _changes(step: LectureStep) -> Facts:
+    """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
     blades = _Sweep(step)
     a, b = blades.pair
     induced, profile = (
@@ -188,17 +181,11 @@ def _changes(step: LectureStep, value: Callable[[Solution, Solution], float]) ->
         "twist [°/R]", "B − A", "power", step.control.values, "rate",
         (ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)),
     )  # fmt: skip
-    total = a.power.total - b.power.total
-    numbers = {**_named(step, a, b), "induced_part": Number("percent", (a.power.induced - b.power.induced) / total)}
-    return blades.facts(numbers, value(a, b), chart, induced, profile)
-
-
-def _linear_inflow(step: LectureStep) -> Facts:
-    return _changes(step, lambda a, b: abs(b.power.induced - a.power.induced) / abs(b.power.profile - a.power.profile))
-
-
-def _responding_wake(step: LectureStep) -> Facts:
-    return _changes(step, lambda a, b: (b.power.induced - a.power.induced) / (b.power.total - a.power.total))
+    by_induced, by_profile = (getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile"))
+    part = by_induced / (b.power.total - a.power.total)
+    numbers = {**_named(step, a, b), "induced_part": Number("percent", part)}
+    answer = abs(by_induced) / abs(by_profile) if step.name == "linear_inflow" else part
+    return blades.facts(numbers, answer, chart, induced, profile)
 
 
 def _fast_twist(step: LectureStep) -> Facts:
@@ -364,7 +351,7 @@ def _piezoelectric_ply(step: LectureStep) -> Facts:
 
 
 _FINDERS: dict[str, Callable[[LectureStep], Facts]] = {
-    "trim": _trim, "hover_twist": _hover_twist, "linear_inflow": _linear_inflow, "responding_wake": _responding_wake,
+    "trim": _trim, "hover_twist": _hover_twist, "linear_inflow": _changes, "responding_wake": _changes,
     "fast_twist": _fast_twist, "reverse_flow": _reverse_flow, "two_segments": _two_segments,
     "fixed_or_moving": _fixed_or_moving, "power_or_vibration": _power_or_vibration,
     "piezoelectric_ply": _piezoelectric_ply,
@@ -406,8 +393,7 @@ def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
     found = list[Solution]()
     for inputs in designs:
         design, before = inputs.design(), found[-1] if found else None
-        same = before is not None and before.design == design
-        found.append(before if same and before is not None else solve(design, before).require())
+        found.append(before if before and before.design == design else solve(design, before).require())
     return found
 
 

@@ -175,26 +175,20 @@ def speed_words(advance_ratio: float) -> str:
     return f"µ\u00a0{advance_ratio:.3f}".rstrip("0").ljust(6, "0") if advance_ratio else "hover"
 
 
-def _to_speed(inputs: Inputs, mu: float) -> Inputs:
-    return replace(inputs, advance_ratio=mu)
-
-
-def _to_twist(inputs: Inputs, rate: float) -> Inputs:
-    return replace(inputs, linear=rate)
-
-
 def _steps(low: float, high: float, step: float) -> tuple[float, ...]:
     count = round((high - low) / step) + 1
     return tuple(round(low + k * step, 4) for k in range(count))
 
 
 def _fly(values: tuple[float, ...], start: float, label: str = "Advance ratio") -> Control:
-    return Control(label, values, _to_speed, speed_words, values.index(start))
+    return Control(
+        label, values, lambda inputs, mu: replace(inputs, advance_ratio=mu), speed_words, values.index(start)
+    )
 
 
 def _twist(start: float) -> Control:
     values = _steps(-24.0, 0.0, 2.0)[::-1]
-    return Control("Twist", values, _to_twist, angle_words, values.index(start))
+    return Control("Twist", values, lambda inputs, rate: replace(inputs, linear=rate), angle_words, values.index(start))
 
 
 SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
@@ -208,7 +202,6 @@ _CHANGES = (
     ("profile_change", "profile power, B − A"),
     ("total_change", "total power, B − A"),
 )
-_AFT, _STARBOARD, _AHEAD = 0.0, 90.0, 180.0
 _CRAFT = ((0.16, 0.0, -0.16), (1.0, 0.72, 0.2))
 _LONG = ((0.24, 0.0, -0.1), (1.3, 0.4, 0.3))
 _DISK = ((0.0, 0.0, -0.05), (1.12, 1.12, 0.06))

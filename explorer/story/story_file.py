@@ -1,7 +1,9 @@
-"""`python -m explorer story FILE`: the lecture as one HTML file without a server, every state computed beforehand.
+"""A step as records for the page and the file, and `python -m explorer story FILE`: the lecture as one HTML file.
 
-The file is viser's viewer with two rotors at one place, A and B, and the steps of the page beside it: the guess, its
-answer, the control, the handle between A and B. It requests nothing from any host.
+The records have the words of a step with their numbers filled in, and its chart in the page's units.
+
+The file is viser's viewer with two rotors at one place, A and B, every state computed beforehand, and the steps of the
+page beside it: the guess, its answer, the control, the handle between A and B. It requests nothing from any host.
 """
 
 import argparse
@@ -18,16 +20,15 @@ from explorer.colours import colour_map, css
 from explorer.export.demo import point_record, shape_record, write_page
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import Inputs, ViewState, baseline_of
-from explorer.model.units import UNITS, Units
+from explorer.model.units import UNITS, Units, number
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import Cover, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.scene.controller import SURFACES, TURN_RATES
 from explorer.scene.scene import COMPARED, ROTOR
 from explorer.scene.still_scene import embedded_viewer, still_page
-from explorer.story.facts import Facts, facts_of
-from explorer.story.steps import STEPS, LectureStep, quantities, view_of
-from explorer.story.telling import answer_record, step_record
+from explorer.story.facts import Facts, StepChart, facts_of
+from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
 from rotor.line_chart import round_ticks, tick_text
 from rotor.terminal import run_command
@@ -36,6 +37,76 @@ _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""
 _COVER = Cover(0.06, 0.2)
 _COLOURS = 17
+
+
+class _Awaited(dict[str, str]):
+    """Numbers of a text; a number that is still computed is left open."""
+
+    def __missing__(self, name: str) -> str:
+        return "…"
+
+
+def step_record(step: LectureStep, facts: Facts | None, units: Units) -> dict[str, Any]:
+    """What is said before the guess; `facts`: None while they are computed."""
+    said, text, control = _words(facts, units), step.text, step.control
+    return {
+        "name": step.name,
+        "title": text.title,
+        "watch": text.watch.format_map(said),
+        "a": text.a.format_map(said),
+        "b": text.b.format_map(said),
+        "question": text.question.format_map(said),
+        "options": [option.format_map(said) for option in text.options],
+        "todo": text.todo.format_map(said),
+        "control": {
+            "label": control.label,
+            "kind": control.kind,
+            "words": [stop.words for stop in facts.stops] if facts else [],
+        },
+        "last": step is STEPS[-1],
+    }
+
+
+def answer_record(step: LectureStep, facts: Facts, units: Units) -> dict[str, Any]:
+    """What is said after it."""
+    return {
+        "right": facts.right,
+        "answer": step.text.answer.format_map(_words(facts, units)),
+        "chart": _chart_record(facts, units),
+    }
+
+
+def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
+    """The chart in numbers of its axes' units; `dots`: by position of the control, in the order of the lines."""
+    chart = facts.chart
+    unit = units.power[0]
+    ways = {"power": (unit.size, f" [{unit.symbol}]"), "percent": (0.01, " [%]"), "angle": (1.0, "")}
+    size, symbol = ways[chart.kind]
+    wide = 100.0 if chart.x_kind == "signed" else 1.0
+
+    def scaled(values: Sequence[float | None]) -> list[float | None]:
+        return [None if value is None else round(value / size, 4) for value in values]
+
+    return {
+        "x": [round(wide * x, 4) for x in chart.x],
+        "x_title": chart.x_title + (" [%]" if chart.x_kind == "signed" else ""),
+        "x_ends": [_x_words(chart, x) for x in (chart.x[0], chart.x[-1])],
+        "y_title": chart.y_title + symbol,
+        "lines": [{"name": line.name, "colour": line.colour, "y": scaled(line.y)} for line in chart.lines],
+        "band": None if chart.band is None else [scaled(edge) for edge in chart.band],
+        "dot_colours": chart.dots or [line.colour for line in chart.lines],
+        "dots": [[[round(wide * x, 4), round(y / size, 4)] for x, y in stop.dots] for stop in facts.stops],
+    }
+
+
+def _x_words(chart: StepChart, x: float) -> str:
+    if chart.x_kind == "mu":
+        return speed_words(x)
+    return angle_words(x).removesuffix("/R") if chart.x_kind == "rate" else f"{number(100.0 * x, 1, sign=True)} %"
+
+
+def _words(facts: Facts | None, units: Units) -> dict[str, str]:
+    return _Awaited({} if facts is None else facts.words(units))
 
 
 def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = None, quiet: bool = True) -> str:

@@ -12,8 +12,7 @@ from explorer.hosting import browser
 from explorer.model.inputs import OWN, inputs_of, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.sharing import share
-from explorer.sharing.address import Address
-from explorer.sharing.share import VIEW, view_code
+from explorer.sharing.share import VIEW, Address, view_code
 from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
 from rotor import Aircraft, Design

@@ -16,10 +16,9 @@ from test_plan import _point as on_the_plan
 from watched import MEDIUM, Watched
 
 from explorer.app import App
-from explorer.model.inputs import OPENING, ViewState
+from explorer.model.inputs import OPENING
 from explorer.model.units import UNITS
 from explorer.story.steps import STEPS, quantities
-from explorer.story.story_file import story_html
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
@@ -96,25 +95,20 @@ def take(artefacts: Path, scheme: str, request: pytest.FixtureRequest) -> Callab
     return Pictures(artefacts / "demonstration" / name, scheme).take
 
 
-def _opened(browser: "Browser", address: str, scheme: Any) -> Watched:
+@pytest.fixture
+def watched(browser: "Browser", app: App, scheme: Any) -> Iterator[Watched]:
     """A window of its own as a person sees it."""
     width, height = SIZES[0]
     context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme)
     context.add_init_script(_DRAW_AT_TIMES)
     watched = Watched(context.new_page())
-    watched.open(address, query="")
+    watched.open(app.address, query="")
     watched.quiet()
     watched.answered(wholly=True)
     watched.page.evaluate("() => { window.painted = false; }")
-    return watched
-
-
-@pytest.fixture
-def watched(browser: "Browser", app: App, scheme: str) -> Iterator[Watched]:
-    watched = _opened(browser, app.address, scheme)
     yield watched
     assert watched.complaints == []
-    watched.page.context.close()
+    context.close()
 
 
 def _kw(text: str) -> float:
@@ -176,7 +170,7 @@ def test_optimise(watched: Watched, app: App, take: Callable[..., None]):
     page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=LONG)
     watched.answered()
-    run = app.sessions[-1].page.optimise._run
+    run = app.sessions[-1].page.optimise.run
     assert run is not None
     assert run.best is not None
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
@@ -273,68 +267,3 @@ def test_story(watched: Watched, app: App, take: Callable[..., None]):
         take(watched, f"step-{k}-{step.name}")
         if k < len(STEPS):
             page.get_by_role("button", name="Next", exact=True).click()
-
-
-def test_story_from_disk(browser: "Browser", scheme: str, take: Callable[..., None], tmp_path: Path):
-    """The exported story, opened as a file."""
-    path = tmp_path / "story.html"
-    path.write_text(story_html(view=ViewState(dark=scheme == "dark")), encoding="utf-8")
-    context = browser.new_context(viewport={"width": 1920, "height": 1080})
-    context.add_init_script(_DRAW_AT_TIMES)
-    page = context.new_page()
-    watched = FromDisk(page)
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(path.as_uri())
-    page.wait_for_selector("#rx[data-ready=true]", timeout=LONG)
-    for k, step in enumerate(STEPS, start=1):
-        page.wait_for_selector(f'[data-explorer="lecture"][data-step="{k}"]')
-        section(page, k).locator(".rxs-guess button").last.click()
-        assert not any("?" in text for text in page.locator(FIGURES).all_inner_texts())
-        if k in (1, 5, 7, 9, 10):
-            take(watched, f"step-{k}-{step.name}")
-        page.keyboard.press("PageDown")
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    assert watched.complaints == []
-    context.close()
-
-
-class FromDisk(Watched):
-    """A page without a server, which has answered once it has drawn."""
-
-    def answered(self, wholly: bool = False) -> None:
-        del wholly
-        self.drawn()
-
-
-def test_presenter_and_follower(browser: "Browser", app: App, scheme: str, watched: Watched, take: Callable[..., None]):
-    """Two browsers at one step; in the second nothing can be moved."""
-    page = watched.page
-    watched.drawer("lecture")
-    page.get_by_role("button", name="Present", exact=True).click()
-    link = page.locator('[data-explorer="presence"] a').get_attribute("href")
-    assert link is not None
-    follower = _opened(browser, app.address + link, scheme)
-    follower.reads("presence", "controlled by the presenter")
-    page.keyboard.press("t")
-    stands_at(page, 1)
-    page.evaluate("() => RX.send('story', 1)")
-    for one in (watched, follower):
-        stands_at(one.page, 2)
-    section(page, 2).locator(".rxs-guess button").last.click()
-    follower.page.wait_for_function("() => RX.state.lecture.answer")
-    for one in (watched, follower):
-        one.answered()
-    told = page.locator(FIGURES).all_inner_texts()
-    follower.until(lambda: follower.page.locator(FIGURES).all_inner_texts() == told)
-    take(watched, "presenter")
-    take(follower, "follower")
-    moved = follower.page.locator(
-        ".rxs-list > :not([inert]) [data-stop], .rxs-list > :not([inert]) .rxs-guess button, .rxs-dots button"
-    )
-    assert moved.count() > len(STEPS)
-    assert all(one.is_disabled() for one in moved.all())
-    assert not follower.page.get_by_role("button", name="Next", exact=True).is_visible()
-    assert follower.page.locator(".rxs-foot [data-held]").is_visible()
-    assert follower.complaints == []
-    follower.page.context.close()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from test_session_page import design_in_address, shown_kw
-from watched import COARSE, Visit, painted
+from watched import COARSE, Visit, Watched, painted
 
 from explorer.app import App
 from explorer.story.steps import STEPS
@@ -32,6 +32,16 @@ def stands_at(page: "Page", step: int) -> None:
 
 def section(page: "Page", step: int) -> "Locator":
     return page.locator(f'.rxs-list > [data-step="{step}"]')
+
+
+def presenting(visit: Visit) -> tuple[Watched, str]:
+    """A page that presents, and the link of its followers."""
+    presenter = visit()
+    presenter.drawer("lecture")
+    presenter.page.get_by_role("button", name="Present", exact=True).click()
+    link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
+    assert link is not None
+    return presenter, link
 
 
 def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
@@ -177,12 +187,8 @@ def test_with_another_inflow_a_step_compares_like_with_like(visit: Visit, app: A
 @pytest.mark.slow
 def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit):
     """Two browsers: step, guess, answer, control and handle of the one are those of the other."""
-    presenter = visit()
+    presenter, link = presenting(visit)
     page = presenter.page
-    presenter.drawer("lecture")
-    page.get_by_role("button", name="Present", exact=True).click()
-    link = page.locator('[data-explorer="presence"] a').get_attribute("href")
-    assert link is not None
     follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
     follower.reads("presence", "controlled by the presenter")
@@ -190,7 +196,9 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
     for k in (1, 2, 3):
         stands_at(page, k)
         stands_at(other, k)
-        assert section(other, k).locator("[data-stop]").is_disabled()
+        moved = section(other, k).locator("[data-stop], .rxs-guess button")
+        assert all(one.is_disabled() for one in (*moved.all(), *other.locator(".rxs-dots button").all()))
+        assert not other.get_by_role("button", name="Next", exact=True).is_visible()
         section(page, k).locator(".rxs-guess button").last.click()
         other.wait_for_function("() => RX.state.lecture.answer")
         presenter.answered()
@@ -212,26 +220,18 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
 
 @pytest.mark.slow
 def test_others_follow_the_presenter_and_may_leave(visit: Visit):
-    presenter = visit()
+    presenter, link = presenting(visit)
     page = presenter.page
-    presenter.drawer("lecture")
-    page.get_by_role("button", name="Present", exact=True).click()
-    page.wait_for_selector('[data-explorer="presence"] a')
-    link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
-    assert link is not None
-    name = link.removeprefix("?follow=")
     present = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').present"
     secret = page.wait_for_function(present).json_value()
     assert secret not in page.url  # Whoever is sent the address must not become the presenter.
     page.reload()
     page.wait_for_selector('[data-explorer="presence"] a')  # The page itself presents on.
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
-    follower = visit(COARSE + f"&follow={name}")
+    follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
     follower.reads("presence", "controlled by the presenter")
-    page.wait_for_function(
-        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follower')"""
-    )
+    presenter.reads("presence", "1 follower")
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)
     presenter.until_changed(lambda: shown_kw(presenter), before)

@@ -16,7 +16,7 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import AVIATION, SI
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, question_of
-from explorer.tabs.actuator.actuator_tasks import FlightTask, answer, flight_legs, lean
+from explorer.tabs.actuator.actuator_tasks import flight_legs, flight_of, lean_verdict
 from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -29,16 +29,12 @@ LEGS = flight_legs(RIGID)
 
 @pytest.fixture(scope="module")
 def verdict() -> Verdict:
-    found = answer(QUESTION)
-    assert isinstance(found, Verdict)
-    return lean(found)
+    return lean_verdict(QUESTION)
 
 
 @pytest.fixture(scope="module")
 def flight(verdict: Verdict) -> ActuatorFlight:
-    found = pickle.loads(pickle.dumps(FlightTask(QUESTION, verdict))).run(None, None)
-    assert isinstance(found, ActuatorFlight)
-    return found
+    return flight_of(pickle.loads(pickle.dumps(verdict)))
 
 
 def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs():
@@ -71,11 +67,8 @@ def test_the_page_draws_the_flight_as_it_was_computed(flight: ActuatorFlight):
 def test_what_is_being_computed_is_said_and_keeps_its_place(flight: ActuatorFlight, verdict: Verdict):
     """The same keys, so that nothing jumps; the curves of the question before stay, marked."""
     speed = RIGID.rotor.tip_speed
-    first, before, wrong = (
-        flight_state(LEGS, None, False, 0.2, speed, SI),
-        flight_state(LEGS, flight, False, 0.2, speed, SI),
-        flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim"),
-    )
+    first, before = (flight_state(LEGS, one, False, 0.2, speed, SI) for one in (None, flight))
+    wrong = flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim")
     assert (first["kind"], first["words"]) == ("computing", "computing…")
     assert "wanted" not in first
     assert before["kind"] == "computing"
@@ -177,10 +170,3 @@ def test_a_follower_does_not_fly(stage: Stage, flight: ActuatorFlight, verdict: 
     stage.actions["fly"](3)
     assert stage.inputs == before
     assert stage.tip() == 0.0
-
-
-def test_the_question_does_not_hang_on_the_climb_and_the_baseline_is_part_of_it():
-    """The bar climbs; the verdict is of level flight."""
-    climbing = replace(RIGID, condition=replace(RIGID.condition, climb_speed=5.0))
-    assert question_of(ActuatorInputs(), climbing) == QUESTION
-    assert question_of(ActuatorInputs(against="as-built"), RIGID) != QUESTION

@@ -9,7 +9,6 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import Inputs
 from explorer.model.units import SI
-from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.landscape import HEIGHT, SIZE, Landscape, refined
 from explorer.tabs.optimise.landscape_panel import half_widths, paths_on, valley_words
 from explorer.tabs.optimise.map_panel import Map
@@ -21,6 +20,7 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.search import Search
+from tests.explorer.test_pictures import on_canvas
 
 LEAST, CURVES = 1e6, (4e5, 1e5)
 BAND = 0.001
@@ -116,19 +116,11 @@ def test_the_camera_sees_the_whole_map_and_the_blade():
     land = bowl(21)
     for aspect in (1.0, 1.6, 2.4):
         camera = land.camera(10.0, aspect)
-        forward = camera.look_at - camera.position
-        forward /= np.linalg.norm(forward)
-        right = np.cross(forward, [0.0, 0.0, 1.0])
-        right /= np.linalg.norm(right)
-        up = np.cross(right, forward)
         root, turn = land.blade_place(10.0)
         tip = root + 10.0 * np.array([math.cos(turn), math.sin(turn), 0.0])
         corners = [[x, y, 0.0] for x in (-0.5 * SIZE, 0.5 * SIZE) for y in (-0.5 * SIZE, 0.5 * SIZE)]
-        for point in (*np.array(corners), root, tip):
-            away = point - camera.position
-            depth = away @ forward
-            assert abs(away @ up) / depth < math.tan(0.5 * FIELD_OF_VIEW)
-            assert abs(away @ right) / depth < aspect * math.tan(0.5 * FIELD_OF_VIEW)
+        across, up, _ = on_canvas(camera, aspect, np.array([*corners, root, tip]))
+        assert max(np.abs(across).max(), np.abs(up).max()) < 1.0
 
 
 def test_refined_maps_keep_the_powers_of_the_grid():

@@ -1,7 +1,8 @@
-"""Links: random designs through the address as viser's client rewrites it, and links that cannot be read."""
+"""The address: random designs through it as viser's client rewrites it, links that cannot be read, and its writing."""
 
 import json
 import random
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -13,8 +14,19 @@ import pytest
 
 from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
 from explorer.model.stand import StandInputs
-from explorer.sharing.address import Address, parameter, with_parameter
-from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, inputs_from, read_history, tell_retired
+from explorer.sharing.share import (
+    DESIGN,
+    KEPT,
+    PINNED,
+    Address,
+    code_of,
+    design_from,
+    inputs_from,
+    parameter,
+    read_history,
+    tell_retired,
+    with_parameter,
+)
 from explorer.tabs.design_files import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics
@@ -142,6 +154,8 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
         r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
         assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # Links hold a millionth of a degree.
     assert sums > 200
+    chance = random.Random(20)
+    assert {random_inputs(chance).law for _ in range(200)} == set(LAWS) - {"optimised"}
 
 
 def test_the_changed_twist_as_built_is_again_on_its_sliders():
@@ -161,15 +175,12 @@ def test_the_changed_twist_as_built_is_again_on_its_sliders():
 )
 def test_links_with_a_plus_sign_still_open(query: str, changed: dict[str, float]):
     """As earlier versions wrote them, and as viser's client leaves them after one connection and after two."""
+    spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
+    assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
     for _ in range(3):
         inputs = inputs_from(parameter(query, DESIGN) or "")
         assert inputs == replace(OPENING, built_inner=-2.0, built_outer=1.0, **changed)
         query = rewritten(query)
-
-
-def test_a_sum_of_many_laws_with_lost_plus_signs_opens():
-    spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
-    assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
 
 
 class TestRetired:
@@ -183,6 +194,7 @@ class TestRetired:
         for name in (DESIGN, PINNED):
             found = address.read(name, meaning, OPENING, "", notices)
             assert (found.linear, found.hover_inflow) == (-8.0, "annulus")
+            assert "inflow" not in code_of(found.design())  # What the page writes then does not name it.
         assert notices == [("A retired model", self.SENTENCE)]
 
     @pytest.mark.parametrize("name", [name for name, one in RETIRED.items() if one.option == "inflow"])
@@ -193,14 +205,15 @@ class TestRetired:
         assert said == [RETIRED[name].sentence]
         assert "inflow" not in code_of(found.design())
 
-    def test_what_the_page_writes_then_does_not_name_it(self):
-        assert "inflow" not in code_of(inputs_from(self.CODE, tell=lambda _: None).design())
-
-    def test_the_kept_file_of_a_rotor_of_ones_own(self):
+    def test_what_the_page_has_kept(self):
+        """A rotor of one's own is told; steps of the history are read silently, as is the annulus balance by name."""
         kept = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"})
         said: list[str] = []
         assert inputs_from(KEPT, kept, said.append) == OPENING
         assert said == [self.SENTENCE]
+        history = read_history(json.dumps({"past": [self.CODE], "bookmarks": [self.CODE]}), OPENING)
+        assert [one.hover_inflow for one in (*history.past, *history.bookmarks)] == ["annulus", "annulus"]
+        assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
 
     def test_a_loaded_file(self):
         content = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"}).encode()
@@ -213,13 +226,6 @@ class TestRetired:
         FilePanel._loaded(panel, event)
         assert taken == [OPENING]
         assert said == [("Loaded", f"old.json is on the sliders. {self.SENTENCE}")]
-
-    def test_the_annulus_balance_by_name_is_taken_silently(self):
-        assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
-
-    def test_kept_steps_are_read_silently(self):
-        history = read_history(json.dumps({"past": [self.CODE], "bookmarks": [self.CODE]}), OPENING)
-        assert [one.hover_inflow for one in (*history.past, *history.bookmarks)] == ["annulus", "annulus"]
 
 
 class TestUnreadable:
@@ -259,14 +265,39 @@ class TestUnreadable:
         address[DESIGN] = "1;linear:-8"
         assert (address[DESIGN], written) == ("1;linear:-8", [])
 
-    def test_a_design_that_can_be_read_is_no_problem(self):
-        problems: list[tuple[str, str]] = []
-        address = Address("?d=1;linear:-8", lambda _: None)
-        found = address.read(DESIGN, inputs_from, OPENING, "", problems)
-        assert (found.law, problems) == ("linear", [])
 
+class TestAddress:
+    def test_names_stand_beside_each_other(self):
+        query = with_parameter("?fixedDpr=0.5&darkMode&d=1;old", "d", "1;segments:-14,-8@0.5")
+        assert query == "?fixedDpr=0.5&darkMode=&d=1;segments:-14,-8@0.5"
+        assert parameter(query, "d") == "1;segments:-14,-8@0.5"
+        assert parameter(with_parameter(query, "d", None), "d") is None
 
-def test_every_law_of_the_menu_is_among_the_random_designs():
-    chance = random.Random(20)
-    laws = {random_inputs(chance).law for _ in range(200)}
-    assert laws == set(LAWS) - {"optimised"}
+    def test_what_a_query_must_not_hold_is_written_otherwise(self):
+        text = '1;uh60a+linear:-2;name="a&b=c d"'
+        query = with_parameter("", "d", text)
+        assert "+" not in query
+        assert parameter(query, "d") == text
+
+    def test_written_when_it_changes(self):
+        written: list[str] = []
+        address = Address("?a=1", written.append, pause=0.0)
+        address["b"] = "2"
+        address["b"] = "2"
+        address["a"] = None
+        assert written == ["?a=1&b=2", "?b=2"]
+
+    def test_a_flood_ends_with_the_newest(self):
+        """Fifty changes in a moment; on a machine that halts in their midst, at the next try."""
+        for pause in (0.1, 1.0, 10.0, 60.0):
+            written: list[str] = []
+            address = Address("", written.append, pause)
+            begun = time.monotonic()
+            for k in range(50):
+                address["d"] = str(k)
+            if time.monotonic() - begun < pause:
+                break
+        deadline = time.monotonic() + pause + 60.0
+        while written[-1] != "?d=49" and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert written == ["?d=0", "?d=49"]

@@ -1,6 +1,5 @@
-"""What the optimiser's tabs show, without a browser: runs, charts, maps, schedules, drawings and words."""
+"""What the optimiser's tabs show, without a browser: runs, charts, maps, drawings and words."""
 
-import csv
 import io
 import math
 import xml.etree.ElementTree as ET
@@ -18,19 +17,17 @@ from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.landscape import refined
 from explorer.tabs import sensitivity_panel as sensitivity
 from explorer.tabs.optimise import map_panel as power_map
-from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun, StartTrace
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun, StartTrace
 from explorer.tabs.optimise.search_words import concept_picture, starts_chart
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
-from explorer.workers.solver import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
+from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
-from rotor.optimisation.schedule import Cell, Plan
-from rotor.optimisation.search import Progress, run_search
+from rotor.optimisation.search import Progress
 from rotor.optimisation.search import SearchStatus as Status
 from rotor.trim.solve import solve
 
@@ -46,18 +43,25 @@ def no_stop() -> bool:
     return False
 
 
-def run_of(request: SearchRequest, design: Any) -> SearchRun:
-    """A search run here, its news heard as from a process."""
-    run = SearchRun(request.search(design, mission.legs), "UH-60A as built")
-    run.on_event(JobStarted())
-    task = SearchTask(run.search, baseline_of(design))
-    run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))
-    return run
-
-
 @pytest.fixture(scope="module")
-def run() -> SearchRun:
-    return run_of(SearchRequest(concept="two-segment", starts=3), quick())
+def searched() -> tuple[SearchRun, tuple[StartTrace, ...]]:
+    """A search run here, its news heard as from a process; and its starts when the second had just begun."""
+    run = SearchRun(SearchRequest(concept="two-segment", starts=3).search(quick(), mission.legs), "UH-60A as built")
+    halfway: list[tuple[StartTrace, ...]] = []
+
+    def tell(item: object) -> None:
+        run.on_event(JobProgress(item))
+        if isinstance(item, Progress) and item.phase == "search" and item.start == 1 and not halfway:
+            halfway.append(run.starts())
+
+    run.on_event(JobStarted())
+    run.on_event(JobEnded(SearchTask(run.search, baseline_of(quick())).run(tell, no_stop)))
+    return run, halfway[0]
+
+
+@pytest.fixture
+def run(searched: tuple[SearchRun, tuple[StartTrace, ...]]) -> SearchRun:
+    return searched[0]
 
 
 def finite(plot: Plot) -> bool:
@@ -104,7 +108,7 @@ class TestSearchRun:
         monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
         run = SearchRun(SearchRequest().search(quick(), mission.legs))
         for k in range(100):
-            run._add(k, 1000.0 - k, quick())
+            run.frames.append(SearchFrame(k, 1000.0 - k, quick()))
         run.shown()
         now += 0.11
         run.shown()
@@ -152,13 +156,6 @@ class TestCharts:
         assert min(line["y"][-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
         assert len({line["colour"] for line in starts}) == 3
 
-    def test_the_headline_is_the_least_power_and_names_every_start(self, run: SearchRun):
-        html = search_text.headline(run)
-        assert run.best is not None
-        assert SI.watts(run.best.power, 1) in html
-        for start in run.starts():
-            assert f"Start {start.number}:" in html
-
     def test_sensitivity_to_turning_the_whole_blade_is_zero(self):
         solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
@@ -183,21 +180,16 @@ class TestCharts:
 
 
 class TestWords:
-    def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
+    def test_the_optimum_is_told_with_its_band_and_the_change_against_the_start(self, run: SearchRun):
         words = search_text.result(run) + search_text.details(run) + search_text.standing(run)
         for part in ("Inboard rate", "Outboard rate", "within 0.1 % of the least power", "Done"):
             assert part in words
         assert "nan" not in words.lower()
-
-    def test_the_headline_names_the_change_against_the_start(self, run: SearchRun):
         assert run.best is not None
         assert run.start_power is not None
         saved = 100.0 * (1.0 - run.best.power / run.start_power)
         assert saved > 0.01
         assert f"−{saved:.2f} % vs. start" in search_text.headline(run)
-
-    def test_before_the_first_search(self):
-        assert "Not run yet" in search_text.standing(None)
 
     @pytest.mark.parametrize("name", CONCEPTS)
     def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):
@@ -222,11 +214,13 @@ class TestSearchRequest:
         assert twist.breaks == (0.62,)
         assert SearchRequest(concept="three-segment").known_concept() is CONCEPTS["three-segment"]
 
-    def test_hover_and_cruise_needs_a_cruise(self):
+    def test_what_cannot_be_searched_is_a_sentence(self):
+        bending = SearchRequest(index=3.0)
+        assert bending.search(make_design(mu=0.3, bending=True), mission.legs).limits.index == 3.0
+        with pytest.raises(ValueError, match="switch Blade bending on"):
+            bending.search(quick(), mission.legs)
         with pytest.raises(ValueError, match="set an advance ratio above 0"):
             SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
-
-    def test_a_mission_needs_hours(self):
         with pytest.raises(ValueError, match="no hours"):
             mission.legs(quick(), [mission.MissionRow(0.2, 0.0)])
 
@@ -250,10 +244,8 @@ class TestMap:
         task, (coarse, fine) = levels
         assert [len(level.powers) for level in (coarse, fine)] == [3, 5]
         assert np.array(fine.powers, dtype=float)[::2, ::2] == pytest.approx(np.array(coarse.powers, dtype=float))
+        assert not task.run(lambda item: None, lambda: True)  # Stopped between two points.
         assert fine.powers[1][2] == pytest.approx(solve(task.at(0.5, 0.25)).power.total, rel=1e-7)
-
-    def test_stops_between_points(self, levels: tuple[MapTask, list[MapLevel]]):
-        assert not levels[0].run(lambda item: None, lambda: True)
 
     def test_picture_and_drawing(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
@@ -313,107 +305,6 @@ class TestMap:
             power_map.point_of("here", drawn)
 
 
-@pytest.fixture(scope="module")
-def progress() -> schedule_view.PlanProgress:
-    design = quick()
-    rows = [mission.MissionRow(0.0, 1.0), mission.MissionRow(0.3, 2.0)]
-    plan = Plan(design, (CONCEPTS["linear"],), mission.legs(design, rows), starts=2)
-    progress = schedule_view.PlanProgress(plan)
-
-    def on_event(item: object) -> None:
-        match item:
-            case Cell():
-                progress.cells.append(item)
-            case FixedPowers(powers):
-                progress.fixed_powers = powers
-            case _:
-                raise AssertionError(item)
-
-    assert ScheduleTask(plan).run(on_event, no_stop).complete
-    return progress
-
-
-class TestSchedule:
-    def test_no_fixed_blade_beats_the_moving_one(self, progress: schedule_view.PlanProgress):
-        for k in range(2):
-            best, fixed = progress.at(k), progress.fixed_power(k)
-            assert best is not None
-            assert best.best is not None
-            assert fixed is not None
-            assert best.best.power <= fixed * (1.0 + 1e-6)
-        worth = progress.schedule.in_flight_gain("linear")
-        assert worth is not None
-        assert worth.gain >= 0.0
-        assert progress.part_done == 1.0
-
-    def test_charts_and_table(self, progress: schedule_view.PlanProgress):
-        twists, savings = schedule_view.twist_plot(progress, None), schedule_view.saving_plot(progress, None)
-        assert twists is not None
-        assert savings is not None
-        known = [bool(np.isfinite(values).all()) for values in twists.data]
-        assert known == [True, True, True, *(False,) * (schedule_view.LEGS - 2), True]
-        assert finite(savings)
-        empty = schedule_view.PlanProgress(progress.plan)
-        assert schedule_view.twist_plot(empty, None) is schedule_view.saving_plot(empty, None) is None
-        table = schedule_view.table(progress)
-        assert "Additional saving from variable twist" in table
-        assert "nan" not in table.lower()
-        assert "Moving" not in schedule_view.table(schedule_view.PlanProgress(progress.plan))
-
-    def test_legs_to_come_are_not_drawn(self, progress: schedule_view.PlanProgress):
-        half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 1])
-        whole, drawn = (schedule_view.saving_plot(one, None) for one in (progress, half))
-        assert whole is not None
-        assert drawn is not None
-        mu, _, fixed, moving = drawn.data
-        np.testing.assert_allclose(mu, [0.3])
-        np.testing.assert_allclose(moving, whole.data[3][1:])
-        assert np.isnan(fixed[0])  # Not known yet.
-
-    def test_csv_reads_back(self, progress: schedule_view.PlanProgress):
-        rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))
-        assert [row["mu"] for row in rows] == ["0", "0.3", "mean"]
-        for k, row in enumerate(rows[:2]):
-            condition = progress.plan.conditions[k].flight
-            twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
-            assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
-        leg = progress.plan.conditions[1]
-        climbing = replace(progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),))
-        text = schedule_view.csv_of(schedule_view.PlanProgress(climbing)).decode()
-        assert next(csv.DictReader(io.StringIO(text)))["climb_m_s"] == "2.5"
-
-    def test_stopped_keeps_what_there_is(self, progress: schedule_view.PlanProgress):
-        told: list[Any] = []
-        schedule = ScheduleTask(progress.plan).run(told.append, lambda: len(told) > 0)
-        assert len(schedule.cells) == 1
-
-
-def test_a_limit_on_vibration_reaches_the_search_and_needs_bending():
-    request = SearchRequest(concept="linear", starts=1, index=3.0)
-    assert request.search(make_design(mu=0.3, bending=True), mission.legs).limits.index == 3.0
-    with pytest.raises(ValueError, match="switch Blade bending on"):
-        request.search(make_design(mu=0.3), mission.legs)
-
-
-@pytest.fixture(scope="module")
-def begun_search() -> tuple[SearchRun, tuple[StartTrace, ...]]:
-    """A finished search, and its starts when the second had just begun."""
-    run = SearchRun(SearchRequest(concept="two-segment", starts=3).search(quick(), mission.legs))
-    run.state = "running"
-    run.start_power = solve(quick()).power.total
-    run._add(0, run.start_power, quick())
-    halfway: list[tuple[StartTrace, ...]] = []
-
-    def follow(progress: Any) -> None:
-        run._step(progress)
-        if progress.phase == "search" and progress.start == 1 and not halfway:
-            halfway.append(run.starts())
-
-    run.optimum = run_search(run.search, follow)
-    run.state = "done"
-    return run, halfway[0]
-
-
 def test_each_start_has_its_trace_and_running_best(run: SearchRun):
     starts = run.starts()
     assert len(starts) == 3
@@ -424,20 +315,20 @@ def test_each_start_has_its_trace_and_running_best(run: SearchRun):
         assert one.state == "finished"
 
 
-def test_the_best_start_has_the_power_of_the_optimum(begun_search: tuple[SearchRun, tuple[StartTrace, ...]]):
-    run = begun_search[0]
-    (best,) = (one for one in run.starts() if one.is_best)
+def test_the_best_start_has_the_power_of_the_optimum(run: SearchRun):
+    best = next(one for one in run.starts() if one.is_best)
     assert run.optimum is not None
     assert run.optimum.best is not None
     assert best.best[-1] == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert SI.watts(run.optimum.best.power, 1) in search_text.headline(run)
+    assert all(f"Start {start.number}:" in search_text.headline(run) for start in run.starts())
     equal = [one.number for one in run.starts() if one.gap is not None and one.gap < 50.0]
     one, several, every = f"start {best.number} is best", f"{len(equal)} of 3 starts are best", "all 3 starts agree"
     assert starts_chart(run, SI)["value"] == (one, several, every)[len(equal) - 1]
 
 
-def test_half_way_the_second_start_runs_and_the_third_waits(begun_search: tuple[SearchRun, tuple[StartTrace, ...]]):
-    starts = begun_search[1]
+def test_half_way_the_second_start_runs_and_the_third_waits(searched: tuple[SearchRun, tuple[StartTrace, ...]]):
+    starts = searched[1]
     assert [one.state for one in starts] == ["finished", "running", "waiting"]
     assert starts[2].gap is None
     assert starts[2].legend() == "Start 3: waiting"
@@ -464,13 +355,14 @@ def test_the_axis_shows_the_ends_and_counts_what_it_clips(monkeypatch: pytest.Mo
 def test_a_design_beyond_a_limit_is_not_the_best():
     run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
     step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
-    run._add(0, 860e3, quick())
+    run.frames.append(SearchFrame(0, 860e3, quick()))
     run._step(step)
     run._step(replace(step, evaluation=2, power=800e3, feasible=False))
     assert run.starts()[0].powers == (850e3, 850e3)
 
 
 def test_before_the_first_design():
+    assert "Not run yet" in search_text.standing(None)
     run = SearchRun(SearchRequest(starts=2).search(quick(), mission.legs))
     assert search_text.headline(run) == ""
     assert [one.state for one in run.starts()] == ["waiting", "waiting"]

@@ -1,6 +1,9 @@
-"""Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words."""
+"""Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words; the dial."""
 
+import json
 import math
+import shutil
+import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
@@ -11,6 +14,7 @@ import pytest
 import viser
 from numpy.testing import assert_allclose
 
+from explorer import web
 from explorer.export.demo import flown_pitch
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
@@ -20,15 +24,27 @@ from explorer.picture.poses import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
-from explorer.tabs.actuator.per_rev import PerRevControls
+from explorer.tabs.actuator.per_rev import (
+    PerRevControls,
+    dial_matrix,
+    front_dots,
+    programme_table,
+    programme_words,
+    published,
+    with_wave,
+)
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
-from explorer.text.design_words import pinned_name, twist_name, wave_words
+from explorer.text.design_words import pinned_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
+from rotor.actuator.programmes import programmes
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.optimisation.vibration import with_harmonics
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
 
 PITCH, TWIST = read_harmonics("3:1.5:180,5:0.2:40", "test"), read_harmonics("2:1:30", "test")
@@ -117,17 +133,12 @@ def test_the_demo_holds_all_harmonics_of_a_blade():
 
 
 def test_words():
-    before, after = solve(OPENING.design()).require(), solve(MOVED.design()).require()
-    words = (
-        "active twist of 1.00° at 2/rev (phase 30°) and root pitch of 1.50° at 3/rev (phase 180°) and 0.20° at 5/rev"
-    )
-    assert wave_words(MOVED.design()).startswith(words)
+    before, after = (solve(one.design()).require() for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH)))
+    assert wave_words(MOVED.design()).startswith("active twist of 1.00° at 2/rev (phase 30°) and root pitch of 1.50°")
     assert wave_words(MOVED.design().at(hover=True)) == wave_words(OPENING.design()) == ""
-    assert twist_name(MOVED) == "As built, 2/rev twist 1.00°, 3/rev pitch 1.50°, 5/rev pitch 0.20°"
     assert any("root pitch: 3/rev" in line for line in provenance_lines(after))
-    pitched = solve(replace(OPENING, pitch_per_rev=PITCH).design()).require()
-    assert "Root pitch at 3/rev and 5/rev" in why(before, pitched)
-    assert "No n/rev root pitch" in why(pitched, before)
+    assert "Root pitch at 3/rev and 5/rev" in why(before, after)
+    assert "No n/rev root pitch" in why(after, before)
     assert "collective and cyclic alone" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
 
 
@@ -187,3 +198,90 @@ class TestWidgets:
         assert "shape of its design file" in panel._words.content
         panel.hold(True)
         assert all(handle.disabled for handle in panel._sizes.values())
+
+
+BENDING = make_design(twist="builtin", mu=0.3, bending=True)
+WAVES = (Harmonic(2, math.radians(0.8), 4.0), Harmonic(3, math.radians(0.5), 0.8))
+
+
+def vector(waves: tuple[Harmonic, ...]) -> np.ndarray:
+    """Cosine and sine part of each harmonic of the dial [°]."""
+    x = np.zeros((4, 2))
+    for one in waves:
+        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array([math.cos(one.phase), math.sin(one.phase)])
+    return x.ravel()
+
+
+def foreseen(answer: dict[str, object], waves: tuple[Harmonic, ...]) -> tuple[float, float]:
+    """Changes of power and index [%], by the formulas of `dial.js`, written again."""
+    x = vector(waves)
+    base, slopes, second, gains = (np.array(answer[name]) for name in ("base", "slopes", "second", "gains"))
+    values = base + slopes @ x + 0.5 * np.einsum("kij,i,j->k", second, x, x)
+    sizes = (gains * np.hypot(values[0:10:2], values[1:10:2])) ** 2
+    index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
+    power, at_rest = float(answer["power"]), float(answer["index"])  # pyright: ignore[reportArgumentType]
+    return 100.0 * (values[10] / power - 1.0), 100.0 * (index / at_rest - 1.0)
+
+
+@pytest.fixture(scope="module")
+def answer() -> dict[str, object]:
+    return dial_matrix(with_harmonics(BENDING, WAVES))
+
+
+def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]) -> tuple[float, float]:
+    """Of power and index [%], by two trims."""
+    rest, moved = (solve(with_harmonics(design, waves)).require() for waves in (before, after))
+    index = hub_index(Adjoint(moved)) / hub_index(Adjoint(rest))
+    return 100.0 * (moved.power.total / rest.power.total - 1.0), 100.0 * (index - 1.0)
+
+
+def test_what_is_foreseen_is_what_a_trim_gives(answer: dict[str, object]):
+    power, index = changes(BENDING, (), WAVES)
+    seen = foreseen(answer, WAVES)
+    assert_allclose(seen[0], power, atol=0.25)
+    assert_allclose(seen[1], index, atol=8.0)
+    assert_allclose(foreseen(answer, ()), 0.0, atol=1e-3)
+    with pytest.raises(ValueError, match="bend"):
+        dial_matrix(with_harmonics(make_design(mu=0.3), WAVES))
+
+
+def test_the_page_foresees_by_the_same_formula(answer: dict[str, object]):
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no node to run the page's script")
+    script = web.text("dial.js")
+    begin, end = script.index("function foresee"), script.index("RX.foresee = foresee")
+    program = f"{script[begin:end]};console.log(JSON.stringify(foresee({json.dumps(answer)},{vector(WAVES).tolist()})))"
+    out = subprocess.run([node, "-e", program], capture_output=True, text=True, check=True).stdout
+    assert_allclose(json.loads(out), foreseen(answer, WAVES), rtol=1e-9)
+
+
+def test_the_front_is_that_of_its_trims():
+    dots = front_dots(with_harmonics(BENDING, WAVES))
+    assert [one.power for one in dots] == sorted(one.power for one in dots)
+    assert [one.index for one in dots] == sorted((one.index for one in dots), reverse=True)
+    power, index = changes(BENDING, (), dots[0].twist)
+    assert_allclose(dots[0].power, power, atol=0.02)
+    assert_allclose(dots[0].index, index, atol=0.2)
+
+
+def test_a_dot_moves_one_harmonic_alone():
+    moved = with_wave(WAVES, 3, 1.0, 420.0)
+    assert moved[0] == WAVES[0]
+    assert moved[1] == Harmonic(3, math.radians(1.0), math.radians(60.0))
+    assert with_wave(WAVES, 3, 0.01, 60.0) == WAVES[:1]
+    assert [one.per_rev for one in with_wave(WAVES, 5, 0.4, 0.0)] == [2, 3, 5]
+
+
+def test_every_published_programme_is_there_with_its_source():
+    table = programme_table()
+    for one in programmes():
+        words = programme_words(one)
+        assert one.source in words
+        assert one.kind in words
+        assert one.kind in table
+    shown = published()
+    assert len(shown) == sum(one.vibration_percent is not None for one in programmes())
+    # Power and vibration are one point only where both belong to one input.
+    assert sum(one["power"] is not None for one in shown) == 3
+    assert {one["name"] for one in shown if one["power"] is not None} >= {"XH-59A 3/rev", "XH-59A 2+3/rev"}

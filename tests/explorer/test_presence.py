@@ -1,14 +1,17 @@
-"""The secret of a presenter never stands in what its page shares."""
+"""Presentations: who hears what, one presenter, whose secret never stands in what its page shares."""
 
 import asyncio
 import re
 from collections.abc import Iterator
+from unittest.mock import Mock
 
 import pytest
 
 from explorer.app import App
 from explorer.hosting import browser
-from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, follow_name
+from explorer.model.inputs import Inputs, ViewState
+from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import Address
 from explorer.tabs.lecture.presence import Presence
 from tests.tools.soak.visitor import Visitor, ran
 
@@ -49,27 +52,11 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
     assert not [script for script in shared if secret[1] in script]
 
 
-class FakeAddress(dict[str, str | None]):
-    """A page's address without a browser."""
-
-    def __missing__(self, name: str) -> None:
-        return None
-
-
 def test_a_secret_in_a_link_of_an_earlier_version_gives_no_control():
-    class Handle:
-        def __getattr__(self, name: str) -> "Handle":
-            return self
-
-        def __call__(self, *_: object, **__: object) -> "Handle":
-            return self
-
-    address = FakeAddress({PRESENT: "a-secret"})
-    presence = Presence(Handle(), Presentations(), address)  # pyright: ignore[reportArgumentType]
-    assert not presence._secret
+    context, address = Mock(), Address(f"?{PRESENT}=a-secret", lambda _: None)
+    assert not Presence(context, Presentations(), address)._secret
     assert address[PRESENT] is None
-    kept = Presence(Handle(), Presentations(), FakeAddress(), "a-secret")  # pyright: ignore[reportArgumentType]
-    assert kept._secret
+    assert Presence(context, Presentations(), Address("", lambda _: None), "a-secret")._secret
 
 
 def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
@@ -104,11 +91,52 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
     assert third.startswith("Presenting: 1 follower")
 
 
-def test_a_presentation_has_one_presenter():
-    presentations, one, two = Presentations(), object(), object()
-    assert presentations.claim("s", "page", one)
-    assert not presentations.claim("s", "other", two)
-    assert not presentations.claim("s", "", two)
-    assert presentations.claim("other", "other", two)
-    presentations.release(one)
-    assert presentations.claim("s", "other", two)
+class TestPresentations:
+    def test_followers_hear_until_they_leave(self):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        leave = presentations.follow(follow_name(secret), heard.append)
+        counted: list[int] = []
+        presentations.watch(secret, counted.append)
+        first = PresentedView(Inputs(), ViewState())
+        presentations.present(secret, first)
+        presentations.present(secret, first)
+        late: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), late.append)
+        assert heard == late == [first]
+        leave()
+        presentations.present(secret, PresentedView(Inputs(mass_t=9.0), ViewState()))
+        presentations.end(secret)
+        assert heard == [first]
+        assert late[-1] is None
+        assert counted == [1, 2, 1]
+
+    def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+
+        def fails(_: PresentedView | None) -> None:
+            raise RuntimeError("its browser has just left")
+
+        presentations.follow(follow_name(secret), fails)
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(secret, PresentedView(Inputs(), ViewState()))
+        assert len(heard) == 1
+        assert "could not be updated" in caplog.text
+
+    def test_the_name_does_not_tell_the_secret(self):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(follow_name(secret), PresentedView(Inputs(), ViewState()))
+        presentations.end(follow_name(secret))
+        assert heard == []
+
+    def test_a_presentation_has_one_presenter(self):
+        presentations, one, two = Presentations(), object(), object()
+        assert presentations.claim("s", "page", one)
+        assert not presentations.claim("s", "other", two)
+        assert not presentations.claim("s", "", two)
+        assert presentations.claim("other", "other", two)
+        presentations.release(one)
+        assert presentations.claim("s", "other", two)

@@ -258,8 +258,7 @@ class ActuatorControls:
         if isinstance(actuator, PiezoPly):
             wanted, shares = shares, np.asarray(voltages, dtype=float) / actuator.voltage_swing
             opposed = installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
-            if self._handles["crossed"].value != opposed:
-                self._handles["crossed"].value = opposed
+            self._handles["crossed"].value = opposed
         legs = np.arange(len(shares))
         drives = [drive_of(actuator, float(np.interp(x, legs, share))) for share in shares.T]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
@@ -267,8 +266,7 @@ class ActuatorControls:
     def drive(self, drives: tuple[float, ...]) -> None:
         """Move the voltage sliders."""
         for handle, drive in zip(self._drives, drives, strict=True):
-            if handle.value != round(drive):
-                handle.value = round(drive)
+            handle.value = round(drive)
         self._moved(False)
 
     def _slider(self, name: str, label: str, low: float, high: float, step: float, entry: str = "") -> None:

@@ -1,21 +1,12 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
-import viser
-
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.actuator_tasks import FlightTask, Outcome, PoolAnswers, answer, sweep_task, verdict_tasks
-from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, sweep_sentence
+from explorer.tabs.actuator.actuator_tasks import Call, Outcome, PoolAnswers, flight_of, sweep_task, verdict_tasks
 from explorer.tabs.actuator.flight_bar import FlightBar
-from explorer.tabs.actuator.lifted_picture import (
-    LiftedScene,
-    flown_twist,
-    lifted_picture,
-    voltage_shares,
-)
+from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture, voltage_shares
 from explorer.tabs.actuator.pay_panel import PayPanel
-from explorer.tabs.actuator.section_drawing import section_svg
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor import Design, Solution
@@ -47,7 +38,6 @@ class ActuatorPanel:
         self._verdict: Verdict | None = None
         """The last one that was shown."""
         self._undriven = solver.BaselineCache()
-        self._sent: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
         self._before: tuple[object, ...] = ()
         self._flights = PoolAnswers(context.pool, 4, context.wake)
@@ -79,7 +69,8 @@ class ActuatorPanel:
             question = question_of(self.inputs(), self._context.inputs().design())
         except ValueError as error:
             return str(error)
-        return self._verdicts.answer(verdict_tasks(question)[0]) or answer(question)
+        task = verdict_tasks(question)[question.actuator]
+        return self._verdicts.answer(task) or task.run()
 
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
@@ -110,13 +101,14 @@ class ActuatorPanel:
         self._controls.arrange(inputs, installed)
         alone = self._undriven.solve(design) if inputs.driven else None
         self._draw(inputs, installed, design, psi, solution, alone or solution)
-        self._set("now", self._controls.now, words.now_panel(inputs, installed, solution))
+        self._controls.now.content = words.now_panel(inputs, installed, solution)
         self._show_sweep(inputs, design)
-        self._set("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
+        shares = voltage_shares(inputs, installed, psi)
+        self._controls.section.content = words.section_svg(installed, shares)
         self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
-        self._set("bar", self._controls.bar, words.voltage_bar(installed.actuator))
-        now = (inputs, design)
-        self._verdicts.ask(verdict_tasks(question), _STILL if self._touched else _IDLE, now != self._before)
+        self._controls.bar.content = words.voltage_bar(installed.actuator)
+        tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
+        self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
         self._pay.show(question.pair, self._show_verdict(inputs, installed, question, design))
 
@@ -126,16 +118,14 @@ class ActuatorPanel:
         if not inputs.per_rev:
             return
         answer = self._maps.answer(task)
-        self._set("swept", self._controls.swept, words.sweep_panel(sweep_sentence(answer, inputs, design)))
-        for chart, plot in (
-            (self._controls.over_phase, phase_plot),
-            (self._controls.over_amplitude, amplitude_plot),
-        ):
+        self._controls.swept.content = words.sweep_panel(answer, inputs, design)
+        charts = (self._controls.over_phase, words.phase_plot), (self._controls.over_amplitude, words.amplitude_plot)
+        for chart, plot in charts:
             chart.show(plot(answer, inputs, chart.y_range) if isinstance(answer, PowerMap) else None)
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
-        self._set("verdict", self._controls.verdict, words.problem_panel(problem))
+        self._controls.verdict.content = words.verdict_panel(problem)
 
     def reset(self) -> None:
         """Nothing driven."""
@@ -144,16 +134,16 @@ class ActuatorPanel:
     def _show_verdict(
         self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
     ) -> Verdict | None:
-        outcomes = {task.question.actuator: self._verdicts.answer(task) for task in verdict_tasks(question)}
+        outcomes = {id: self._verdicts.answer(task) for id, task in verdict_tasks(question).items()}
         outcome = outcomes[question.actuator]
         verdict = outcome if isinstance(outcome, Verdict) else None
-        show, places = self._set, self._controls
-        show("verdict", places.verdict, words.verdict_panel(outcome, self._verdict))
-        show("numbers", places.numbers, words.fit_panel(inputs, installed, verdict))
-        show("segments", places.segments, words.segments_panel(installed, inputs.share, verdict))
-        show("limits", places.limits, words.limits_panel(verdict))
-        show("table", places.table, table_panel(outcomes, question))
-        task = None if verdict is None else FlightTask(question, verdict)
+        places = self._controls
+        places.verdict.content = words.verdict_panel(outcome, self._verdict)
+        places.numbers.content = words.fit_panel(inputs, installed, verdict)
+        places.segments.content = words.segments_panel(installed, inputs.share, verdict)
+        places.limits.content = words.limits_panel(verdict)
+        places.table.content = table_panel(outcomes, question)
+        task = None if verdict is None else Call(flight_of, (verdict,))
         self._flights.ask(() if task is None else (task,), 0.0)
         if self.lifted:
             self._flight_bar.show(self._context.inputs(), design, installed, outcome, self._flights.answer(task))
@@ -185,11 +175,6 @@ class ActuatorPanel:
             self._blade.hold(self._radius)
             self._blade.show(picture)
         self._context.client.flush()
-
-    def _set(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
-        if self._sent.get(name) != content:
-            self._sent[name] = content
-            handle.content = content
 
     def _moved(self, by_hand: bool) -> None:
         self._touched = self._touched or by_hand

@@ -1,12 +1,12 @@
-"""Verdicts and power maps of Actuate as tasks of the worker processes; an answer that is known serves every page."""
+"""What Actuate asks of the worker processes: verdicts, flights and power maps; a known answer serves every page."""
 
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, pairwise
-from typing import Any, Protocol
+from typing import Any
 
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
@@ -30,65 +30,53 @@ Outcome = Verdict | str
 
 
 @dataclass(frozen=True)
-class VerdictTask:
-    """One actuator judged. It pickles."""
+class Call:
+    """A task of the pool: a function of a module and its arguments. It pickles; equal ones have one answer."""
 
-    question: Question
+    function: Callable[..., Any]
+    arguments: tuple[Hashable, ...]
 
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Outcome:
-        """The verdict without its fields over the disk, of which the page shows none."""
-        del tell, stop  # A second at most.
-        outcome = answer(self.question)
-        return outcome if isinstance(outcome, str) else lean(outcome)
-
-
-def answer(question: Question) -> Outcome:
-    """The verdict on the actuator asked about."""
-    try:
-        return judge(
-            find_actuator(question.actuator),
-            question.pair,
-            find_concept(question.concept),
-            question.placement,
-            question.host,
-            counted=question.share,
-            against=question.against,
-        )
-    except (ValueError, RuntimeError) as error:
-        return str(error)
+    def run(self, tell: object = None, stop: object = None) -> Any:
+        """What the function returns; for a ValueError or RuntimeError its sentence."""
+        del tell, stop  # Some seconds at most.
+        try:
+            return self.function(*self.arguments)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
 
 
-def lean(verdict: Verdict) -> Verdict:
-    """The same verdict, its trims left behind: a few kilobytes for three megabytes."""
+def verdict_on(question: Question) -> Verdict:
+    """The verdict on the actuator asked about; ValueError or RuntimeError with a sentence where there is none."""
+    return judge(
+        find_actuator(question.actuator),
+        question.pair,
+        find_concept(question.concept),
+        question.placement,
+        question.host,
+        counted=question.share,
+        against=question.against,
+    )
+
+
+def lean_verdict(question: Question) -> Verdict:
+    """The same, its trims with their disks left behind: a few kilobytes for three megabytes."""
+    verdict = verdict_on(question)
     base = verdict.baseline
     first, second = (replace(best, solutions=()) for best in base.best)
-    fixed = replace(base.fixed, solutions=())
-    base = replace(base, best=(first, second), fixed=fixed)
+    base = replace(base, best=(first, second), fixed=replace(base.fixed, solutions=()))
     resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
     return replace(verdict, baseline=base, resting=resting, optimum=optimum)
 
 
-def verdict_tasks(question: Question) -> tuple[VerdictTask, ...]:
-    """The chosen actuator first, then all others."""
-    others = (id for id in actuators() if id != question.actuator)
-    return tuple(VerdictTask(replace(question, actuator=id)) for id in (question.actuator, *others))
+def verdict_tasks(question: Question) -> dict[str, Call]:
+    """By actuator: the chosen one first, then all others."""
+    ids = dict.fromkeys((question.actuator, *actuators()))
+    return {id: Call(lean_verdict, (replace(question, actuator=id),)) for id in ids}
 
 
-@dataclass(frozen=True)
-class FlightTask:
-    """The flight of one judged actuator. It pickles."""
-
-    question: Question
-    verdict: Verdict = field(compare=False)
-    """The answer to that question."""
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> ActuatorFlight | str:
-        """The flight, or the sentence that says why there is none."""
-        del tell, stop
-        try:
-            return fly(self.verdict, flight_legs(self.verdict.baseline.pair.design))
-        except (ValueError, RuntimeError) as error:
-            return str(error)
+def flight_of(verdict: Verdict) -> ActuatorFlight:
+    """The flight of a judged actuator."""
+    return fly(verdict, flight_legs(verdict.baseline.pair.design))
 
 
 @lru_cache(maxsize=8)
@@ -106,46 +94,27 @@ def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
     return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])
 
 
-@dataclass(frozen=True)
-class SweepTask:
-    """The map of one design and actuator. It pickles."""
-
-    design: Design
-    """Without the harmonic; a steady voltage has twisted it already."""
-    inputs: ActuatorInputs
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PowerMap | str:
-        """The map, or the sentence that says why there is none."""
-        del tell, stop  # It takes a second.
-        try:
-            response = self.inputs.turning(self.inputs.installed(self.design.rotor), self.design.elastic)
-            if response is None or not response.amplitude:
-                return f"This actuator cannot respond at {self.inputs.per_rev}/rev."
-            return power_map(self.design, response)
-        except (ValueError, RuntimeError) as error:
-            return str(error)
-
-
-def sweep_task(inputs: ActuatorInputs, design: Design) -> SweepTask | None:
+def sweep_task(inputs: ActuatorInputs, design: Design) -> Call | None:
     """What must be trimmed, whatever amplitude and phase are set; None with the harmonic off and in hover."""
     if not inputs.per_rev or design.hovering:
         return None
     plain = ActuatorInputs()
-    steady = replace(inputs, amplitude=0.0, phase=0.0, magnified=plain.magnified)
-    steady = replace(steady, advance_ratios=plain.advance_ratios)
-    return SweepTask(replace(steady.apply(design), active_twist=None), steady)
+    steady = replace(inputs, amplitude=0.0, phase=0.0, magnified=plain.magnified, advance_ratios=plain.advance_ratios)
+    return Call(sweep, (replace(steady.apply(design), active_twist=None), steady))
+
+
+def sweep(design: Design, inputs: ActuatorInputs) -> PowerMap:
+    """Power over amplitude and phase of the harmonic of a design that a steady voltage has twisted already."""
+    response = inputs.turning(inputs.installed(design.rotor), design.elastic)
+    if response is None or not response.amplitude:
+        raise ValueError(f"This actuator cannot respond at {inputs.per_rev}/rev.")
+    return power_map(design, response)
 
 
 _KEPT = 64
 _STOPPED = "This was stopped: change any setting to try again."
 _lock = threading.Lock()
-_known: OrderedDict[Hashable, Any] = OrderedDict()
-
-
-class PoolTask(Hashable, Protocol):
-    """A task of the pool that can be told from others."""
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Any: ...
+_known: OrderedDict[Call, Any] = OrderedDict()
 
 
 class PoolAnswers:
@@ -154,15 +123,15 @@ class PoolAnswers:
     def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
         """`answered` is called after every answer, on a thread of the pool; `limit`: for each task [s]."""
         self._pool, self._urgency, self._answered, self._limit = pool, urgency, answered, limit
-        self._tasks: tuple[PoolTask, ...] = ()
+        self._tasks: tuple[Call, ...] = ()
         self._delay = 0.0
-        self._failures: dict[PoolTask, str] = {}
+        self._failures: dict[Call, str] = {}
         self._job: Job | None = None
         self._running = self._stopped = False
         self._timer: threading.Timer | None = None
         self._lock = threading.RLock()
 
-    def ask(self, tasks: tuple[PoolTask, ...], delay: float, moved: bool = True) -> None:
+    def ask(self, tasks: tuple[Call, ...], delay: float, moved: bool = True) -> None:
         """Have these answered, the first one first, once nothing has `moved` for so long [s]."""
         with self._lock:
             changed = tasks != self._tasks or delay < self._delay
@@ -176,10 +145,10 @@ class PoolAnswers:
                 self._timer.daemon = True
                 self._timer.start()
 
-    def answer(self, task: PoolTask | None) -> Any:
+    def answer(self, task: Call | None) -> Any:
         """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
         with _lock:
-            return _known.get(task, None if task is None else self._failures.get(task))
+            return None if task is None else _known.get(task, self._failures.get(task))
 
     def stop(self) -> None:
         """The browser has left."""
@@ -194,7 +163,7 @@ class PoolAnswers:
             self._timer.cancel()
         self._timer = None
 
-    def _next(self) -> PoolTask | None:
+    def _next(self) -> Call | None:
         return next((task for task in self._tasks if self.answer(task) is None), None)
 
     def _begin(self) -> None:
@@ -208,7 +177,7 @@ class PoolAnswers:
                 task, lambda news: self._on_event(task, news), limit=self._limit, urgency=self._urgency
             )
 
-    def _on_event(self, task: PoolTask, news: JobEvent) -> None:
+    def _on_event(self, task: Call, news: JobEvent) -> None:
         match news:
             case JobEnded(result) if result is not None:
                 with _lock:

@@ -1,15 +1,18 @@
-"""Words, numbers and chart data of the Actuate mode; degrees, volts and kW begin here."""
+"""Words, numbers, chart data and the drawn section of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
+from functools import lru_cache
 from html import escape
 
 import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
+from explorer.charts.svg import line, polygon
 from explorer.colours import css
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.actuator_tasks import Outcome
+from explorer.tabs.actuator.electrodes import named_lines
 from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
 from rotor import Design, Solution
 from rotor.actuator import (
@@ -24,6 +27,7 @@ from rotor.actuator import (
 )
 from rotor.actuator.harmonic import tip_response
 from rotor.actuator.limits import Limit
+from rotor.actuator.pictures import Part, section_picture
 from rotor.arrays import Array
 from rotor.reproduce.report import typographic
 
@@ -51,9 +55,9 @@ def voltage_bar(actuator: Actuator) -> str:
     )
 
 
-def sweep_panel(sentence: str) -> str:
+def sweep_panel(power: PowerMap | str | None, inputs: ActuatorInputs, design: Design) -> str:
     """Least power over amplitude and phase, and where more twist costs."""
-    return f'<div class="rx rx-small" data-explorer="swept">{escape(sentence)}</div>'
+    return f'<div class="rx rx-small" data-explorer="swept">{escape(sweep_sentence(power, inputs, design))}</div>'
 
 
 def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: Solution) -> str:
@@ -129,22 +133,13 @@ def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Ver
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]
-    cells = "".join(
-        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for name, value in entries
-    )
-    return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{cells}</div>'
+    return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{named_lines(entries)}</div>'
 
 
-def problem_panel(problem: str) -> str:
-    """Why there is no verdict."""
-    return _box("wrong", "problem", escape(problem))
-
-
-def verdict_panel(outcome: Outcome | None, before: Verdict | None) -> str:
-    """The verdict in one line, and what it rests on folded; on its way, the one before."""
+def verdict_panel(outcome: Outcome | None, before: Verdict | None = None) -> str:
+    """The verdict in one line, and what it rests on folded; on its way, the one before; or why there is none."""
     if isinstance(outcome, str):
-        return problem_panel(outcome)
+        return _box("wrong", "problem", escape(outcome))
     shown = outcome or before
     if shown is None:
         return _box("wait", "computing", "<b>Computing what the actuator saves and what it costs…</b>")
@@ -269,3 +264,73 @@ def sweep_sentence(power: PowerMap | str | None, inputs: ActuatorInputs, design:
         return f"No amplitude saves power at {inputs.per_rev}/rev. {here}"
     least = f"{number(100.0 * share)} % at {number(math.degrees(phase))}°: {number(1e-3 * change, 1, sign=True)} kW"
     return f"Least power: {least}, before the actuator's mass and losses. {here}"
+
+
+_WIDTH, _HEIGHT = 312.0, 92.0
+_MIDDLE = 46.0
+_PLY = 3.4
+"""Plies are drawn this thick [px]; to scale they would be half a pixel."""
+_GAP = 0.2
+
+
+@lru_cache(maxsize=32)
+def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> str:
+    """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
+    middle = len(shares) // 2
+    share = shares[middle]
+    picture = section_picture(installed, exaggerate=1.6)
+    scale = (_WIDTH - 12.0) / picture.chord
+    looks = {
+        "spar": 'fill="#5c6b80"',
+        "skin": 'fill="#9aa3ad"',
+        "web": 'fill="#3f4b5c"',
+        "outline": 'fill="rgba(128,128,128,.14)" stroke="currentColor" stroke-width=".7"',
+        "tube": f'fill="{css(drive_colour(share))}" stroke="currentColor" stroke-width=".6"',
+    }
+    marks = [
+        _ply(part, scale, share)
+        if part.role == "ply"
+        else polygon(((6.0 + scale * y, _MIDDLE - scale * z) for y, z in part.points), looks[part.role])
+        for part in picture.parts
+    ]
+    return (
+        f'<div class="rx" data-explorer="section"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
+        f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(installed)}</svg>'
+        f'<div class="rx-dim rx-small">{escape(_caption(installed, middle + 1))}</div></div>'
+    )
+
+
+def _ply(part: Part, scale: float, share: float) -> str:
+    """A band outside the contour along the ply's own line."""
+    along = part.points[: len(part.points) // 2] * scale
+    upper = "upper" in part.label.rsplit(",", 1)[-1]
+    offset = (_GAP + 0.5 * _PLY) * (1.0 if upper else -1.0)
+    points = " ".join(f"{6.0 + x:.1f},{_MIDDLE - y - offset:.1f}" for x, y in along)
+    return (
+        f'<polyline class="rx-ply" points="{points}" fill="none" stroke="currentColor" stroke-width="{_PLY + 1.2:g}"/>'
+        f'<polyline points="{points}" fill="none" stroke="{css(drive_colour(share))}" stroke-width="{_PLY:g}"/>'
+    )
+
+
+def _scale(installed: InstalledActuator) -> str:
+    front, rear = installed.placement.chord
+    ends = (0.0, front, rear, 1.0) if isinstance(installed.actuator, PiezoPly) else (0.0, 1.0)
+    marks = []
+    for end in ends:
+        x = 6.0 + (_WIDTH - 12.0) * end
+        marks.append(line((x, 76.0), (x, 80.0), width=0.8))
+        place = "start" if end < 0.03 else "end" if end > 0.97 else "middle"
+        if not (0.0 < end < 0.08 or 0.9 < end < 1.0):
+            look = f'font-size="12.5" fill="currentColor" text-anchor="{place}"'
+            marks.append(f'<text x="{x:.1f}" y="90" {look}>{end:g} c</text>')
+    return "".join(marks) + line((6.0, 78.0), (_WIDTH - 6.0, 78.0), width=0.5)
+
+
+def _caption(installed: InstalledActuator, segment: int) -> str:
+    labels = [part.label for part in section_picture(installed).parts]
+    walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
+    plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), installed.actuator.name)
+    front, rear = installed.placement.chord
+    where = f" per side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
+    shown = f" Segment {segment}." if len(installed.shapes) > 1 else ""
+    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Wall and ply thickness exaggerated."

@@ -1,6 +1,7 @@
 """Electrodes, field and free strain of the chosen actuator: chart data, pictures, words, and their folder."""
 
 import base64
+from collections.abc import Iterable
 from functools import lru_cache
 from html import escape
 
@@ -16,9 +17,7 @@ from rotor.actuator import Actuator, PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
 from rotor.arrays import Array
 
-PAIR = {"interdigitated": "MFC_P1", "continuous": "MFC_P2"}
-"""The same fibres under either kind of electrodes: what a sheet is shown against."""
-MODE = {"interdigitated": "d33", "continuous": "d31"}
+_MODE = {"interdigitated": "d33", "continuous": "d31"}
 _POINTS, _SWEEPS = 31, 900
 """Of the field's relaxation: enough for a picture of 140 pixels."""
 _STATIONS = 61
@@ -31,8 +30,9 @@ _PPM, _KV_MM = 1e6, 1e-6
 
 def other_kind(sheet: PiezoPly) -> PiezoPly:
     """A sheet of the same fibres with the other kind of electrodes; of MFC fibres, where there is none."""
-    kind = "continuous" if sheet.electrodes == "interdigitated" else "interdigitated"
-    return _sheet(PAIR[kind])
+    other = find_actuator("MFC_P2" if sheet.electrodes == "interdigitated" else "MFC_P1")
+    assert isinstance(other, PiezoPly)
+    return other
 
 
 def strain_plot(actuator: PiezoPly, volts: tuple[float, ...], previous: tuple[float, float] | None) -> Plot:
@@ -69,17 +69,21 @@ def field_panel(actuator: PiezoPly) -> str:
         ("Measured along", f"{number(1e6 * actuator.swing[0] / actuator.voltage_swing, 2)}·10⁻⁶ /V"),
         ("Voltage", "{}…{} V".format(*(number(end) for end in actuator.voltage_range))),
     )
-    cells = "".join(
-        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for name, value in lines
-    )
     return (
         f'<div class="rx" data-explorer="electrodes"><svg viewBox="0 0 {_WIDTH:g} 122" width="100%" role="img" '
         f'aria-label="Cut through the sheet: electrodes, equal potential and field">{cuts}</svg>'
         '<div class="rx-dim rx-small">One electrode gap along the fibres: electrodes orange, lines of equal potential, '
         "colour for the field (0 to twice its mean).</div>"
-        f'{cells}<div class="rx-dim rx-small">Thermal analogy: one volt strains the sheet as one kelvin would '
-        "with expansion coefficient α.</div></div>"
+        f'{named_lines(lines)}<div class="rx-dim rx-small">Thermal analogy: one volt strains the sheet as one kelvin '
+        "would with expansion coefficient α.</div></div>"
+    )
+
+
+def named_lines(entries: Iterable[tuple[str, str]]) -> str:
+    """Names with their values, one a line; as HTML."""
+    return "".join(
+        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for name, value in entries
     )
 
 
@@ -145,7 +149,7 @@ def _cut(sheet: PiezoPly) -> str:
         for y in (16.0, 20.0 + _TALL)
     )
     mean = _KV_MM * sheet.voltage_range[1] / sheet.electrode_gap
-    name = f"{sheet.id.replace('_', ' ')}, {MODE[sheet.electrodes]}"
+    name = f"{sheet.id.replace('_', ' ')}, {_MODE[sheet.electrodes]}"
     under = f"{sheet.electrodes}, {number(mean, 1)} kV/mm"
     look = 'font-size="12" fill="currentColor"'
     return (
@@ -160,12 +164,6 @@ def _image(strength: Array) -> bytes:
     entries = np.full((256, 4), 255, dtype=np.uint8)
     entries[:, :3] = colour_map("sequential", 256)
     return encode_png(np.clip(127.5 * strength, 0.0, 255.0).astype(np.uint8), entries)
-
-
-def _sheet(id: str) -> PiezoPly:
-    actuator = find_actuator(id)
-    assert isinstance(actuator, PiezoPly)
-    return actuator
 
 
 class ElectrodesPanel:

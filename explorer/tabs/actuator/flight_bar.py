@@ -89,29 +89,25 @@ def _degrees(angles: Any) -> list[float]:
 
 def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> dict[str, Any]:
     """What the page draws the balance from. `known`: the verdict is that of the present question, else one before."""
-    kind = "ready" if known and verdict else "problem" if problem else "computing"
+    unit = units.power[0]
+    state: dict[str, Any] = {
+        "kind": "ready" if known and verdict else "problem" if problem else "computing",
+        "unit": unit.symbol, "where": "", "bars": [], "against": "best fixed blade",
+        "fuel": "", "fuel_kind": "", "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net",
+        "sentence": problem or "Computing what the actuator saves and what it costs…",
+    }  # fmt: skip
     if verdict is None:
-        sentence = problem or "Computing what the actuator saves and what it costs…"
-        return {
-            "kind": kind, "unit": units.power[0].symbol, "where": "", "bars": [], "against": "best fixed blade",
-            "fuel": "", "fuel_kind": "", "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net",
-            "sentence": sentence,
-        }  # fmt: skip
-    unit, net = units.power[0], verdict.net_saving
-    bars = [_bar(name, power, units, name == "= net") for name, power in balance(verdict)]
-    used, caveats = fuel_used(verdict), " ".join(text for text in verdict.caveats if "uel" in text)
-    return {
-        "kind": kind,
-        "unit": unit.symbol,
+        return state
+    net, used = verdict.net_saving, fuel_used(verdict)
+    return state | {
         "where": pair_words(verdict),
-        "bars": bars,
+        "bars": [_bar(name, power, units, name == "= net") for name, power in balance(verdict)],
         "against": reference(verdict).removeprefix("the "),
         "fuel": fuel_words(verdict),
         "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
-        "fuel_note": caveats,
+        "fuel_note": " ".join(text for text in verdict.caveats if "uel" in text),
         "net": f"{signed(net, units)} {unit.symbol}",
         "net_kind": "loss" if net < 0.0 else "gain",
-        "net_words": "net",
         "sentence": verdict_sentence(verdict),
     }
 

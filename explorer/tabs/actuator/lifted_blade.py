@@ -159,13 +159,9 @@ def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: tuple[flo
     line = np.zeros((points, 2))
     for name, share in ((inner, 1.0 - weight), (outer, weight)):
         if share:
-            own = replace(spec, contour=_contour(name))
-            line += share * skin(own, side, *chord, points)
+            contour = "sc1094r8" if name.startswith("sc1094r8") else "sc1095"
+            line += share * skin(replace(spec, contour=contour), side, *chord, points)
     return scale * np.stack((0.25 * spec.chord - line[:, 0], line[:, 1]), axis=1)
-
-
-def _contour(section: str) -> str:
-    return "sc1094r8" if section.startswith("sc1094r8") else "sc1095"
 
 
 def part_mesh(blade: LiftedBlade, part: BladePart, twist: Array) -> Mesh:
@@ -184,7 +180,7 @@ def edge_segments(blade: LiftedBlade, twist: Array) -> Array:
     """Both edges, root and tip section of the blade with this twist at its rings [rad], (segments, 2, 3)."""
     rings = _turned(blade, blade.r, blade.rings, twist)
     nose = rings.shape[1] // 2
-    return _joined([rings[:, nose], rings[:, 0], rings[0], rings[-1]])
+    return segments_of([rings[:, nose], rings[:, 0], rings[0], rings[-1]])
 
 
 def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array, crossed: bool) -> Array:
@@ -198,7 +194,7 @@ def fibre_segments(blade: LiftedBlade, part: BladePart, twist: Array, crossed: b
         inside = (along >= 0.0) & (along <= length)
         if inside.sum() > 1:
             lines.append(_on(surface, along[inside] / length, share[inside]))
-    return _joined(lines)
+    return segments_of(lines)
 
 
 _FIBRE_STEP = 0.13
@@ -244,7 +240,7 @@ def lead_segments(blade: LiftedBlade, twist: Array) -> Array:
         top = np.interp(r, blade.r, [_top(ring, y) for ring in blade.rings])
         path = np.stack((np.full(len(r), y), top + 0.006), axis=1)[:, None]
         lines.append(_turned(blade, r, path, np.interp(r, blade.r, twist))[:, 0])
-    return _joined(lines)
+    return segments_of(lines)
 
 
 def _box_end(blade: LiftedBlade) -> float:
@@ -261,7 +257,7 @@ def arc_segments(blade: LiftedBlade, still: float, now: float) -> Array:
     line = _arc(blade, reach, angles)
     back = angles[-1] - math.copysign(min(math.radians(3.0), 0.6 * abs(now - still)), now - still)
     barbs = [np.stack((line[-1], _arc(blade, reach * side, np.array([back]))[0])) for side in (0.955, 1.045)]
-    return _joined([line, *barbs])
+    return segments_of([line, *barbs])
 
 
 def _arc(blade: LiftedBlade, reach: float, angles: Array) -> Array:
@@ -281,8 +277,8 @@ def _turned(blade: LiftedBlade, r: Array, lines: Array, twist: Array) -> Array:
     return np.stack((x, y * cos - z * sin, y * sin + z * cos), axis=-1)
 
 
-def _joined(lines: list[Array]) -> Array:
-    """Polylines as pairs of points, (segments, 2, 3)."""
+def segments_of(lines: list[Array]) -> Array:
+    """Polylines, (points, 3) each, as pairs of points, (segments, 2, 3)."""
     pairs = [np.stack((line[:-1], line[1:]), axis=1) for line in lines if len(line) > 1]
     return np.concatenate(pairs) if pairs else np.zeros((0, 2, 3))
 

@@ -4,16 +4,14 @@ Worked out in the background when asked for, and kept until the design or the fl
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from html import escape
-from typing import Any
 
 import numpy as np
 
 from explorer.charts.svg import line, polygon, tick, words
 from explorer.model.units import number
-from explorer.tabs.actuator.actuator_tasks import PoolAnswers
+from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.glossary import hint
 from rotor.actuator import BreakEven, ConditionPair, PaySearch, Verdict, break_even, pay_sentence, what_would_pay
@@ -25,6 +23,8 @@ _LIMIT = 300.0
 _KEPT_SPACE = "\u00a0"
 _SHOWN = 5
 """Builds in the table."""
+_START = "How far an actuator must twist this blade, and how light it must be, before it saves more than it costs."
+_COMPUTING = "Trimming the break-even line, then material, layers, span and stiffness…"
 
 
 @dataclass(frozen=True)
@@ -36,23 +36,19 @@ class PayAnswer:
     builds: tuple[Candidate, ...]
 
 
-@dataclass(frozen=True)
-class PayTask:
-    """A search for what would pay. It pickles."""
+def pay_answer(pair: ConditionPair, builds: bool) -> PayAnswer:
+    """The break-even line, and with `builds` the builds nearest to it.
 
-    pair: ConditionPair
-    builds: bool = True
-    """Whether builds are ranked too; the line alone comes first."""
+    ValueError or RuntimeError with a sentence where there is none.
+    """
+    search = what_would_pay(pair, judged=0) if builds else PaySearch(break_even(pair), (), ())
+    said = tuple(filter(None, (pay_sentence(search.even), search_sentence(search))))
+    return PayAnswer(search.even, said, search.candidates[:_SHOWN])
 
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> PayAnswer | str:
-        """The answer, or the sentence that says why there is none."""
-        del tell, stop
-        try:
-            search = what_would_pay(self.pair, judged=0) if self.builds else PaySearch(break_even(self.pair), (), ())
-        except (ValueError, RuntimeError) as error:
-            return str(error)
-        said = tuple(filter(None, (pay_sentence(search.even), search_sentence(search))))
-        return PayAnswer(search.even, said, search.candidates[:_SHOWN])
+
+def pay_tasks(pair: ConditionPair) -> tuple[Call, Call]:
+    """The line alone, which comes first, and all of the answer."""
+    return Call(pay_answer, (pair, False)), Call(pay_answer, (pair, True))
 
 
 class PayPanel:
@@ -61,34 +57,29 @@ class PayPanel:
     def __init__(self, context: TabContext) -> None:
         # Asked for by hand, so before the verdicts on the other actuators.
         self._answers = PoolAnswers(context.pool, 4, context.wake, _LIMIT)
-        self._asked: PayTask | None = None
+        self._asked: ConditionPair | None = None
         self._wanted = False
-        self._context, self._sent = context, ""
+        self._context = context
         with context.gui.add_folder("What would pay"):
             self._button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
-            self._html = context.gui.add_html(start_panel())
+            self._html = context.gui.add_html(_small("start", _START, " rx-dim"))
         self._button.on_click(lambda _: self._ask())
 
     def show(self, pair: ConditionPair, verdict: Verdict | None) -> None:
         """Follow the design; `verdict` on its actuator, once there is one."""
-        now = PayTask(pair)
         if self._wanted:
-            self._wanted, self._asked = False, now
-            self._answers.ask((replace(now, builds=False), now), 0.0)
-        task = self._asked
-        if task is None:
+            self._wanted, self._asked = False, pair
+            self._answers.ask(pay_tasks(pair), 0.0)
+        asked = self._asked
+        if asked is None:
             return
-        answer, line_alone = self._answers.answer(task), self._answers.answer(replace(task, builds=False))
+        line_alone, answer = (self._answers.answer(task) for task in pay_tasks(asked))
         if not isinstance(answer, PayAnswer):
             answer = line_alone or answer
-        content = wait_panel()
-        if isinstance(answer, str):
-            content = f'<div class="rx rx-small" data-explorer="pay" data-kind="problem">{escape(answer)}</div>'
-        elif isinstance(answer, PayAnswer):
-            content = pay_panel(answer, verdict, stale=task != now)
-        if content != self._sent:
-            self._sent = content
-            self._html.content = content
+        if isinstance(answer, PayAnswer):
+            self._html.content = pay_panel(answer, verdict, stale=asked != pair)
+        else:
+            self._html.content = _small("computing" if answer is None else "problem", answer or _COMPUTING)
 
     def stop(self) -> None:
         """The browser has left."""
@@ -100,20 +91,8 @@ class PayPanel:
         self._context.wake()
 
 
-def start_panel() -> str:
-    """Before anything is asked."""
-    return (
-        '<div class="rx rx-dim rx-small" data-explorer="pay" data-kind="start">How far an actuator must twist this '
-        "blade, and how light it must be, before it saves more than it costs.</div>"
-    )
-
-
-def wait_panel() -> str:
-    """While it is worked out."""
-    return (
-        '<div class="rx rx-small" data-explorer="pay" data-kind="computing">Trimming the break-even line, then '
-        "material, layers, span and stiffness…</div>"
-    )
+def _small(kind: str, text: str, look: str = "") -> str:
+    return f'<div class="rx{look} rx-small" data-explorer="pay" data-kind="{kind}">{escape(text)}</div>'
 
 
 def pay_panel(answer: PayAnswer, verdict: Verdict | None, *, stale: bool = False) -> str:

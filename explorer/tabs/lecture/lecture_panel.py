@@ -1,4 +1,7 @@
-"""The lecture of one session: its steps beside the scene, guess and control of each, and what its end gives back."""
+"""The lecture of one session: its steps beside the scene, guess and control of each, and what its end gives back.
+
+Also the flights and designs of the source document to begin from.
+"""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -6,23 +9,41 @@ from typing import Any
 
 import viser
 
-from explorer.model.inputs import OWN, Inputs, ViewState
+from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
 from explorer.model.pinned import same_but_flight
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
-from explorer.story.facts import Facts, FactsTask
+from explorer.story.facts import Facts, facts_at
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
-from explorer.story.story_file import StoryTask
-from explorer.story.telling import answer_record, step_record
-from explorer.tabs.actuator.actuator_tasks import PoolAnswers
+from explorer.story.story_file import StoryTask, answer_record, step_record
+from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
-from explorer.tabs.lecture.cases import CASES, FLIGHTS
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed
 
+FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
+"""Advance ratios: hover, minimum power, cruise, high speed."""
+
+_THESIS = Inputs(preset="thesis", law="linear", linear=-16.0, advance_ratio=0.0, **preset_inflow("thesis"))
+_STATED = {"hover optimum, −13.5°": (0.0, -13.5), "hover, −16°": (0.0, -16.0), "from µ 0.18, −8°": (0.18, -8.0)}
+"""What the source document states (chapter 3): advance ratio, linear twist [°]. It does not say of what length."""
+_SPAN = 1.0 - _THESIS.design().rotor.blade.root_cutout
+DOCUMENT: dict[str, Inputs] = {
+    f"Document: {title} {unit}": replace(_THESIS, advance_ratio=mu, linear=round(twist / length, 1))
+    for unit, length in (("root to tip", _SPAN), ("per radius", 1.0))
+    for title, (mu, twist) in _STATED.items()
+}
+"""In both readings of its twist, in its preset; first the one that gives more of its statements."""
+EXAMPLES: dict[str, Inputs] = {
+    "Example: low speed, µ 0.10, −12°": replace(_THESIS, linear=-12.0, advance_ratio=0.1),
+    "Example: high speed, µ 0.35, −4°": replace(_THESIS, linear=-4.0, advance_ratio=0.35),
+}
+"""Our own cases in the preset of the document, which prints no advance ratio for low and high speed."""
+CASES = {**DOCUMENT, **EXAMPLES}
+"""The menu."""
 _NO_CASE = "–"
 _PATIENCE = 600.0
 """[s] for the numbers of a step: seconds, but for a server that many use."""
@@ -221,7 +242,7 @@ class LecturePanel(Tab):
 
     def _stand_at(self, place: StoryPlace | None) -> None:
         if place is not None and self._place is None:
-            self._told.ask(tuple(map(FactsTask, range(len(STEPS)))), 0.0)
+            self._told.ask(tuple(map(_task, range(len(STEPS)))), 0.0)
         self._place, self._state = place, None
         self._begin.label = "Start the lecture" if place is None else "End the lecture"
         self._show()
@@ -229,13 +250,8 @@ class LecturePanel(Tab):
 
     def _facts(self, step: int) -> Facts | None:
         """What is computed of a step; None until then."""
-        found = self._told.answer(FactsTask(step))
+        found = self._told.answer(_task(step))
         return found if isinstance(found, Facts) else None
-
-    def _problem(self, step: int) -> str:
-        """Why there are none; empty else."""
-        found = self._told.answer(FactsTask(step))
-        return found if isinstance(found, str) else ""
 
     def _facts_came(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
@@ -273,7 +289,8 @@ class LecturePanel(Tab):
         if place is None:
             bridge.set(lecture=None)
             return
-        step, state, facts = STEPS[place.step], self._state, self._facts(place.step)
+        step, state, found = STEPS[place.step], self._state, self._told.answer(_task(place.step))
+        facts = found if isinstance(found, Facts) else None
         guessed = place.guess is not None
         values = dict[str, str]()
         if guessed and state is not None and facts is not None:
@@ -288,7 +305,7 @@ class LecturePanel(Tab):
                 "stop": place.stop,
                 "figures": figures,
                 "busy": state is None,
-                "problem": self._problem(place.step),
+                "problem": found if isinstance(found, str) else "",
                 "held": self._context.held,
                 "finish": "Fly it",
             },
@@ -304,8 +321,7 @@ class LecturePanel(Tab):
     def _name_case(self, inputs: Inputs) -> None:
         """The menu names a case for as long as the sliders hold it."""
         held = (title for title, case in CASES.items() if self._kept(case) == inputs)
-        if self._case.value != (title := next(held, _NO_CASE)):
-            self._case.value = title
+        self._case.value = next(held, _NO_CASE)
 
     def _kept(self, inputs: Inputs) -> Inputs:
         """These inputs, with the rotor that the user brought still in the menu."""
@@ -355,3 +371,8 @@ class LecturePanel(Tab):
         self._place = place
         self._show()
         self._context.wake()
+
+
+def _task(step: int) -> Call:
+    """Finds the numbers of a step, from 0."""
+    return Call(facts_at, (step,))

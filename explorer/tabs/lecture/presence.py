@@ -11,16 +11,8 @@ from numpy.typing import NDArray
 
 from explorer.hosting import browser
 from explorer.model.session_state import SessionState
-from explorer.sharing.address import Address
-from explorer.sharing.presentation import (
-    FOLLOW,
-    PRESENT,
-    Point,
-    Presentations,
-    PresentedView,
-    follow_name,
-    new_secret,
-)
+from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import Address
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.text.glossary import hint
@@ -29,14 +21,10 @@ _CAMERA_EVERY = 0.1
 """[s] between two poses of the presenter's camera."""
 _LONGEST = 40
 """Characters of a name in the address that are looked at."""
-
-
 _WORDS = (
     '<div class="rx rx-dim rx-small">Copies a link. Anyone with the link sees what you set here, as you set it, '
     "and may leave at any time.</div>"
 )
-
-
 _FOLLOWING = "Following a presentation: controlled by the presenter."
 _DUPLICATE = (
     "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
@@ -102,10 +90,9 @@ class Presence(Tab):
         """Begin to present; the link of followers goes into the clipboard. The page keeps the secret over a reload."""
         if self._name:
             self.leave()
-        if not self._secret:
-            self._secret = new_secret()
-            self._presentations.claim(self._secret, self._page, self)
-            browser.keep(self._context.client, PRESENT, self._secret)
+        self._secret = new_secret()
+        self._presentations.claim(self._secret, self._page, self)
+        browser.keep(self._context.client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
         browser.copy_link(self._context.client, self._link)
@@ -114,13 +101,12 @@ class Presence(Tab):
 
     def end(self) -> None:
         """Stop presenting."""
-        if self._secret:
-            self._presentations.end(self._secret)
-            self._presentations.release(self)
-            self._secret = ""
-            browser.keep(self._context.client, PRESENT, "")
-            self._say("")
-            self._name_present()
+        self._presentations.end(self._secret)
+        self._presentations.release(self)
+        self._secret = ""
+        browser.keep(self._context.client, PRESENT, "")
+        self._say("")
+        self._name_present()
 
     def leave(self) -> None:
         """Stop following: the page stays as it is, and is the user's."""
@@ -219,8 +205,7 @@ class Presence(Tab):
 
     def _say(self, text: str, leave: bool = False) -> None:
         content = f'<div class="rx rx-presence" data-explorer="presence">{text}</div>' if text else ""
-        if self._banner.content != content:
-            self._banner.content = content
+        self._banner.content = content
         self._banner.visible, self._leave.visible = bool(text), leave
 
 

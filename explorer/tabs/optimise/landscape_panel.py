@@ -22,8 +22,9 @@ from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.landscape import BASE, POINTS, SIZE, Landscape, refined
 from explorer.picture.scene_theme import scene_theme
 from explorer.picture.solids import Mesh
+from explorer.tabs.actuator.lifted_blade import segments_of
 from explorer.tabs.context import TabContext
-from explorer.tabs.optimise.map_panel import COLOURS_END, Map, MapPanel
+from explorer.tabs.optimise.map_panel import COLOURS_END, Map, MapPanel, place_on
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
 from rotor import Design
@@ -46,11 +47,10 @@ _FLAT = 2.0
 
 def half_widths(drawn: Map, land: Landscape) -> list[tuple[Parameter, float]]:
     """Half of the reach of the band along each parameter of the map, as shown."""
-    found: list[tuple[Parameter, float]] = []
-    for parameter, (low, high) in zip(drawn.parameters, land.valley(), strict=True):
-        span = parameter.shown(parameter.high) - parameter.shown(parameter.low)
-        found.append((parameter, 0.5 * (high - low) * span))
-    return found
+    return [
+        (one, 0.5 * (high - low) * (one.shown(one.high) - one.shown(one.low)))
+        for one, (low, high) in zip(drawn.parameters, land.valley(), strict=True)
+    ]
 
 
 def valley_words(drawn: Map, land: Landscape, units: Units) -> str:
@@ -130,9 +130,9 @@ class LandscapePanel:
             self._drawn = key
         if not self._shown:
             self._shown = True
-            land, length = self._land, self._length(drawn.task.design)
+            land = self._land
             assert land is not None
-            self._views.give_way(partial(land.camera, length))
+            self._views.give_way(partial(land.camera, _BLADE_SCALE * drawn.task.design.rotor.radius))
 
     def _ask(self, on: bool) -> None:
         self._refused = None if on or self._map.map is None else self._map.map.task
@@ -150,10 +150,6 @@ class LandscapePanel:
         for handle in self._handles:
             handle.remove()
         self._handles = []
-
-    @staticmethod
-    def _length(design: Design) -> float:
-        return _BLADE_SCALE * design.rotor.radius
 
     def _build(
         self,
@@ -208,12 +204,9 @@ class LandscapePanel:
         self._lines("shore", land.shore(), (255, 255, 255), 2.6)
         steps = np.linspace(0.0, 1.0, 13)
         fine = np.linspace(0.0, 1.0, 49)
-        grid: list[Array] = []
-        for at in steps:
-            for line in ([land.place(u, at, lift=0.012) for u in fine], [land.place(at, u, lift=0.012) for u in fine]):
-                points = np.array(line)
-                grid.append(np.stack((points[:-1], points[1:]), axis=1))
-        self._lines("grid", np.concatenate(grid), (12, 16, 26) if not dark else (226, 232, 242), 0.7)
+        lines = [np.array([land.place(u, at, lift=0.012) for u in fine]) for at in steps]
+        lines += [np.array([land.place(at, u, lift=0.012) for u in fine]) for at in steps]
+        self._lines("grid", segments_of(lines), (12, 16, 26) if not dark else (226, 232, 242), 0.7)
 
     def _ball(self, land: Landscape, path: Path) -> dict[str, Any]:
         """A ball at its start, its path as a line, and where it rolls."""
@@ -228,8 +221,7 @@ class LandscapePanel:
             )
         ]
         if between:
-            lines = np.concatenate([np.stack((one[:-1], one[1:]), axis=1) for one in between])
-            self._lines(f"path_{path.start}", lines, rgb, 3.2)
+            self._lines(f"path_{path.start}", segments_of(between), rgb, 3.2)
         self._sphere(f"ball_{path.start}", rgb, places[-1], _BALL)
         return {
             "node": name,
@@ -250,7 +242,7 @@ class LandscapePanel:
         for name, title, twist, rgb in wanted:
             if twist is None:
                 continue
-            (x, y), exact = self._map.place(drawn, twist)
+            (x, y), exact = place_on(drawn, twist)
             power = land.at(x, y)
             if not (0.0 <= x <= 1.0 and 0.0 <= y <= 1.0 and math.isfinite(power)):
                 continue
@@ -271,7 +263,7 @@ class LandscapePanel:
         best = min(paths, key=lambda path: path.powers[-1], default=None)
         steps = () if best is None else best.parameters
         laws = [task.concept.twist(values) for values in steps] or [task.design.twist]
-        root, turn = land.blade_place(self._length(task.design))
+        root, turn = land.blade_place(scale * task.design.rotor.radius)
         mesh = Mesh(scale * blade_vertices(shape, laws[-1], _TIMES), shape.faces)
         handle = self._mesh("blade", mesh, rgb, None)
         handle.position = root

@@ -3,12 +3,12 @@
 import base64
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from html import escape
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from explorer.colours import NOW, colour_map, css
 from explorer.model.inputs import with_optimum
@@ -37,6 +37,8 @@ _WIDE, _HIGH = 508, 380
 _LEFT, _TOP, _W, _H = 36, 6, 254, 190
 _LEVELS = 200
 _LINE, _EDGE = 201, 202
+_THICKER = ((0, 0, 0), (0, 1, 1), (0, 1, 0))
+"""A pixel more below and to the right."""
 
 FIELD = "Take point"
 """The label of the text field that a click writes to."""
@@ -72,9 +74,9 @@ def picture(powers: Array) -> bytes:
     change = np.zeros(ring.shape, dtype=bool)
     change[:, 1:] |= ring[:, 1:] != ring[:, :-1]
     change[1:, :] |= ring[1:, :] != ring[:-1, :]
-    pixels[_thicker(change)] = _LINE
+    pixels[binary_dilation(change, _THICKER)] = _LINE
     band = excess <= _BAND
-    pixels[_thicker(_thicker(band)) & ~band] = _EDGE
+    pixels[binary_dilation(band, _THICKER, 2) & ~band] = _EDGE
     pixels[~known] = 0
     entries = np.zeros((256, 4), dtype=np.uint8)
     entries[1 : 1 + _LEVELS, :3] = colour_map("sequential", _LEVELS)
@@ -82,14 +84,6 @@ def picture(powers: Array) -> bytes:
     entries[_LINE] = (255, 255, 255, 130)
     entries[_EDGE] = (255, 255, 255, 255)
     return encode_png(pixels, entries)
-
-
-def _thicker(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """A pixel more below and to the right."""
-    out = mask.copy()
-    out[1:] |= mask[:-1]
-    out[:, 1:] |= mask[:, :-1]
-    return out
 
 
 def drawing(drawn: Map, here: tuple[float, float] | None, exact: bool) -> str:
@@ -239,7 +233,6 @@ class MapPanel:
         self._line = "Power over two parameters, the others fixed. Click the map to take a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
-        self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
         titles = tuple([parameter.title for parameter in self.search.request().known_concept().parameters])
         self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
@@ -293,7 +286,7 @@ class MapPanel:
         drawn = self.map
         if drawn is None:
             return
-        here, exact = self._place(drawn, design)
+        here, exact = (None, False) if design is None else place_on(drawn, design.twist)
         units = self._context.units
         seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
@@ -336,21 +329,6 @@ class MapPanel:
                 pass
         self._context.wake()
 
-    def place(self, drawn: Map, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
-        """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
-        place, exact = _nearest_place(drawn, twist)
-        return (place[0], place[1]), exact
-
-    def _place(self, drawn: Map, design: Design | None) -> tuple[tuple[float, float] | None, bool]:
-        """Where the design on the sliders lies on the map, and whether it lies in its plane."""
-        if design is None:
-            return None, False
-        key = (id(drawn.task), design.twist)
-        if self._here is None or self._here[0] != key:
-            self._here = (key, *_nearest_place(drawn, design.twist))
-        _, place, exact = self._here
-        return (place[0], place[1]), exact
-
     def _apply(self, text: str) -> None:
         drawn = self.map
         if drawn is None or not text.strip():
@@ -375,16 +353,17 @@ def default_axes(concept: Concept) -> tuple[int, int]:
     return across, rates[-1]
 
 
-def _nearest_place(drawn: Map, twist: TwistLaw) -> tuple[tuple[float, ...], bool]:
+@lru_cache(maxsize=8)
+def place_on(drawn: Map, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
+    """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
     task = drawn.task
-    values = nearest(task.concept, twist)
-    on_map = list(task.values)
+    values, on_map = nearest(task.concept, twist), list(task.values)
     for axis in task.axes:
         on_map[axis] = values[axis]
     r = np.linspace(0.15, 1.0, 40)
     exact = float(np.abs(task.concept.twist(on_map)(r) - twist(r)).max()) < _NEAR
-    place = tuple(
+    x, y = (
         (values[axis] - parameter.low) / (parameter.high - parameter.low)
         for axis, parameter in zip(task.axes, drawn.parameters, strict=True)
     )
-    return place, exact
+    return (x, y), exact

@@ -33,7 +33,8 @@ class OptimisePanel:
         """Of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self._beginning = threading.Lock()
         self._job: Job | None = None
-        self._run: SearchRun | None = None
+        self.run: SearchRun | None = None
+        """The last search; None before the first."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
         self._problem = ""
@@ -105,7 +106,7 @@ class OptimisePanel:
     def begin(self) -> None:
         """Start a search for the design on the sliders, unless one is under way."""
         with self._beginning:  # Two quick presses come on two threads.
-            if self._run is not None and self._run.under_way:
+            if self.run is not None and self.run.under_way:
                 return
             try:
                 design = self._context.inputs().design()
@@ -117,7 +118,7 @@ class OptimisePanel:
             self._problem, self._offered = "", True
             self._context.tracker.reset()
             reference, title = self._reference(design)
-            run = self._run = SearchRun(search, title)
+            run = self.run = SearchRun(search, title)
         self._job = self._context.pool.submit(
             SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT
         )
@@ -133,7 +134,7 @@ class OptimisePanel:
 
     def halt(self) -> None:
         """Stop the search under way; what it found stays."""
-        run, job = self._run, self._job
+        run, job = self.run, self._job
         if run is not None and job is not None and run.under_way:
             run.stopping()
             self._context.pool.stop(job)
@@ -149,7 +150,7 @@ class OptimisePanel:
 
     def toggle(self) -> None:
         """Start a search, or stop the one under way."""
-        run = self._run
+        run = self.run
         if run is not None and run.under_way:
             self.halt()
         else:
@@ -161,7 +162,7 @@ class OptimisePanel:
 
     def preview(self, design: Design) -> Design | None:
         """The design to show instead of the sliders': that of the frame whose turn it is."""
-        run = self._run
+        run = self.run
         if run is None or not self._offered or not run.matches(design):
             return None
         frame = run.shown()
@@ -171,26 +172,21 @@ class OptimisePanel:
             timer.start()
         return None if frame is None else frame.design
 
-    @property
-    def run(self) -> SearchRun | None:
-        """The last search; None before the first."""
-        return self._run
-
     def starts_chart(self) -> dict[str, Any] | None:
         """Of the search, in place of charts along the blade; None where there is none."""
-        run = self._run
+        run = self.run
         return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)
 
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""
-        run = self._run
+        run = self.run
         if run is None or run.optimum is None or run.optimum.best is None or not run.matches(design):
             return None
         return run.optimum.best.parameters if run.concept.name == concept else None
 
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
-        run, request, units = self._run, self.request(), self._context.units
+        run, request, units = self.run, self.request(), self._context.units
         for name, handle in self._numbers.items():
             handle.visible = request.asks_for(name)
         concept = request.known_concept()
@@ -207,18 +203,13 @@ class OptimisePanel:
         self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
-        if on_offer and here and self._scrubber.max != len(run.frames) - 1:
-            self._scrubber.max = len(run.frames) - 1
-        self._again.visible = on_offer
-        self._scrubber.visible = on_offer and here
+        self._again.visible, self._scrubber.visible = on_offer, on_offer and here
+        self._frame.content = ""
         if on_offer and here:
-            if self._scrubber.value != run.cursor:
-                self._scrubber.value = run.cursor
+            self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
             self._frame.content = text.frame_line(run, units)
         elif on_offer:
             self._frame.content = text.moved_on()
-        else:
-            self._frame.content = ""
         self._headline.content = text.headline(run, units)
 
     def _on_event(self, run: SearchRun, news: JobEvent) -> None:
@@ -230,7 +221,7 @@ class OptimisePanel:
 
     def notice(self, design: Design | None) -> dict[str, object] | None:
         """The bar over the scene while it shows a search instead of the sliders."""
-        run = self._run
+        run = self.run
         if run is None or not self._offered or design is None or not run.matches(design):
             return None
         best, units = run.best, self._context.units
@@ -242,13 +233,13 @@ class OptimisePanel:
         return {"text": "Previewing optimum", "actions": [("apply", "Apply"), ("discard", "Discard")]}
 
     def _replay(self) -> None:
-        if self._run is not None:
-            self._run.replay()
+        if self.run is not None:
+            self.run.replay()
             self._context.wake()
 
     def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""
-        run = self._run
+        run = self.run
         if run is None or run.under_way or not run.frames:
             return
         self._offered = False
@@ -260,8 +251,8 @@ class OptimisePanel:
         self._context.wake()
 
     def _scrubbed(self, cursor: float) -> None:
-        if self._run is not None:
-            self._run.scrub(round(cursor))
+        if self.run is not None:
+            self.run.scrub(round(cursor))
             self._context.wake()
 
 

@@ -204,16 +204,16 @@ class SchedulePanel:
             case JobQueued(ahead):
                 self._line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
             case JobStarted():
-                self._line = f"0 of {len(progress.plan.conditions) + 1} optima"
+                self._line = progress.count
             case JobProgress(Cell() as cell):
                 progress.cells.append(cell)
-                self._line = f"{len(progress.cells)} of {len(progress.plan.conditions) + 1} optima"
+                self._line = progress.count
             case JobProgress(FixedPowers(powers)):
                 progress.fixed_powers = powers
             case JobEnded(_, stopped, late):
                 self._running = False
-                count = f"{len(progress.cells)} of {len(progress.plan.conditions) + 1} optima"
-                self._line = f"Time is up: {count} kept." if late else f"Stopped: {count} kept." if stopped else "Done."
+                why = "Time is up" if late else "Stopped"
+                self._line = f"{why}: {progress.count} kept." if late or stopped else "Done."
             case JobFailed(message):
                 self._running, self._line = False, message
             case _:

@@ -40,6 +40,11 @@ class PlanProgress:
         return self.fixed_powers[leg] if leg < len(self.fixed_powers) else None
 
     @property
+    def count(self) -> str:
+        """Of what is known."""
+        return f"{len(self.cells)} of {len(self.plan.conditions) + 1} optima"
+
+    @property
     def part_done(self) -> float:
         """0…1"""
         return len(self.cells) / (len(self.plan.conditions) + 1)

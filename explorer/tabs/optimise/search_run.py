@@ -91,14 +91,8 @@ class SearchRequest:
                 return self.concept in _DIVIDED
             case "first" | "second":
                 return self.concept == "three-segment"
-            case "stalled":
-                return self.stalled is not None
-            case "change":
-                return self.change is not None
-            case "index":
-                return self.index is not None
-            case _:
-                return True
+            case _:  # A limit that is not set is None.
+                return getattr(self, name) is not None
 
     def known_concept(self) -> Concept:
         """The concept, divided as asked."""
@@ -253,25 +247,20 @@ class SearchRun:
                 case JobStarted():
                     if self.state != "stopping":
                         self.state = "running"
-                case JobProgress(item):
-                    self._note(item)
+                case JobProgress(StartPower(power)):
+                    self.start_power = power
+                    self.frames.append(SearchFrame(0, float("inf") if power is None else power, self.search.design))
+                case JobProgress(ReferencePower(power)):
+                    self.reference_power = power
+                case JobProgress(Progress() as progress):
+                    self._step(progress)
                 case JobEnded(result, stopped, late):
                     self.state = "late" if late else "stopped" if stopped else "done"
                     self._finish(result)
                 case JobFailed(message):
                     self.state, self.sentence = "broken", message
-
-    def _note(self, item: object) -> None:
-        match item:
-            case StartPower(power):
-                self.start_power = power
-                self.frames.append(SearchFrame(0, float("inf") if power is None else power, self.search.design))
-            case ReferencePower(power):
-                self.reference_power = power
-            case Progress():
-                self._step(item)
-            case _:
-                pass
+                case _:
+                    pass
 
     def _step(self, progress: Progress) -> None:
         self.progress = progress
@@ -287,8 +276,10 @@ class SearchRun:
         best, values = progress.best_power, progress.best_parameters
         if best is None or values is None:
             return
+        # The concept's first may be no better than the blade it began from; it is shown all the same.
         if len(self.frames) == 1 or best < self.frames[-1].power:
-            self._add(progress.evaluation, best, self.concept.apply(self.search.design, values))
+            design = self.concept.apply(self.search.design, values)
+            self.frames.append(SearchFrame(progress.evaluation, best, design))
 
     def _finish(self, optimum: Optimum | None) -> None:
         self.optimum = optimum
@@ -301,11 +292,7 @@ class SearchRun:
                     self.traces[start].append(minimum.power)
                     self.paths[start].append((minimum.parameters, minimum.power))
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
-            self._add(optimum.evaluations, optimum.best.power, optimum.design)
-
-    def _add(self, evaluation: int, power: float, design: Design) -> None:
-        """The concept's first may be no better than the blade it began from; it is shown all the same."""
-        self.frames.append(SearchFrame(evaluation, power, design))
+            self.frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
 
     def starts(self) -> tuple[StartTrace, ...]:
         """How far each start is. A snapshot: the run may be written meanwhile."""
