@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.optimize import root
 
 from rotor.airfoil.sections import load_section
-from rotor.design.design import Design
+from rotor.arrays import Array
 from rotor.files.make_design import make_design
 from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution
@@ -33,7 +34,6 @@ AXIAL_SPEED = 0.02
 class CodeComparison:
     """One condition in both codes."""
 
-    code: str
     condition: str
     thrust: float
     """Their value over ours, minus one."""
@@ -67,7 +67,7 @@ def dynbem() -> TrustSet:
               f"Thrust {100 * one.thrust:+.2f} %. {one.detail}.", digits=2)
         for one in made
     ]  # fmt: skip
-    rows = rows or _shipped("dynbem")
+    rows = rows or [row for row in trust_rows() if row.set == "dynbem"]
     series = Series("dynbem's torque over ours", DYNBEM_SPEEDS, _percent(rows), "both", 1)
     chart = LineChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
     return TrustSet(
@@ -85,7 +85,7 @@ def ccblade() -> TrustSet:
               test, f"Thrust {100 * one.thrust:+.2f} %, {one.detail}.", digits=2)
         for one in made
     ]  # fmt: skip
-    rows = rows or _shipped("ccblade")
+    rows = rows or [row for row in trust_rows() if row.set == "ccblade"]
     power = _percent(rows)
     series = (
         Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
@@ -97,10 +97,6 @@ def ccblade() -> TrustSet:
         f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",
         "CCBlade of WISDEM 4.2, run at our collective.", tuple(rows), (chart,), (CCBLADE_DIFFERENCES,),
     )  # fmt: skip
-
-
-def _shipped(name: str) -> list[TrustRow]:
-    return [row for row in trust_rows() if row.set == name]
 
 
 def _percent(rows: list[TrustRow]) -> tuple[float, ...]:
@@ -117,19 +113,14 @@ def beside_ccblade() -> list[CodeComparison]:
     return [_one_ccblade(mass, swirl) for mass in CCBLADE_MASSES for swirl in (False, True)]
 
 
-def _blade_without_coning(design: Design) -> Design:
-    """The design with a blade too heavy to cone: dynbem's blades are rigid."""
-    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)
-    return replace(design, rotor=replace(design.rotor, blade=blade))
-
-
 def moment_trimmed(mu: float) -> Solution:
-    """The thesis' rotor in propulsive trim with three-state gains and no loss factors."""
+    """The thesis' rotor in propulsive trim with three-state gains, no loss factors and, as dynbem's, rigid blades."""
     design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu)
     models = replace(
         design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
     )
-    return solve(_blade_without_coning(replace(design, models=models))).require()
+    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)  # Too heavy to cone.
+    return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
 
 
 def _one_dynbem(mu: float) -> CodeComparison:
@@ -165,7 +156,6 @@ def _one_dynbem(mu: float) -> CodeComparison:
     torque = ours.power.shaft / rotor.angular_speed
     lambda0, gradient, _ = (float(value) for value in state.to_array())
     return CodeComparison(
-        code="dynbem",
         condition=f"µ {mu:g}",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
         power=float(forces.Q_spin) / torque - 1.0,
@@ -182,23 +172,15 @@ def _gradient(ours: Solution) -> float:
 
 
 def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
-    """Newton's method for the steady inflow states, where the rates are zero; Jacobian by differences of 1e-6."""
-    x = np.array(state.to_array(), dtype=float)
-    for _ in range(30):
-        forces, rate = model.compute_forces(inputs, state.from_array(x))
-        rates = np.array(rate.to_array(), dtype=float)
-        if np.abs(rates).max() < 1e-10:
-            break
-        slopes = np.empty((3, 3))
-        for k in range(3):
-            nudged = x.copy()
-            nudged[k] += 1e-6
-            _, moved = model.compute_forces(inputs, state.from_array(nudged))
-            slopes[:, k] = (np.array(moved.to_array(), dtype=float) - rates) / 1e-6
-        step = np.linalg.solve(slopes, -rates)
-        x = x + step * min(1.0, 0.02 / max(float(np.abs(step).max()), 1e-12))
-    forces, _ = model.compute_forces(inputs, state.from_array(x))
-    return forces, state.from_array(x)
+    """Forces and inflow states where the rates of these are zero."""
+
+    def rates(x: Array) -> Array:
+        return np.array(model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64)
+
+    found = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
+    assert np.abs(rates(found.x)).max() < 1e-10, found.message
+    settled = state.from_array(found.x)
+    return model.compute_forces(inputs, settled)[0], settled
 
 
 class _MirroredSection:
@@ -237,7 +219,6 @@ def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
     thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
     torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
     return CodeComparison(
-        code="CCBlade",
         condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
         power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,

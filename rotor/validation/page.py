@@ -16,10 +16,10 @@ from pathlib import Path
 
 from rotor.line_chart import draw, draw_small
 from rotor.validation import cross_codes, flown, hart2, stall_loops, uh60a
+from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set
-from rotor.validation.measured import SETS as MEASURED
 from rotor.validation.sensitivity import sensitivity_chart
 from rotor.validation.theory import theory
 from rotor.validation.trust import KINDS, VERDICTS, SensitivityRow, TrustRow, TrustSet

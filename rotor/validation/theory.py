@@ -20,7 +20,7 @@ from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
-from rotor.validation.trust import TrustRow, TrustSet, judged
+from rotor.validation.trust import TrustRow, TrustSet, bound
 
 SPEEDS = (0.1, 0.2, 0.3)
 
@@ -65,14 +65,6 @@ def theory() -> TrustSet:
         "Momentum theory, identities of the discretised equations, closed forms and integration in time.",
         rows, (chart,),
     )  # fmt: skip
-
-
-def bound(name: str, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
-    """An error that is rounding or discretisation: its size matters, not its digits."""
-    verdict = judged(error, below)
-    shown = f"below {below:.0e}" if verdict == "met" else f"{abs(error):.0e}"
-    target = f"below {below:.0e}"
-    return TrustRow(name, "verification", what, against, shown, abs(error), below, test, "", target, verdict)
 
 
 def _ideal_twist() -> float:

@@ -14,8 +14,7 @@ from rotor.files.make_design import make_design
 from rotor.study.point import design_of
 from rotor.study.study_file import read_study
 from rotor.user_input import Notice
-from rotor.validation.compare import compare
-from rotor.validation.measured import load_set
+from rotor.validation.compare import compare, load_set
 
 SENTENCE = "The free wake in hover was retired; hover is solved by the annulus balance."
 QUICK = ("--twist", "linear:-10", "--off", "elastic-twist")

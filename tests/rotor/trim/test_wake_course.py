@@ -9,8 +9,7 @@ from rotor.trim.forward import trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solve import solve
 from rotor.trim.wake_course import along
-from rotor.validation.compare import design_at
-from rotor.validation.measured import load_set
+from rotor.validation.compare import design_at, load_set
 
 
 def autogiro() -> Design:
