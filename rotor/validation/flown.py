@@ -270,7 +270,7 @@ def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
 def _gazelle_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
     errors = [np.subtract(row.angles, row.measured_angles) for row in powers if row.angles and row.measured_angles]
     notes = {"collective": "Ours at 0.75 R; the report does not say where it takes its own."}
-    for name, of in zip(list(ANGLES.values())[:3], np.transpose(errors), strict=True):
+    for name, of in zip(list(ANGLES.values())[:3], list(np.array(errors).T), strict=True):
         size = rms(of)
         yield TrustRow(
             POWERS, "validation", f"SA349/2 Gazelle: {name}, four flights", "flight test", f"rms {size:.1f}°", size,
