@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.reproduce import page as pictures
 from rotor.reproduce.catalogue import DRAWINGS, ENTRIES, find_entry, searches_of
-from rotor.reproduce.report import PlotPanel, curve, typographic
+from rotor.reproduce.report import typographic
 from rotor.reproduce.runs import FULL, VARIANTS, CachedFunction, best, compute_ahead
 
 THESIS = {
@@ -53,16 +52,6 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
     assert found == ["table-3_1", "table-3_2", "table-5_1"]
     assert "2 checkable against the thesis (input reproduced 2); 1 ours under its captions" in page
     assert f"{len(DRAWINGS)} pictures of the thesis that show nothing" in page
-
-
-def test_panels_with_the_same_curves_share_one_legend():
-    def panel(count: int, last: str = "−16°") -> PlotPanel:
-        return PlotPanel("x", "y", tuple(curve(last if k == count - 1 else f"{k}", [0.0], [0.0]) for k in range(count)))
-
-    assert pictures.same_key((panel(5), panel(5)))
-    assert not pictures.same_key((panel(5),))
-    assert not pictures.same_key((panel(5), panel(5, "other")))
-    assert not pictures.same_key((panel(2), panel(2)))
 
 
 def test_results_of_other_processes_are_not_computed_again():

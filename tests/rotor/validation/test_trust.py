@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotor.airfoil.sections import load_section
 from rotor.line_chart import draw, draw_small
-from rotor.validation import cross_codes
+from rotor.validation import verification
 from rotor.validation.page import LONGEST, SETS, sensitivity_page
 from rotor.validation.sensitivity import sensitivity, sensitivity_chart
 from rotor.validation.trust import KINDS, sensitivity_rows, trust_rows
@@ -121,8 +121,8 @@ def test_rows_are_reproduced():
 
 
 def test_public_code_rows_are_reproduced():
-    assert cross_codes.have("dynbem") or cross_codes.have("wisdem"), "pip install 'rotor-explorer[test]'"
-    for row in (*cross_codes.dynbem().rows, *cross_codes.ccblade().rows):
+    assert verification.have("dynbem") or verification.have("wisdem"), "pip install 'rotor-explorer[test]'"
+    for row in (*verification.dynbem().rows, *verification.ccblade().rows):
         still_true(row)
 
 
