@@ -204,24 +204,13 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """For `validate --json`."""
         rows = self.measured
+        shown = ("given", "measured", "ours", "error_percent", "within_scatter", "judged")
         return {
-            "name": rows.name,
-            "title": rows.title,
-            "report": rows.report,
-            "rotor": rows.rotor,
-            "kind": rows.kind,
+            **{name: getattr(rows, name) for name in ("name", "title", "report", "rotor", "kind")},
             "inflow": self.inflow,
             "quantity": rows.quantity,
             "points": [
-                {
-                    "given": point.given,
-                    "measured": point.measured,
-                    "ours": point.ours,
-                    "error_percent": point.error_percent,
-                    "within_scatter": point.within_scatter,
-                    "judged": point.judged,
-                    **({"message": point.message} if point.message else {}),
-                }
+                {name: getattr(point, name) for name in shown} | ({"message": point.message} if point.message else {})
                 for point in self.points
             ],
             "rms_percent": self.rms_percent,

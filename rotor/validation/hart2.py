@@ -22,6 +22,7 @@ from rotor.validation.airloads import (
     FlownCase,
     MeasuredCurve,
     agreement,
+    columns,
     harmonics,
     measured_curves,
     our_curve,
@@ -97,7 +98,7 @@ _NOTES = {
 def measured_vortices(case: str) -> tuple[Array, Array, Array]:
     """Centres of tip vortices of `BL` or `MN` over R: x aft, y to starboard, z up from the hub; (points,) each."""
     rows = [row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case]
-    x, y, z = (np.array([float(row[name]) for row in rows]) for name in "xyz")
+    x, y, z = columns(rows, *"xyz")
     return x, y, z
 
 
