@@ -40,7 +40,7 @@ COMMANDS = {
 def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """The command in a process that cannot write a file of more than `most` bytes, or not into the folder."""
     package, *arguments = COMMANDS[name]
-    (folder / "in").mkdir()
+    (folder / "in").mkdir(exist_ok=True)
     rotor.make_design(twist="linear:-8").save(folder / "in" / "a.json")
     (folder / "in" / "small.toml").write_text(STUDY, encoding="utf-8")
     given = [word.replace("OUT", str(folder / "out")).replace("IN", str(folder / "in")) for word in arguments]
@@ -87,9 +87,6 @@ def test_a_read_only_folder_gets_a_sentence(name: str, tmp_path: Path):
 def test_a_study_that_found_no_room_goes_on_once_there_is_some(tmp_path: Path):
     (tmp_path / "out").mkdir()
     assert limited("study", "100", tmp_path).returncode == 2
-    (tmp_path / "in" / "small.toml").unlink()
-    (tmp_path / "in" / "a.json").unlink()
-    (tmp_path / "in").rmdir()
     done = limited("study", "10000000", tmp_path)
     assert done.returncode == 0, done.stderr
     assert "2 of 2 points, 0 failed" in done.stdout

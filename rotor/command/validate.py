@@ -11,11 +11,10 @@ from typing import Any
 from rotor.command.common import add_command
 from rotor.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
-from rotor.validation.compare import LABELS, Comparison, compare
+from rotor.validation.compare import FIELDS, LABELS, SETS, Comparison, compare, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
-from rotor.validation.measured import FIELDS, SETS, load_set
 from rotor.validation.page import SETS as TRUST_SETS
 from rotor.validation.page import write_set
 

@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 from rotor.line_chart import LineChart, Mark, Series
 from rotor.reproduce import (
@@ -18,18 +17,8 @@ from rotor.reproduce import (
     twist_effect,
 )
 from rotor.reproduce.report import PlotPanel, Report
-from rotor.reproduce.runs import (
-    CONCEPTS,
-    FLIGHT_LINEAR,
-    FULL,
-    VARIANTS,
-    CachedFunction,
-    Call,
-    best,
-    searches,
-)
-from rotor.validation.theory import bound
-from rotor.validation.trust import TrustRow, TrustSet, share
+from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
+from rotor.validation.trust import TrustRow, TrustSet, bound, share
 
 
 @dataclass(frozen=True)
@@ -39,21 +28,13 @@ class CatalogueEntry:
     number: str
     make: Callable[[], Report]
     chapter: str
-    needs: Callable[[str], Sequence[Call]] | None = None
-    """The searches it needs, of one variant."""
+    needs: Callable[[], Sequence[Call]] | None = None
+    """The searches it needs."""
 
     @property
     def slow(self) -> bool:
         """Whether it searches for optima: minutes rather than tenths of a second."""
         return self.needs is not None
-
-
-def _of(*concepts: str) -> Callable[[str], Sequence[Call]]:
-    return lambda name: searches(concepts, name, FULL)
-
-
-def _once(function: CachedFunction[..., Any], *args: object) -> Callable[[str], Sequence[Call]]:
-    return lambda name: [(function, args)] if name == "flight" else []
 
 
 _INTRODUCTION = "1.2 Active blade twist control"
@@ -64,6 +45,7 @@ _TWIST = "3.3 Effect of blade twist on main-rotor power"
 _OPTIMUM = "4 Results"
 _CONCEPT = "5 Concept"
 _TODAY = "What the thesis would have found"
+_COMPARED: Call = (actuation.compared, ("flight",))
 
 ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("literature", today.literature, _INTRODUCTION),
@@ -87,19 +69,19 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("readings", readings.readings, _TWIST, readings.needed),
     CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
     *(
-        CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, _of(concept))
+        CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, partial(searches, (concept,)))
         for number, (concept, *_) in optimum_twist.FIGURES.items()
     ),
     CatalogueEntry("4.11", optimum_twist.figure_4_11, _OPTIMUM),
     CatalogueEntry(
-        "4.12", optimum_twist.figure_4_12, _OPTIMUM, _once(optimum_twist.three_segment_rows, "flight", None)
+        "4.12", optimum_twist.figure_4_12, _OPTIMUM, lambda: [(optimum_twist.three_segment_rows, ("flight", None))]
     ),
-    CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
-    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, _of(*CONCEPTS)),
+    CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, partial(searches, CONCEPTS)),
+    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, partial(searches, CONCEPTS)),
     CatalogueEntry("5.5", actuation.figure_5_5, _CONCEPT),
     CatalogueEntry("5.10", actuation.figure_5_10, _CONCEPT),
     CatalogueEntry("table 5.1", actuation.table_5_1, _CONCEPT),
-    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, _once(actuation.compared, "flight")),
+    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, lambda: [_COMPARED]),
     CatalogueEntry("today", today.today, _TODAY, today.needed),
 )
 
@@ -141,21 +123,19 @@ def find_entry(number: str) -> CatalogueEntry:
 def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     """All searches that the entries need, one list per process, the longest first.
 
-    The optima of a variant are one list, because each starts from its neighbours. Calls that start from no other are
-    lists of their own: the longest first, the others at the end, where they fill what is left of the processes' time.
+    The optima of a preset are one list, because each starts from its neighbours, and so are the parts of the ladder.
+    The other calls start from none and are lists of their own: the longest first, the others at the end, where they
+    fill what is left of the processes' time.
     """
-    chained: list[list[Call]] = []
-    alone: list[list[Call]] = []
-    for name in reversed(VARIANTS):  # The lifting line takes longest.
-        calls = dict.fromkeys(call for entry in entries if entry.needs for call in entry.needs(name))
-        chained.append([call for call in calls if call[0] is best])
-        alone += [[call] for call in calls if call[0] is not best]
-    climbing = [calls[0] for calls in alone if calls[0][0] in ladder.PARTS]
-    chained.append(climbing)
-    alone = [calls for calls in alone if calls[0] not in climbing]
-    long = [calls for calls in alone if calls[0][0] is actuation.compared]
-    short = [calls for calls in alone if calls not in long]
-    return [*long, *(calls for calls in chained if calls), *short]
+    calls = dict.fromkeys(call for entry in entries if entry.needs for call in entry.needs())
+    groups: dict[object, list[Call]] = {}
+    for function, args in calls:
+        kind = args[0] if function is best else "ladder" if function in ladder.PARTS else (function, args)
+        groups.setdefault(kind, []).append((function, args))
+    first = (_COMPARED, *reversed(VARIANTS), "ladder")  # The lifting line takes longest.
+    return [
+        groups[kind] for kind in sorted(groups, key=lambda kind: first.index(kind) if kind in first else len(first))
+    ]
 
 
 _TESTS = {

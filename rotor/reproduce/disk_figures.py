@@ -17,7 +17,6 @@ from rotor.reproduce.report import (
     Curve,
     PlotPanel,
     Report,
-    ReportTable,
     by_name,
     curve,
     judged,
@@ -177,11 +176,11 @@ def figure_3_9() -> Report:
         numbers |= {
             f"{name}_error_at_100": errors[name][AZIMUTHS.index(100)],
             f"{name}_needed": _needed(AZIMUTHS, errors[name]),
-            f"{name}_order": _slope(AZIMUTHS[-4:], errors[name][-4:]),
+            f"{name}_order": -float(
+                np.polyfit(np.log(AZIMUTHS[-4:]), np.log(np.maximum(errors[name][-4:], 1e-12)), 1)[0]
+            ),
         }
-    worst = max(numbers[f"{name}_error_at_100"] for name, _ in CASES)
-    needed = max(numbers[f"{name}_needed"] for name, _ in CASES)
-
+    worst, needed = (max(numbers[f"{name}_{key}"] for name, _ in CASES) for key in ("error_at_100", "needed"))
     from_on, orders = (
         by_name({name: numbers[f"{name}_{key}"] for name, _ in CASES}, form)
         for key, form in (("needed", "{:.0f}"), ("order", "{:.1f}"))
@@ -200,7 +199,7 @@ def figure_3_9() -> Report:
         + ": the uniform sum of a smooth periodic load converges faster than any power; only the kinks of stall, of "
         "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance needs no more; "
         "integration in time, as in the thesis, may.",
-        tables=(_power_table("azimuths", AZIMUTHS, powers),),
+        tables=(table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True)),),
         panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
         numbers=numbers,
     )
@@ -239,14 +238,10 @@ def elements_figure(number: str) -> Report:
         verdict=judged(worst < 5e-3),
         because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
         "the tip, and the airfoils and twist table of the UH-60A have kinks, which makes the order irregular.",
-        tables=(_power_table("elements", ELEMENTS, powers),),
+        tables=(table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True)),),
         panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: ours"), "the limit"),
         numbers=numbers,
     )
-
-
-def _power_table(what: str, grid: Sequence[int], powers: dict[str, list[float]]) -> ReportTable:
-    return table("power_kw", (what, *powers), zip(grid, *powers.values(), strict=True))
 
 
 def _grid_panels(
@@ -269,14 +264,6 @@ def _grid_panels(
     return tuple(panels)
 
 
-def _slope(grid: Sequence[int], errors: Sequence[float]) -> float:
-    """Order p of errors ~ grid^−p, by least squares."""
-    return -float(np.polyfit(np.log(grid), np.log(np.maximum(errors, 1e-12)), 1)[0])
-
-
 def _needed(grid: tuple[int, ...], errors: list[float]) -> float:
     """The first grid from which on every error stays within `ENOUGH`; infinite where none is."""
-    for k in range(len(grid)):
-        if max(errors[k:]) < ENOUGH:
-            return grid[k]
-    return math.inf
+    return next((grid[k] for k in range(len(grid)) if max(errors[k:]) < ENOUGH), math.inf)

@@ -95,7 +95,7 @@ def error_figure(number: str) -> Report:
         f"from order {enough} on. There is no plateau: a higher order always helps slightly, because stall is a kink.",
         tables=(table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows),),
         panels=(panel,),
-        numbers={**numbers, "share_of_spread": share, "knee": knee, "enough": enough},
+        numbers={**numbers, "share_of_spread": share, "knee": knee},
     )
 
 
@@ -151,12 +151,7 @@ def fit_figure(number: str) -> Report:
                 "α [°]", symbol, (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth))
             ),
         ),
-        numbers={
-            "rms": rms,
-            "attached_rms": float(np.sqrt(np.mean(relative**2))),
-            "attached_max": float(np.abs(relative).max()),
-            "unheld_at_30": unheld,
-        },
+        numbers={"attached_rms": float(np.sqrt(np.mean(relative**2))), "unheld_at_30": unheld},
     )
 
 
@@ -254,7 +249,7 @@ def tail_rotor() -> Report:
                 y_limits=(0.0, 12.0),
             ),
         ),
-        numbers={"least": low, "largest": high, "mean": float(np.mean(shares)), "hover": shares[0]},
+        numbers={"mean": float(np.mean(shares))},
     )  # fmt: skip
 
 
@@ -330,13 +325,7 @@ def figure_3_10() -> Report:
         ),
         numbers={
             "rms_to_model_curve": error,
-            "mean_to_model_curve": mean,
-            "thesis_mean_to_model_curve": thesis_mean,
-            "section_raises": section / 100.0,
-            "wake_raises": wake / 100.0,
             "hover_least": float(hover_ratio.min() - 1.0),
             "hover_largest": float(hover_ratio.max() - 1.0),
-            "bucket_flight": bucket["flight"],
-            "bucket_thesis": bucket["thesis"],
         },
     )  # fmt: skip

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.airfoil.polynomial import THESIS_NAME
-from rotor.design.blade import Rotor, with_airfoils
+from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
@@ -19,6 +19,7 @@ from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.runs import CachedFunction, Call
 from rotor.trim.solve import solve
+from rotor.validation.sensitivity import with_blades
 from rotor.validation.uh60a import SLOWEST
 
 RUNGS = {
@@ -146,14 +147,8 @@ def without_drag(mu: float) -> Least:
 @CachedFunction
 def twice_the_blades(mu: float) -> Least:
     """The best twist of a rigid blade, as one of eight of half the chord and mass."""
-    design = built([name for name in RUNGS if name != "elastic"], mu)
-    rotor, blade = design.rotor, design.rotor.blade
-    half = replace(
-        blade, chords=tuple(chord / 2.0 for chord in blade.chords), mass=blade.mass / 2.0,
-        flap_inertia=blade.flap_inertia / 2.0, flap_static_moment=blade.flap_static_moment / 2.0,
-    )  # fmt: skip
-    many: Rotor = replace(rotor, blades=2 * rotor.blades, reference_chord=rotor.reference_chord / 2.0, blade=half)
-    return _least(replace(design, rotor=many))
+    design = built(_without("elastic"), mu)
+    return _least(with_blades(2 * design.rotor.blades)(design))
 
 
 PARTS = (least, moving_twist, strong_over_weak, twice_the_blades, without_drag)
@@ -243,7 +238,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
             name, words, tuple(least(on, mu, None) for mu in speeds),
             rate(on) - rate(before) if changed else None,
             rate(changed) - rate(()) if changed else None,
-            rate(names) - rate(tuple(one for one in names if one not in changed)) if changed else None,
+            rate(names) - rate(_without(*changed)) if changed else None,
             moving_twist(on, speeds, None),
             (strong_over_weak(on, 0.0, None), strong_over_weak(on, FAST_KMH, None)),
         )  # fmt: skip
@@ -251,9 +246,8 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
     steps = [step("thesis", "preset thesis: what the document states", (), 0)]
     steps += [step(name, words, (name,), k) for k, (name, words) in enumerate(RUNGS.items(), start=1)]
     trim = step("trim", "trim by cyclic together with µ sin α", TRIM, names.index(TRIM[-1]) + 1)
-    rigid = least(tuple(name for name in names if name != "elastic"), fast, None)
     return Ladder(
-        speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rigid.rate_deg,
+        speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rate(_without("elastic")),
         without_drag(fast).rate_deg,
         tuple(
             WakeRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
@@ -266,7 +260,7 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
     """What `climb` needs, in lists that can be made in different processes."""
     names = tuple(RUNGS)
     ladder = [names[:count] for count in range(len(names) + 1)]
-    alone = [on for name in (*((one,) for one in names), TRIM) for on in (name, _without(names, name))]
+    alone = [on for changed in (*((one,) for one in names), TRIM) for on in (changed, _without(*changed))]
     return [
         *(
             [(least, (names, mu, wake)) for mu in speeds] + [(moving_twist, (names, speeds, wake))]
@@ -283,5 +277,5 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
     ]
 
 
-def _without(names: tuple[str, ...], left: Collection[str]) -> tuple[str, ...]:
-    return tuple(name for name in names if name not in left)
+def _without(*left: str) -> tuple[str, ...]:
+    return tuple(name for name in RUNGS if name not in left)

@@ -19,7 +19,6 @@ from rotor.reproduce.runs import (
     VARIANTS,
     CachedFunction,
     ConceptOptimum,
-    Scope,
     best,
     comparable_kw,
     variant,
@@ -58,10 +57,10 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
 """By number: the concept, the parameters shown, and a remark."""
 
 
-def optimum_figure(number: str, scope: Scope = FULL) -> Report:
+def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
     concept, shown, note = FIGURES[number]
-    found = {name: [best(name, concept, mu, scope) for mu in scope.speeds] for name in VARIANTS}
+    found = {name: [best(name, concept, mu, speeds) for mu in speeds] for name in VARIANTS}
     largest = {name: max(one.saving for one in row) for name, row in found.items()}
     widths = [high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
@@ -86,7 +85,7 @@ def optimum_figure(number: str, scope: Scope = FULL) -> Report:
         tuple(_panel(name, row, shown) for name, row in found.items()),
         summary=table(
             "best",
-            ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in scope.speeds)),
+            ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)),
             [
                 (f"{name}, {NAMES[key]}", *(f"{_value(one, key):.1f}" for one in row))
                 for name, row in found.items()
@@ -168,8 +167,8 @@ SpeedRow = tuple[float, float, float, float, str]
 
 
 @CachedFunction
-def three_segment_rows(name: str, most: int | None = None) -> tuple[SpeedRow, ...]:
-    """The rows of a variant at mass and altitude of the public curve; at most so many, from hover on."""
+def three_segment_rows(preset: str, most: int | None) -> tuple[SpeedRow, ...]:
+    """The rows of a preset at mass and altitude of the public curve; at most so many, from hover on."""
     forward = public_data()["forward"]
     tip_speed = make_design().rotor.tip_speed
     concept = find_concept("three-segment")
@@ -179,10 +178,10 @@ def three_segment_rows(name: str, most: int | None = None) -> tuple[SpeedRow, ..
         mu = knots * KNOT / tip_speed
         if 0.0 < mu < SLOWEST or len(rows) == most:
             continue
-        design = variant(name, twist="uh60a", mu=mu, mass=forward["mass_kg"])
+        design = variant(preset, twist="uh60a", mu=mu, mass=forward["mass_kg"])
         design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
         found = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
-        assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
+        assert found.best is not None, f"{preset}, µ {mu:g}: {found.message}"
         guess = (found.best.parameters,)
         flown, moved = (solve(one).require().power.main_rotor / 1e3 for one in (design, found.design))
         rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
@@ -219,10 +218,10 @@ _SAME_BASELINE = (
 )
 
 
-def figure_4_13(scope: Scope = FULL) -> Report:
+def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
     """All concepts side by side."""
     savings = {
-        (name, concept): [_percent(name, concept, mu, scope) for mu in scope.speeds]
+        (name, concept): [_percent(name, concept, mu, speeds) for mu in speeds]
         for name in VARIANTS
         for concept in CONCEPTS
     }
@@ -230,7 +229,7 @@ def figure_4_13(scope: Scope = FULL) -> Report:
     for name in VARIANTS:
         curves: list[Curve] = []
         for k, concept in enumerate(CONCEPTS):
-            curves += with_gap(concept, scope.speeds, savings[name, concept], colour=k)
+            curves += with_gap(concept, speeds, savings[name, concept], colour=k)
         panels.append(
             PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
         )
@@ -242,7 +241,7 @@ def figure_4_13(scope: Scope = FULL) -> Report:
         _SAME_BASELINE,
         table(
             "saving_percent",
-            ("variant", "concept", *(f"mu_{mu:g}" for mu in scope.speeds)),
+            ("variant", "concept", *(f"mu_{mu:g}" for mu in speeds)),
             [(*key, *row) for key, row in savings.items()],
         ),
         tuple(panels),
@@ -258,14 +257,14 @@ def figure_4_13(scope: Scope = FULL) -> Report:
     )
 
 
-def table_4_1(scope: Scope = FULL) -> Report:
+def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
     """Reduction of power, and how much of it a better fixed blade would have had too."""
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     for name in VARIANTS:
-        one = moving_twist(tuple(RUNGS) if name == "flight" else (), scope.speeds, None)
+        one = moving_twist(tuple(RUNGS) if name == "flight" else (), speeds, None)
         mean = {
-            concept: sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / len(scope.speeds)
+            concept: sum(comparable_kw(name, concept, mu, speeds) for mu in speeds) / len(speeds)
             for concept in CONCEPTS
         }
         saving = {concept: 1.0 - power / one.baseline_kw for concept, power in mean.items()}
@@ -286,6 +285,6 @@ def table_4_1(scope: Scope = FULL) -> Report:
     )
 
 
-def _percent(name: str, concept: str, mu: float, scope: Scope) -> float:
-    baseline = best(name, "linear", mu, scope).baseline_kw
-    return 100.0 * (1.0 - comparable_kw(name, concept, mu, scope) / baseline)
+def _percent(name: str, concept: str, mu: float, speeds: tuple[float, ...]) -> float:
+    baseline = best(name, "linear", mu, speeds).baseline_kw
+    return 100.0 * (1.0 - comparable_kw(name, concept, mu, speeds) / baseline)

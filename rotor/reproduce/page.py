@@ -49,7 +49,7 @@ FEW = 3
 """Curves for whose names there is room in a panel."""
 
 
-def same_key(panels: tuple[PlotPanel, ...]) -> bool:
+def _same_key(panels: tuple[PlotPanel, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
     keys = [tuple(one.label for one in panel.curves) for panel in panels]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
@@ -60,7 +60,7 @@ def draw(report: Report, folder: Path) -> None:
     panels = report.panels
     if not panels:
         return
-    legend_below = same_key(panels)
+    legend_below = _same_key(panels)
     matplotlib: Any = importlib.import_module("matplotlib")
     figure_module: Any = importlib.import_module("matplotlib.figure")
     count = len(panels)
@@ -93,14 +93,12 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
         place = one.colour if one.colour is not None else turn
         turn += one.colour is None
         colour = PALETTE[place % len(PALETTE)]
-        if one.style == "band" and down:
-            axes.fill_betweenx(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
+        if one.style == "band" and len(one.x) == 1 and not down:  # One condition alone has no area.
+            axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
             continue
         if one.style == "band":
-            if len(one.x) == 1:  # One condition alone has no area.
-                axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
-                continue
-            axes.fill_between(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
+            fill = axes.fill_betweenx if down else axes.fill_between
+            fill(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
             continue
         look: dict[str, Any] = {
             "line": {},
@@ -161,20 +159,18 @@ def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> N
         f"<p class=small>{escape(report.caption)}</p></div><dl>{rows}</dl></div>"
         f"<p class=small>{escape(report.because)} {files}</p>"
     )
-    _write_beside(folder / TALK, "What the thesis would have found", body)
+    _write_beside(folder / TALK, "What the thesis would have found", body, kind="talk")
 
 
 def write_misprints(folder: Path) -> Path:
     """Write the page of what the thesis omits or misprints into `folder`; its path."""
-    body = (
-        f'<p>Each with two lines that were run to make this page.</p><div class="shown text">{_rows(misprint_table())}'
-    )
-    return _write_beside(folder / MISPRINTS_PAGE, "What the thesis omits or misprints", f"{body}</div>")
+    shown = f'<div class="shown text">{_rows(misprint_table())}</div>'
+    body = f"<p>Each with two lines that were run to make this page.</p>{shown}"
+    return _write_beside(folder / MISPRINTS_PAGE, "What the thesis omits or misprints", body)
 
 
-def _write_beside(path: Path, title: str, body: str) -> Path:
+def _write_beside(path: Path, title: str, body: str, kind: str = "") -> Path:
     """Write a page that leads back to the index; its path."""
-    kind = "talk" if path.name == TALK else ""
     back = '<p class=small><a href="index.html">The thesis, rebuilt</a></p>'
     path.write_text(f"{_opening(title, kind)}{back}<h1>{title}</h1>{body}</main></html>\n", encoding="utf-8")
     return path

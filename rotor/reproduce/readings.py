@@ -14,8 +14,8 @@ from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import TOLERANCE, Agreement, Report, TableCell, table
-from rotor.reproduce.runs import FIVE_RATES, CachedFunction
-from rotor.reproduce.twist_effect import DOCUMENT_HOVER, DOCUMENT_STRONG, HIGH, LOW, MEDIUM
+from rotor.reproduce.runs import FIVE_RATES, CachedFunction, Call
+from rotor.reproduce.twist_effect import DOCUMENT_HOVER, DOCUMENT_STRONG, HIGH, LOW, MEDIUM, by_parabola
 from rotor.trim.solve import solve
 
 RANGES = ((-10.0, 15.0), (-10.0, 18.0), (-10.0, 20.0))
@@ -35,7 +35,6 @@ STATEMENTS = (
     "beyond µ 0.18: −8° best (3.13)",
     "high speed: −4° best (3.14)",
 )
-MEDIUM_BEYOND = tuple(mu for mu in MEDIUM if mu > 0.18)
 
 
 @dataclass(frozen=True)
@@ -80,36 +79,28 @@ def judge(section: str, unit: str) -> Judgement:
         return power(angle, mu) / min(power(float(rate), mu) for rate in FIVE_RATES) - 1.0
 
     rates = np.arange(-24.0, -7.0, 2.0)
-    hover = np.array([power(float(rate), 0.0) for rate in rates])
-    k = int(np.clip(hover.argmin(), 1, len(rates) - 2))
-    before, here, after = hover[k - 1 : k + 2].tolist()
-    a, b, c = (before - 2.0 * here + after) / 8.0, (after - before) / 4.0, here  # Rates are 2 °/R apart.
-    least = c - b**2 / (4.0 * a)
-    gaps = [power(-12.0, mu) - power(-8.0, mu) for mu in (*LOW, *MEDIUM[1:])]
+    best, least = by_parabola(rates, np.array([power(float(rate), 0.0) for rate in rates]))
     speeds = (*LOW, *MEDIUM[1:])
-    met = [
-        speeds[j] - gaps[j] * (speeds[j + 1] - speeds[j]) / (gaps[j + 1] - gaps[j])
-        for j in range(len(gaps) - 1)
-        if gaps[j] < 0.0 <= gaps[j + 1]
-    ]
+    gaps = [power(-12.0, mu) - power(-8.0, mu) for mu in speeds]
+    rises = [j for j in range(len(gaps) - 1) if gaps[j] < 0.0 <= gaps[j + 1]]
     return Judgement(
         section,
         unit,
-        float(rates[k]) - b / (2.0 * a),
+        best,
         (
             power(DOCUMENT_HOVER, 0.0) / least - 1.0,
             power(DOCUMENT_STRONG, 0.0) / least - 1.0,
             max(power(-16.0, mu) / power(0.0, mu) for mu in LOW) - 1.0,
-            max(cost(-8.0, mu) for mu in MEDIUM_BEYOND),
+            max(cost(-8.0, mu) for mu in MEDIUM if mu > 0.18),
             max(cost(-4.0, mu) for mu in HIGH),
         ),
-        met[0] if met else float("nan"),
+        float(np.interp(0.0, gaps[rises[0] : rises[0] + 2], speeds[rises[0] :][:2])) if rises else float("nan"),
     )
 
 
-def needed(name: str) -> list[tuple[CachedFunction[[str, str], Judgement], tuple[str, str]]]:
-    """The calls to make ahead, with the searches of the `thesis` preset."""
-    return [(judge, (section, unit)) for section in SECTIONS for unit in UNITS] if name == "thesis" else []
+def needed() -> list[Call]:
+    """The calls to make ahead."""
+    return [(judge, (section, unit)) for section in SECTIONS for unit in UNITS]
 
 
 def described(section: str) -> str:
@@ -126,7 +117,6 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
     found = [judge(section, unit) for unit in UNITS for section in sections]
     count = {(one.section, one.unit): sum(one.holds) for one in found}
     best = max(found, key=lambda one: sum(one.holds))
-    preset, deck = SECTIONS[0], SECTIONS[-1]
     rows: list[tuple[TableCell, ...]] = []
     for one in found:
         cells = [
@@ -142,8 +132,9 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
     neighbours = " and ".join(f"{count[one, best.unit]} ({described(one).rpartition(', ')[2]})" for one in kin)
     most = max(sum(one.holds) for one in found)
     several = sum(sum(one.holds) == most for one in found)
-    words = ", ".join(f"{count[preset, unit]} {unit}" for unit in UNITS)
-    words_deck = ", ".join(f"{count[deck, unit]} {unit}" for unit in UNITS)
+    words, words_deck = (
+        ", ".join(f"{count[one, unit]} {unit}" for unit in UNITS) for one in (sections[0], sections[-1])
+    )
     return Report(
         number="Readings",
         kind="claim",

@@ -1,13 +1,11 @@
 """Solutions, searches and optima that several figures share, computed once.
 
-Chapter 4 needs the twist of least power for every concept, over speed, in both presets. The thesis' own numbers of
-chapter 4 are not known to us, so nothing here is compared with them. Each optimum has its parameters,
-the band within 0.1 % of its power, the power, and the saving relative to the thesis' baseline, a fixed linear twist of
-−16°.
+Chapter 4 needs the twist of least power for every concept, over speed, in both presets. Its own numbers are not known
+to us, so nothing here is compared with them.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
@@ -18,7 +16,7 @@ from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.processes import Workers
-from rotor.optimisation.search import Band, Optimum, Search, SearchStatus, run_search
+from rotor.optimisation.search import Search, SearchStatus, run_search
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -100,14 +98,9 @@ _INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 """Inflow model of the variants that do not have their preset's own."""
 
 
-def preset_of(name: str) -> str:
-    """The preset of a variant."""
-    return name.partition("-")[0]
-
-
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
-    design = make_design(preset=preset_of(name), twist=twist, mu=mu, mass_kg=mass)
+    design = make_design(preset=name.partition("-")[0], twist=twist, mu=mu, mass_kg=mass)
     models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
     return replace(design, models=models)
 
@@ -129,25 +122,16 @@ DIVISIONS = (0.4, 0.5, 0.6, 0.7)
 """Figs. 4.4–4.7: 40–60, 50–50, 60–40, 70–30, inner part first."""
 
 
-@dataclass(frozen=True)
-class Scope:
-    """How much of chapter 4 to compute."""
-
-    speeds: tuple[float, ...]
-    starts: int
-    """Starts of the first condition; the others begin from their neighbour too."""
-
-
-FULL = Scope((0.0, 0.10, 0.15, 0.20, 0.25, 0.30, 0.35), 3)
-QUICK = Scope((0.0, 0.15, 0.30), 2)
-"""For tests."""
+FULL = (0.0, 0.10, 0.15, 0.20, 0.25, 0.30, 0.35)
+"""Advance ratios of chapter 4."""
 
 
 @dataclass(frozen=True)
 class ConceptOptimum:
+    """The twist of least power of one concept at one speed."""
+
     mu: float
     converged: bool
-    message: str
     names: tuple[str, ...]
     """Parameters as people read them, for example rate_deg."""
     values: tuple[float, ...]
@@ -185,74 +169,57 @@ SC1095_DECKS = "two 50-50, SC1095 deck"
 """The two-segment blade beside which the `thesis` preset sees two airfoils: the R8 exists as a deck only."""
 
 
-def _family(concept: str) -> Concept:
-    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
-
-
 @CachedFunction
-def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
-    """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
-    preset = preset_of(name)
-    if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
-        return best(preset, concept, mu, scope)
-    family = _family(concept)
-    design = variant(name, twist=BASELINE, mu=mu)
-    if concept in ("two airfoils", SC1095_DECKS) and design.preset == "thesis":
+def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> ConceptOptimum:
+    """The optimum of a concept at one of the speeds, started from the slower neighbour's and from the linear one's."""
+    family = find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
+    design = variant(preset, twist=BASELINE, mu=mu)
+    if preset == "thesis" and concept in ("two airfoils", SC1095_DECKS):
         # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars.
         # Hover by eq. (3.3) has one lift curve for the whole blade, so the annulus balance takes its place.
         models = replace(design.models, hover_inflow="annulus")
         design = replace(design, rotor=with_airfoils(design.rotor, ("sc1095",), ()), models=models)
-    speeds = scope.speeds
-    place = speeds.index(mu) if mu in speeds else 0
-    neighbour = [speeds[place - 1]] if place > 0 else []
-    near = [best(name, concept, slower, scope).twist for slower in neighbour]
+    place = speeds.index(mu)
+    near = [best(preset, concept, speeds[place - 1], speeds).twist] if place > 0 else []
     if concept != "linear":
-        near.append(best(name, "linear", mu, scope).twist)
+        near.append(best(preset, "linear", mu, speeds).twist)
     guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
-    starts = max(2 if neighbour else scope.starts, len(guesses))
-    found = run_search(Search(design, family, starts=starts, guesses=guesses))
-    return _record(name, mu, family, found)
+    found = run_search(Search(design, family, starts=max(2 if place > 0 else 3, len(guesses)), guesses=guesses))
+    least, parameters = found.best, family.parameters
+    assert least is not None, f"{preset}, µ {mu:g}: {found.message}"
+    assert found.baseline_power is not None, f"{preset}, µ {mu:g}: the baseline blade does not trim"
+    # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
+    bands = {one.parameter: (one.low, one.high) for one in found.band if one.high > one.low}
+    edges = [bands.get(p.name, (math.nan, math.nan)) for p in parameters]
+    return ConceptOptimum(
+        mu=mu,
+        converged=found.status is SearchStatus.CONVERGED,
+        names=tuple(p.label for p in parameters),
+        values=tuple(p.shown(value) for p, value in zip(parameters, least.parameters, strict=True)),
+        band=tuple((p.shown(low), p.shown(high)) for p, (low, high) in zip(parameters, edges, strict=True)),
+        twist=least.twist,
+        power_kw=least.power / 1e3,
+        baseline_kw=found.baseline_power / 1e3,
+    )
 
 
-def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
+def comparable_kw(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> float:
     """Total power of a concept on the baseline and section data of all others [kW].
 
     In the `thesis` preset two airfoils are computed with decks. What the second airfoil gains there, as a part of
     power, is taken off the two-segment blade with the document's polynomials.
     """
-    found = best(name, concept, mu, scope)
-    if concept != "two airfoils" or preset_of(name) != "thesis":
+    found = best(preset, concept, mu, speeds)
+    if concept != "two airfoils" or preset != "thesis":
         return found.power_kw
-    decks, polynomials = best(name, SC1095_DECKS, mu, scope), best(name, "two 50-50", mu, scope)
+    decks, polynomials = best(preset, SC1095_DECKS, mu, speeds), best(preset, "two 50-50", mu, speeds)
     return polynomials.power_kw * found.power_kw / decks.power_kw
 
 
-def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
-    """The calls of `best` for these concepts, in the order that lets each start from its neighbours."""
-    wanted = dict.fromkeys(("linear", *concepts))
-    if {"two airfoils", "two 50-50"} <= set(wanted) and preset_of(name) == "thesis":
-        wanted[SC1095_DECKS] = None
-    return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
-
-
-def _record(name: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
-    assert found.baseline_power is not None, f"{name}, µ {mu:g}: the baseline blade does not trim"
-    bands: dict[str, Band] = {one.parameter: one for one in found.band}
-    parameters = family.parameters
-    least = found.best
-    values = least.parameters if least is not None else (float("nan"),) * len(parameters)
-    # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
-    found_band = {name: (one.low, one.high) for name, one in bands.items() if one.high > one.low}
-    edges = [found_band.get(p.name, (math.nan, math.nan)) for p in parameters]
-    return ConceptOptimum(
-        mu=mu,
-        converged=found.status is SearchStatus.CONVERGED,
-        message=found.message,
-        names=tuple(p.label for p in parameters),
-        values=tuple(p.shown(value) for p, value in zip(parameters, values, strict=True)),
-        band=tuple((p.shown(low), p.shown(high)) for p, (low, high) in zip(parameters, edges, strict=True)),
-        twist=least.twist if least is not None else found.design.twist.spec(),
-        power_kw=(least.power if least is not None else found.baseline_power) / 1e3,
-        baseline_kw=found.baseline_power / 1e3,
-    )
+def searches(concepts: Collection[str]) -> list[Call]:
+    """The calls of `best` for these concepts in both presets, in the order that lets each start from its neighbours."""
+    wanted = {preset: dict.fromkeys(("linear", *concepts)) for preset in VARIANTS}
+    if {"two airfoils", "two 50-50"} <= wanted["thesis"].keys():
+        wanted["thesis"][SC1095_DECKS] = None
+    return [(best, (preset, concept, mu, FULL)) for preset in VARIANTS for concept in wanted[preset] for mu in FULL]

@@ -11,7 +11,6 @@ import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.reproduce.actuation import BLADES, fitted_blade
 from rotor.reproduce.ladder import (
@@ -38,9 +37,9 @@ SOURCES = (
 )
 
 
-def needed(name: str) -> list[Call]:
+def needed() -> list[Call]:
     """The searches, made once."""
-    return [call for group in calls() for call in group] if name == "thesis" else []
+    return [call for group in calls() for call in group]
 
 
 def today() -> Report:
@@ -139,8 +138,6 @@ def today() -> Report:
         ),
         numbers={
             "thesis_hover": found.at("thesis", slow).rate_deg,
-            "thesis_fast": found.at("thesis", fast).rate_deg,
-            "flight_hover": found.at(last.name, slow).rate_deg,
             "flight_fast": found.at(last.name, fast).rate_deg,
             "thesis_beyond_fixed": first.moving.gain,
             "flight_beyond_fixed": last.moving.gain,
@@ -185,17 +182,15 @@ def gain_of_2_per_rev(amplitude_deg: float, mu: float = SPEED) -> tuple[float, f
 @lru_cache(maxsize=1)
 def mass_for_equal_power() -> float:
     """Part by which mass grows from −11.5° to −17.3° per radius at equal power in hover (flight preset)."""
+
+    def power(rate: float, mass: float) -> float:
+        return solve(make_design(twist=f"linear:{rate:g}", mu=0.0, mass_kg=mass)).require().power.main_rotor
+
     mass = make_design().condition.mass
-    wanted = _hover(WEAK, mass)
     low, high = mass, 1.05 * mass
     # Power over mass is smooth: the secant through two masses leaves less than a thousandth of the difference.
-    a, b = _hover(STRONG, low), _hover(STRONG, high)
-    return (wanted - a) / (b - a) * (high - low) / mass
-
-
-def _hover(rate: float, mass: float) -> float:
-    design: Design = make_design(twist=f"linear:{rate:g}", mu=0.0, mass_kg=mass)
-    return solve(design).require().power.main_rotor
+    a, b = power(STRONG, low), power(STRONG, high)
+    return (power(WEAK, mass) - a) / (b - a) * (high - low) / mass
 
 
 def literature() -> Report:
@@ -252,12 +247,4 @@ def literature() -> Report:
         because=f"Ours is a steady section model on a torsionally elastic blade, where the gain does not grow with "
         f"amplitude throughout: {100 * small:.1f} % at 1.5°, {100 * middle:.1f} % at 2.5°, {100 * large:.1f} % at 4°.",
         tables=(table("quoted_and_ours", ("source", "quoted", "ours", "how ours is made"), rows, shown=True),),
-        numbers={
-            "gain_1_5": small,
-            "gain_2_5": middle,
-            "gain_4": large,
-            "heavier": heavier,
-            "least_twist_deg": lo,
-            "largest_twist_deg": hi,
-        },
     )

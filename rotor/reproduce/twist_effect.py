@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.arrays import Array
 from rotor.files.make_design import make_design
 from rotor.reproduce.ladder import FAST, FAST_KMH, HOVER, RUNGS, TRIM, least, strong_over_weak
 from rotor.reproduce.report import (
@@ -32,15 +33,20 @@ DOCUMENT_HOVER, DOCUMENT_STRONG = -13.5, -16.0
 """The optimum in hover that the thesis states, and the twist that it says lies past it [°]."""
 
 
-@lru_cache(maxsize=8)
-def hover_optimum(name: str) -> tuple[float, float, float, float]:
-    """Best linear twist in hover [°], its band within 0.1 % of the power [°] and its power [kW], by a parabola."""
-    rates = np.arange(-24.0, -8.0, 0.5)
-    powers = np.array([main_rotor_kw(name, float(rate), 0.0) for rate in rates])
-    k = int(powers.argmin())
+def by_parabola(rates: Array, powers: Array) -> tuple[float, float]:
+    """Place and value of the least of powers at rates, by the parabola through the lowest and its neighbours."""
+    k = int(np.clip(powers.argmin(), 1, len(rates) - 2))
     near = slice(k - 1, k + 2)
     a, b, c = np.asarray(np.polyfit(rates[near] - rates[k], powers[near], 2), dtype=np.float64).tolist()
-    best, least = float(rates[k]) - b / (2 * a), c - b**2 / (4 * a)
+    return float(rates[k]) - b / (2 * a), c - b**2 / (4 * a)
+
+
+@lru_cache(maxsize=8)
+def hover_optimum(name: str) -> tuple[float, float, float, float]:
+    """Best linear twist in hover [°], its band within 0.1 % of the power [°] and its power [kW]."""
+    rates = np.arange(-24.0, -8.0, 0.5)
+    powers = np.array([main_rotor_kw(name, float(rate), 0.0) for rate in rates])
+    best, least = by_parabola(rates, powers)
     inside = rates[powers <= least * (1.0 + TOLERANCE)]
     return best, float(inside[0]), float(inside[-1]), least
 
@@ -73,8 +79,7 @@ def figure_3_11() -> Report:
         best, low, high, least = hover_optimum(name)
         at_document = main_rotor_kw(name, DOCUMENT_HOVER, 0.0) / least - 1.0
         numbers |= {
-            f"{name}_optimum": best, f"{name}_band_low": low, f"{name}_band_high": high,
-            f"{name}_cost_of_13_5": at_document,
+            f"{name}_optimum": best, f"{name}_cost_of_13_5": at_document,
             f"{name}_cost_of_16": main_rotor_kw(name, -16, 0.0) / least - 1.0,
             f"{name}_cost_of_0": main_rotor_kw(name, 0, 0.0) / least - 1.0,
         }  # fmt: skip
@@ -84,15 +89,16 @@ def figure_3_11() -> Report:
             f"{100 * numbers[f'{name}_cost_of_0']:.1f} %"
         )
     span = 1.0 - make_design(preset="thesis").rotor.blade.root_cutout
-    best, least = hover_optimum("thesis")[0], hover_optimum("thesis")[3]
+    best, _, _, least = hover_optimum("thesis")
+
+    def cost(rate: float) -> float:
+        return main_rotor_kw("thesis", rate, 0.0) / least - 1.0
+
     readings = {
         words: (DOCUMENT_HOVER / length, DOCUMENT_STRONG / length)
         for words, length in (("per radius", 1.0), ("root to tip", span))
     }
-    costs = {
-        words: (main_rotor_kw("thesis", optimum, 0.0) / least - 1.0, main_rotor_kw("thesis", strong, 0.0) / least - 1.0)
-        for words, (optimum, strong) in readings.items()
-    }
+    costs = {words: (cost(optimum), cost(strong)) for words, (optimum, strong) in readings.items()}
     (per_radius, per_radius_strong), (tip, tip_strong) = costs.values()
     numbers |= {
         "root_to_tip_optimum": best * span,
@@ -102,9 +108,9 @@ def figure_3_11() -> Report:
     sought = solved("thesis", "linear:-16", 0.0).require()
     largest_alpha, stalled = float(np.degrees(sought.disk.alpha.max())), 100.0 * sought.stalled_area
     rates = np.arange(-24.0, -7.9, 1.0)
-    loss = [100.0 * (main_rotor_kw("thesis", float(rate), 0.0) / least - 1.0) for rate in rates]
+    loss = [100.0 * cost(float(rate)) for rate in rates]
     marks = [
-        curve(f"−13.5° and −16° {words}", readings[words], [100.0 * cost for cost in costs[words]], "points", colour=k)
+        curve(f"−13.5° and −16° {words}", readings[words], [100.0 * part for part in costs[words]], "points", colour=k)
         for k, words in enumerate(readings, start=1)
     ]
     panels.append(
@@ -213,21 +219,6 @@ def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Curve
     return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
 
 
-def _over_speed(
-    speeds: Sequence[float], label: str, value: Callable[[str, int, float], float]
-) -> tuple[PlotPanel, ...]:
-    """A panel a variant; `value` of variant, twist and µ."""
-    return tuple(
-        PlotPanel(
-            "advance ratio µ",
-            label,
-            _five(speeds, lambda rate, k, name=name: value(name, rate, speeds[k])),
-            title=VARIANT_TITLES[name],
-        )
-        for name in FIVE_NAMES
-    )
-
-
 def best_of_five(name: str, mu: float) -> int:
     """The best of the thesis' five twists [°/R]."""
     return min(FIVE_RATES, key=lambda rate: main_rotor_kw(name, rate, mu))
@@ -236,6 +227,10 @@ def best_of_five(name: str, mu: float) -> int:
 def _cost(name: str, rate: float, mu: float) -> float:
     """Part of the power that a twist costs beyond the best of the five."""
     return main_rotor_kw(name, rate, mu) / main_rotor_kw(name, best_of_five(name, mu), mu) - 1.0
+
+
+def _percent(name: str, rate: float, mu: float) -> float:
+    return 100.0 * _cost(name, rate, mu)
 
 
 def _best_words(best: dict[str, list[int]]) -> str:
@@ -255,12 +250,16 @@ def crossings(name: str, first: int, second: int, speeds: tuple[float, ...]) -> 
 
 def _speeds(
     number: str, word: str, speeds: tuple[float, ...], statement: str, verdict: Agreement, because: str,
-    extra: dict[str, float],
+    numbers: dict[str, float],
 ) -> Report:  # fmt: skip
-    panels = _over_speed(speeds, "main-rotor power [kW]", main_rotor_kw)
-    panels += _over_speed(
-        speeds, "relative to the best of the five [%]", lambda name, rate, mu: 100.0 * _cost(name, rate, mu)
-    )
+    panels = tuple(
+        PlotPanel(
+            "advance ratio µ", label, _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
+            title=VARIANT_TITLES[name],
+        )
+        for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
+        for name in FIVE_NAMES
+    )  # fmt: skip
     words = "; ".join(
         f"{name}: best of five " + _path([best_of_five(name, mu) for mu in speeds], speeds) for name in FIVE_NAMES
     )
@@ -277,17 +276,22 @@ def _speeds(
         verdict=verdict,
         because=because,
         tables=(
-            *(_power_table(name, speeds, f"{name}_kw") for name in FIVE_NAMES),
+            *(
+                table(
+                    f"{name}_kw",
+                    ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
+                    [
+                        (mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu))
+                        for mu in speeds
+                    ],
+                )
+                for name in FIVE_NAMES
+            ),
             table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed),
         ),
         panels=panels,
-        numbers={**{f"{name}_best_last": float(best_of_five(name, speeds[-1])) for name in FIVE_NAMES}, **extra},
+        numbers=numbers,
     )
-
-
-def _power_table(name: str, speeds: tuple[float, ...], title: str) -> ReportTable:
-    rows = [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds]
-    return table(title, ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"), rows)
 
 
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
@@ -367,8 +371,8 @@ def keys_1987() -> Report:
             ),
         ),
         numbers={
-            "thesis_hover": ends["thesis"][0], "thesis_fast": ends["thesis"][1],
+            "thesis_fast": ends["thesis"][1],
             "thesis-wake_hover": ends["thesis-wake"][0], "thesis-wake_fast": ends["thesis-wake"][1],
-            "flight_hover": hover, "flight_fast": fast, "least_fast": min(every), "largest_fast": max(every),
+            "flight_hover": hover, "flight_fast": fast,
         },
     )  # fmt: skip

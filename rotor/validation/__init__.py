@@ -9,8 +9,7 @@ from rotor.validation.airloads import (
     measured_curves,
     our_curve,
 )
-from rotor.validation.compare import Comparison, compare, compare_point, design_at
-from rotor.validation.measured import MeasuredSet, load_set, sets_of
+from rotor.validation.compare import Comparison, MeasuredSet, compare, compare_point, design_at, load_set, sets_of
 from rotor.validation.trust import SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 from rotor.validation.uh60a import public_data
 

@@ -9,7 +9,7 @@ of the same thrust.
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -146,24 +146,28 @@ def measured_curves() -> tuple[MeasuredCurve, ...]:
 
 
 def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
+    name = case.name.lower()
     if case.rotor == "hart2":
-        loads = csv_rows(asset_path("measured/hart2_airloads.csv"))
-        psi = np.radians([float(row["psi_deg"]) for row in loads])
-        for name in ("cn", "cm"):
-            values = np.array([float(row[f"{name}_{case.name.lower()}"]) for row in loads])
-            yield MeasuredCurve(case, f"{name}_m2", 0.87, psi, values)
-        for quantity, file, column in (("tip_twist_deg", "twist", "twist_deg"), ("tip_flap", "flap", "z")):
-            tip = [row for row in csv_rows(asset_path(f"measured/hart2_{file}.csv")) if row["case"] == case.name]
-            psi = np.radians([float(row["psi_deg"]) for row in tip])
-            yield MeasuredCurve(case, quantity, 1.0, psi, np.array([float(row[column]) for row in tip]))
+        for quantity, r, file, column in (
+            ("cn_m2", 0.87, "airloads", f"cn_{name}"), ("cm_m2", 0.87, "airloads", f"cm_{name}"),
+            ("tip_twist_deg", 1.0, "twist", "twist_deg"), ("tip_flap", 1.0, "flap", "z"),
+        ):  # fmt: skip
+            rows = csv_rows(asset_path(f"measured/hart2_{file}.csv"))
+            rows = [row for row in rows if row.get("case", case.name) == case.name]  # Loads have a column a case.
+            psi_deg, values = columns(rows, "psi_deg", column)
+            yield MeasuredCurve(case, quantity, r, np.radians(psi_deg), values)
         return
     rows = [row for row in csv_rows(asset_path("measured/gazelle_airloads.csv")) if row["case"] == case.name]
     for r in sorted({float(row["r"]) for row in rows}):
-        here = [row for row in rows if float(row["r"]) == r]
-        psi = np.radians([float(row["psi_deg"]) for row in here])
-        cl = np.array([float(row["cl"]) for row in here])
+        psi_deg, cl = columns([row for row in rows if float(row["r"]) == r], "psi_deg", "cl")
+        psi = np.radians(psi_deg)
         yield MeasuredCurve(case, "cl", r, psi, cl)
         yield MeasuredCurve(case, "cl_u2", r, psi, cl * (r + case.conditions["mu"] * np.sin(psi)) ** 2)
+
+
+def columns(rows: Sequence[Mapping[str, str]], *names: str) -> list[Array]:
+    """Columns of a table as numbers, (rows,) each."""
+    return [np.array([float(row[name]) for row in rows]) for name in names]
 
 
 def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array]:
@@ -218,14 +222,10 @@ def wave(of: Array, n: int) -> complex:
 
 def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement]:
     """Every measured curve of these tests beside ours; RuntimeError where a rotor does not trim."""
-    solutions: dict[str, Solution] = {}
-    for measured in measured_curves():
-        case = measured.case
-        if case.test not in tests:
-            continue
-        if case.test + case.name not in solutions:
-            solutions[case.test + case.name] = solve(case.design()).require()
-        yield agreement(measured, solutions[case.test + case.name])
+    for case in CASES:
+        if case.test in tests:
+            solution = solve(case.design()).require()
+            yield from (agreement(measured, solution) for measured in _curves(case))
 
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:

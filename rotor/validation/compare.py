@@ -1,10 +1,15 @@
-"""Trims a rotor at every measured point of a set and compares; the comparison as rows and charts of the trust page."""
+"""Sets of measured points, one file a set in `assets/measured/`, and our rotor trimmed at every point beside them.
+
+Each file has report, rotor, trim and scatter; the comparison gives rows and charts of the trust page.
+"""
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from typing import Any
+import tomllib
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, lru_cache
+from typing import Any, Literal
 
+from rotor.assets import asset_path
 from rotor.design.design import HOVER_INFLOWS, Design
 from rotor.design.stand import Stand
 from rotor.files.make_design import current_model, make_design
@@ -12,9 +17,24 @@ from rotor.files.rotor_file import shipped_aircraft
 from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.measured import MeasuredSet, load_set
 from rotor.validation.trust import TrustRow, TrustSet
 
+SETS = (
+    "xv15-hover",
+    "xv15-forward-15deg",
+    "xv15-forward-0deg",
+    "xv15-forward-figure-18",
+    "pca2",
+    "knight-hefner-3",
+    "knight-hefner-4",
+    "castles-gray",
+    "castles-gray-twisted",
+    "castles-gray-twist-effect",
+    "uh60a-hover",
+)
+"""Names of the sets, in the order in which they are shown."""
+FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "flown-power")
+"""Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
 LABELS = {
     "mu": "Advance ratio µ",
     "ct": "C_T",
@@ -30,6 +50,91 @@ LABELS = {
 """Of axes and columns."""
 ALSO = {"xv15-forward-15deg": ("uniform",), "xv15-forward-0deg": ("uniform",)}
 """Inflow models that the trust page shows beside that of `flight`."""
+
+
+@dataclass(frozen=True)
+class MeasuredSet:
+    """The points of one test."""
+
+    name: str
+    title: str
+    report: str
+    rotor: str
+    """Name of a shipped rotor."""
+    kind: Literal["hover", "forward"]
+    trim: str
+    given: tuple[str, ...]
+    """Columns that the trim is given; the others are measured."""
+    quantity: str
+    """The column that is compared."""
+    points: tuple[dict[str, float], ...]
+    note: str = ""
+    missed: str = ""
+    """Why the target is missed, as far as it is known."""
+    scatter: float | None = None
+    """Of the quantity; None where it is a part of it."""
+    scatter_percent: float | None = None
+    judged: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
+    """Ranges of columns within which a target is set."""
+    tolerance: float | None = None
+    """Largest difference of a judged point; None where it is a part of the measured value, or there is no target."""
+    tolerance_percent: float | None = None
+    indicative: bool = False
+    """Whether the set is shown without a target."""
+    against: str | None = None
+    """Rotor from which a change is counted."""
+
+    def scatter_of(self, measured: float) -> float:
+        """Scatter of a measured value."""
+        return self.scatter if self.scatter is not None else abs(measured) * (self.scatter_percent or 0.0) / 100.0
+
+    def is_judged(self, point: dict[str, float]) -> bool:
+        """Whether a target is set for a point."""
+        inside = all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
+        return inside and not self.indicative
+
+    def allows(self, measured: float, ours: float) -> bool:
+        """Whether our value is within the target."""
+        largest = self.tolerance
+        if largest is None:
+            largest = abs(measured) * (self.tolerance_percent or 0.0) / 100.0
+        return abs(ours - measured) <= largest
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The given columns that are not the same everywhere; the first is that of charts."""
+        return tuple(name for name in self.given if len({point[name] for point in self.points}) > 1)
+
+    @property
+    def target(self) -> str:
+        """The target in words; empty where there is none."""
+        if self.indicative:
+            return ""
+        size = f"{self.tolerance:g}" if self.tolerance is not None else f"{self.tolerance_percent:g} %"
+        ranges = [f"{name} {low:g}…{high:g}" for name, (low, high) in self.judged.items()]
+        return f"{size} {'for ' + ', '.join(ranges) if ranges else 'everywhere'}"
+
+
+def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
+    """The sets of a shipped rotor by its name, for example `xv15`; none for a rotor that was not measured."""
+    return tuple(one for one in map(load_set, SETS) if one.rotor == rotor)
+
+
+@cache
+def load_set(name: str) -> MeasuredSet:
+    """The set of that name; ValueError with one sentence for any other."""
+    if name not in SETS:
+        raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)}")
+    record: dict[str, Any] = tomllib.loads(asset_path(f"measured/{name}.toml").read_text(encoding="utf-8"))
+    columns: dict[str, list[float]] = record.pop("points")
+    rows = zip(*columns.values(), strict=True)
+    return MeasuredSet(
+        name=name,
+        given=tuple(record.pop("given")),
+        judged={key: (low, high) for key, (low, high) in record.pop("judged", {}).items()},
+        points=tuple(dict(zip(columns, map(float, values), strict=True)) for values in rows),
+        **record,
+    )
 
 
 @dataclass(frozen=True)
@@ -98,24 +203,13 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """For `validate --json`."""
         rows = self.measured
+        shown = ("given", "measured", "ours", "error_percent", "within_scatter", "judged")
         return {
-            "name": rows.name,
-            "title": rows.title,
-            "report": rows.report,
-            "rotor": rows.rotor,
-            "kind": rows.kind,
+            **{name: getattr(rows, name) for name in ("name", "title", "report", "rotor", "kind")},
             "inflow": self.inflow,
             "quantity": rows.quantity,
             "points": [
-                {
-                    "given": point.given,
-                    "measured": point.measured,
-                    "ours": point.ours,
-                    "error_percent": point.error_percent,
-                    "within_scatter": point.within_scatter,
-                    "judged": point.judged,
-                    **({"message": point.message} if point.message else {}),
-                }
+                {name: getattr(point, name) for name in shown} | ({"message": point.message} if point.message else {})
                 for point in self.points
             ],
             "rms_percent": self.rms_percent,
@@ -165,7 +259,7 @@ def measured_set(name: str) -> TrustSet:
     return TrustSet(
         name=name,
         title=measured.title,
-        compared=f"{found[0].counted}",
+        compared=found[0].counted,
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
         rows=rows,

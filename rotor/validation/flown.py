@@ -30,7 +30,7 @@ from rotor.validation.airloads import (
     measured_curves,
     our_curve,
 )
-from rotor.validation.trust import TrustRow, TrustSet, judged
+from rotor.validation.trust import TrustRow, TrustSet, judged, rms, share
 
 POWERS = "flown-power"
 """Name of the set."""
@@ -72,7 +72,7 @@ class MeasuredPower:
     """Pressure altitude [m]."""
     power: float
     """[W]"""
-    angles: tuple[float, float, float] | None
+    angles: tuple[float, ...] | None
     """Collective, cyclic 1c and 1s [°]; None where they were not measured."""
 
     def same_air(self, design: Design) -> bool:
@@ -98,7 +98,7 @@ def measured_powers() -> tuple[MeasuredPower, ...]:
     return tuple(
         MeasuredPower(
             row["rotor"], row["case"], float(row["mu"]), float(row["mass_kg"]), float(row["altitude_m"]),
-            1e3 * float(row["power_kw"]), _three([float(row[name]) for name in angles]) if row["theta0_deg"] else None,
+            1e3 * float(row["power_kw"]), tuple(float(row[name]) for name in angles) if row["theta0_deg"] else None,
         )
         for row in csv_rows(asset_path("measured/flown_power.csv"))
     )  # fmt: skip
@@ -116,10 +116,10 @@ class FlownPower:
     """None where our rotor does not trim."""
     band: tuple[float, float] | None
     """Ours with the lowest and the highest drag area of the sources."""
-    measured_angles: tuple[float, float, float] | None
+    measured_angles: tuple[float, ...] | None
     """Collective, cyclic 1c and 1s; None where they were not measured. Where along the blade the report takes the
     collective is not known."""
-    angles: tuple[float, float, float] | None
+    angles: tuple[float, ...] | None
     """Ours, the collective at 0.75 R."""
 
 
@@ -133,14 +133,9 @@ class FlownAngle:
     ours: tuple[float, ...]
 
     @property
-    def rms(self) -> float:
-        """Of the difference."""
-        return float(np.sqrt(np.mean(np.subtract(self.ours, self.measured) ** 2)))
-
-    @property
-    def mean(self) -> float:
-        """Of ours less measured."""
-        return float(np.mean(np.subtract(self.ours, self.measured)))
+    def error(self) -> Array:
+        """Ours less measured."""
+        return np.subtract(self.ours, self.measured)
 
 
 def flown_powers() -> Iterator[FlownPower]:
@@ -157,7 +152,7 @@ def flown_powers() -> Iterator[FlownPower]:
             ours=solution.power.main_rotor if solution.converged else None,
             band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
             measured_angles=one.angles,
-            angles=_three([math.degrees(angle) for angle in ours]) if solution.converged else None,
+            angles=tuple(map(math.degrees, ours)) if solution.converged else None,
         )
 
 
@@ -168,7 +163,7 @@ def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[floa
     """
     quotient = np.divide(ours, measured)
     level = float(quotient.mean())
-    return float(np.sqrt(np.mean((quotient / level - 1.0) ** 2))), level - 1.0
+    return rms(quotient / level - 1.0), level - 1.0
 
 
 def flown_angles() -> tuple[FlownAngle, ...]:
@@ -216,7 +211,9 @@ def flown_set() -> TrustSet:
         name=POWERS,
         title="Power and controls in flight",
         compared="Main-rotor power of two helicopters over speed, pitch angles",
-        error=", ".join(f"{TITLES[rotor]} {100 * _shape(powers, rotor)[0]:.1f} %" for rotor in ("gazelle", "bo105")),
+        error=", ".join(
+            f"{title} {100 * shape_errors(*_trimmed(powers, rotor))[0]:.1f} %" for rotor, title in TITLES.items()
+        ),
         source=(
             "Gazelle: NASA TM-88351 (1987); Bo 105: Padfield, Helicopter Flight Dynamics (1996), figures 4.10 and "
             "4.11; both digitised by the authors of the public code HEROES"
@@ -240,11 +237,7 @@ def _by_own_means(powers: Sequence[FlownPower], rotor: str) -> float:
     """The error of the shape where each curve is measured by its own mean."""
     ours, measured = _trimmed(powers, rotor)
     quotient = np.divide(ours, measured) * (sum(measured) / sum(ours))
-    return float(np.sqrt(np.mean((quotient - 1.0) ** 2)))
-
-
-def _shape(powers: Sequence[FlownPower], rotor: str) -> tuple[float, float]:
-    return shape_errors(*_trimmed(powers, rotor))
+    return rms(quotient - 1.0)
 
 
 def _trimmed(powers: Sequence[FlownPower], rotor: str) -> tuple[list[float], list[float]]:
@@ -264,37 +257,24 @@ _POWER_NOTES = {
 
 
 def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
+    test = f"{_TEST}::test_powers_of_flight"
     for rotor, title in TITLES.items():
-        shape, level = _shape(powers, rotor)
-        test = f"{_TEST}::test_powers_of_flight"
-        against = "flight test"
+        shape, level = shape_errors(*_trimmed(powers, rotor))
         yield TrustRow(
-            POWERS, "validation", f"{title}: power over speed, shape", against, f"rms {100 * shape:.1f} %", shape, 5e-3,
-            test, _POWER_NOTES[rotor], f"{100 * SHAPE:g} %", judged(shape, SHAPE),
+            POWERS, "validation", f"{title}: power over speed, shape", "flight test", f"rms {100 * shape:.1f} %", shape,
+            5e-3, test, _POWER_NOTES[rotor], f"{100 * SHAPE:g} %", judged(shape, SHAPE),
         )  # fmt: skip
-        yield TrustRow(
-            POWERS,
-            "validation",
-            f"{title}: power over speed, level",
-            against,
-            f"{100 * level:+.1f} %",
-            level,
-            5e-3,
-            test,
-        )
+        yield share(POWERS, "validation", f"{title}: power over speed, level", "flight test", level, 5e-3, test)
 
 
 def _gazelle_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
-    mine = [row for row in powers if row.measured_angles is not None and row.angles is not None]
-    for k, name in enumerate(list(ANGLES.values())[:3]):
-        errors = [row.angles[k] - row.measured_angles[k] for row in mine if row.angles and row.measured_angles]
-        rms = float(np.sqrt(np.mean(np.square(errors))))
-        note = ""
-        if name == "collective":
-            note = "Ours at 0.75 R; the report does not say where it takes its own."
+    errors = [np.subtract(row.angles, row.measured_angles) for row in powers if row.angles and row.measured_angles]
+    notes = {"collective": "Ours at 0.75 R; the report does not say where it takes its own."}
+    for name, of in zip(list(ANGLES.values())[:3], list(np.array(errors).T), strict=True):
+        size = rms(of)
         yield TrustRow(
-            POWERS, "validation", f"SA349/2 Gazelle: {name}, four flights", "flight test", f"rms {rms:.1f}°", rms, 0.05,
-            f"{_TEST}::test_controls_of_flight", note,
+            POWERS, "validation", f"SA349/2 Gazelle: {name}, four flights", "flight test", f"rms {size:.1f}°", size,
+            0.05, f"{_TEST}::test_controls_of_flight", notes.get(name, ""),
         )  # fmt: skip
 
 
@@ -304,9 +284,10 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
         "theta1s": "As for cyclic 1c.",
         "theta0_tail": "By blade elements of an untwisted tail rotor; the force of the fin is left out.",
     }
+    size = rms(angle.error)
     return TrustRow(
         POWERS, "validation", f"Bo 105: {ANGLES[angle.quantity]} over speed", "flight test",
-        f"rms {angle.rms:.1f}°, mean {angle.mean:+.1f}°", angle.rms, 0.1, f"{_TEST}::test_controls_of_flight",
+        f"rms {size:.1f}°, mean {angle.error.mean():+.1f}°", size, 0.1, f"{_TEST}::test_controls_of_flight",
         notes.get(angle.quantity, ""),
     )  # fmt: skip
 
@@ -417,19 +398,6 @@ def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Ar
 def _lift_points(found: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [("Flight", "r/R", "Quantity", "Correlation", "rms", "of", "Mean", "Measured mean")]
     for one in found:
-        numbers = (one.rms, one.measured_rms, one.mean, one.measured_mean)
-        rows.append(
-            (
-                one.case.name,
-                f"{one.r:g}",
-                _LIFT[one.quantity],
-                f"{one.correlation:.3f}",
-                *(f"{x:.3f}" for x in numbers),
-            )
-        )
+        numbers = (one.correlation, one.rms, one.measured_rms, one.mean, one.measured_mean)
+        rows.append((one.case.name, f"{one.r:g}", _LIFT[one.quantity], *(f"{x:.3f}" for x in numbers)))
     return tuple(rows)
-
-
-def _three(values: list[float]) -> tuple[float, float, float]:
-    first, second, third = values
-    return first, second, third

@@ -3,7 +3,7 @@
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,12 +22,13 @@ from rotor.validation.airloads import (
     FlownCase,
     MeasuredCurve,
     agreement,
+    columns,
     harmonics,
     measured_curves,
     our_curve,
     wave,
 )
-from rotor.validation.trust import TrustRow, TrustSet
+from rotor.validation.trust import TrustRow, TrustSet, rms
 
 SET = "hart2-airloads"
 BEND = 0.2125
@@ -94,21 +95,11 @@ _NOTES = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class Vortices:
-    """Centres of tip vortices over R in axes of the hub: x aft, y to starboard, z up; (points,) each."""
-
-    case: str
-    x: Array
-    y: Array
-    z: Array
-
-
-def measured_vortices(case: str) -> Vortices:
-    """Those of one case, `BL` or `MN`."""
+def measured_vortices(case: str) -> tuple[Array, Array, Array]:
+    """Centres of tip vortices of `BL` or `MN` over R: x aft, y to starboard, z up from the hub; (points,) each."""
     rows = [row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case]
-    x, y, z = (np.array([float(row[name]) for row in rows]) for name in "xyz")
-    return Vortices(case, x, y, z)
+    x, y, z = columns(rows, *"xyz")
+    return x, y, z
 
 
 def height(course: WakeCourse, x: Array, y: Array) -> Array:
@@ -124,123 +115,117 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class Attempt:
-    """What was tried on the misses, one input changed in both cases."""
-
-    words: str
-    agreements: tuple[CurveAgreement, CurveAgreement, CurveAgreement]
-    """C_n M² of BL and of MN, twist of the tip of BL."""
-
-    def __str__(self) -> str:
-        baseline, moved, twist = self.agreements
-        rigid = twist.amplitude(2) == 0.0
-        torsion = "" if rigid else f", twist of BL {twist.mean:.2f}° mean, {twist.amplitude(2):.2f}° at 2/rev"
-        return f"- {self.words}: {baseline.correlation:.2f} (BL), {moved.correlation:.2f} (MN){torsion}."
-
-
 def cases() -> tuple[FlownCase, FlownCase]:
     """BL and MN."""
     baseline, moved = (case for case in CASES if case.test == SET)
     return baseline, moved
 
 
+def curves() -> dict[tuple[str, str], MeasuredCurve]:
+    """What was measured, by case and quantity."""
+    return {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
+
+
 def hart2_set() -> TrustSet:
     """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
-    curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
-    agreements = {key: agreement(one, solutions[key[0]]) for key, one in curves.items()}
-    rows = (*_load_rows(agreements), *_twist_rows(agreements), *_motion_rows(agreements), *_vortex_rows(solutions))
+    agreements = {key: agreement(one, solutions[key[0]]) for key, one in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
-    tried = "\n".join([*map(str, attempts()), _GRID])
+    tried = "\n".join([*(_attempt_words(*one) for one in attempts()), _GRID])
     return TrustSet(
         name=SET,
         title="HART II, airloads and twist",
         compared="airloads, twist, flapping, vortices; with and without 3/rev",
         error=f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}",
         source=REPORTS[SET],
-        rows=rows,
-        charts=(*_charts(curves, solutions), _vortex_chart(solutions["BL"])),
+        rows=tuple(_rows(agreements, solutions)),
+        charts=(*_charts(solutions), _vortex_chart(solutions["BL"])),
         text=(*_WORDS, "## What was tried", "Correlations of C_n M²; nothing is fitted.", tried),
         points=_points(agreements),
     )
 
 
-def attempts() -> Iterator[Attempt]:
-    """The changes of inputs, as computed first."""
-    changes: dict[str, Callable[[FlownCase, Design], Design]] = {
-        "As computed": lambda case, design: design,
-        "Shaft tilt 5.3° aft, nominal, in place of 4.3° by the wall correction": lambda case, design: _stand(
-            design, shaft_tilt=math.radians(-5.3)
+def attempts() -> Iterator[tuple[str, tuple[CurveAgreement, CurveAgreement, CurveAgreement]]]:
+    """What was tried on the misses, one input changed in both cases: C_n M² of BL and of MN, twist of the tip of BL."""
+    changes: dict[str, Callable[[FlownCase], Design]] = {
+        "As computed": FlownCase.design,
+        "Shaft tilt 5.3° aft, nominal, in place of 4.3° by the wall correction": lambda case: _stand(
+            case, shaft_tilt=math.radians(-5.3)
         ),
         "Hub moments of the other sign": _other_moments,
-        "A hub moment of 110 N m, which the measured 1/rev flapping would take": lambda case, design: _stand(
-            design, hub_roll=-110.0, hub_pitch=0.0
+        "A hub moment of 110 N m, which the measured 1/rev flapping would take": lambda case: _stand(
+            case, hub_roll=-110.0, hub_pitch=0.0
         ),
         "Tension carried by all of the mass, k_A² = I_θ/m = 6e-4 m²": _all_tension,
-        "A blade rigid in torsion": lambda case, design: _rigid(design),
+        "A blade rigid in torsion": _rigid,
         "The same with the measured twist, its harmonics 1 to 5 linear along the blade": _measured_twist,
         "And the measured flapping at 2 and 3/rev, as pitch of the same angle of attack at 0.87 R": _measured_motion,
     }
-    curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
-    baseline, moved = cases()
+    measured = curves()
     for words, change in changes.items():
-        first, second = (solve(change(case, case.design())).require() for case in (baseline, moved))
-        yield Attempt(
+        first, second = (solve(change(case)).require() for case in cases())
+        yield (
             words,
             (
-                agreement(curves["BL", "cn_m2"], first),
-                agreement(curves["MN", "cn_m2"], second),
-                agreement(curves["BL", "tip_twist_deg"], first),
+                agreement(measured["BL", "cn_m2"], first),
+                agreement(measured["MN", "cn_m2"], second),
+                agreement(measured["BL", "tip_twist_deg"], first),
             ),
         )
 
 
-def _stand(design: Design, **changes: float) -> Design:
+def _attempt_words(words: str, found: tuple[CurveAgreement, CurveAgreement, CurveAgreement]) -> str:
+    baseline, moved, twist = found
+    rigid = twist.amplitude(2) == 0.0
+    torsion = "" if rigid else f", twist of BL {twist.mean:.2f}° mean, {twist.amplitude(2):.2f}° at 2/rev"
+    return f"- {words}: {baseline.correlation:.2f} (BL), {moved.correlation:.2f} (MN){torsion}."
+
+
+def _stand(case: FlownCase, **changes: float) -> Design:
+    design = case.design()
     stand = design.condition.stand
     assert stand is not None
     return replace(design, condition=replace(design.condition, stand=replace(stand, **changes)))
 
 
-def _other_moments(case: FlownCase, design: Design) -> Design:
-    del case
-    stand = design.condition.stand
+def _other_moments(case: FlownCase) -> Design:
+    stand = case.design().condition.stand
     assert stand is not None
-    return _stand(design, hub_roll=-stand.hub_roll, hub_pitch=-stand.hub_pitch)
+    return _stand(case, hub_roll=-stand.hub_roll, hub_pitch=-stand.hub_pitch)
 
 
-def _all_tension(case: FlownCase, design: Design) -> Design:
-    del case
+def _all_tension(case: FlownCase) -> Design:
+    design = case.design()
     blade = design.rotor.blade
     assert blade.structure is not None
     structure = replace(blade.structure, tension_gyration=6e-4)
     return replace(design, rotor=replace(design.rotor, blade=replace(blade, structure=structure)))
 
 
-def _rigid(design: Design) -> Design:
+def _rigid(case: FlownCase) -> Design:
+    design = case.design()
     return replace(design, models=replace(design.models, elastic_twist=False))
 
 
-def _measured_twist(case: FlownCase, design: Design) -> Design:
+def _measured_twist(case: FlownCase) -> Design:
     """The measured twist given to a rigid blade as active twist; its mean is left to the collective."""
-    twist = next(one for one in measured_curves() if (one.case, one.quantity) == (case, "tip_twist_deg"))
+    twist, design = curves()[case.name, "tip_twist_deg"], _rigid(case)
     waves = np.radians(harmonics(twist.psi, twist.values, 5))
     of = tuple(_harmonic(n, wave(waves, n)) for n in range(1, 6))
-    return replace(_rigid(design), active_twist=ActiveTwist(of, (design.rotor.blade.root_cutout, 1.0)))
+    return replace(design, active_twist=ActiveTwist(of, (design.rotor.blade.root_cutout, 1.0)))
 
 
-def _measured_motion(case: FlownCase, design: Design) -> Design:
+def _measured_motion(case: FlownCase) -> Design:
     """The same, and root pitch −ż/U of the measured flapping at 2 and 3/rev, about the bend at `BEND`.
 
     z = A cos(nψ − φ) has the rate n A cos(nψ − φ + 90°).
     """
-    flap = next(one for one in measured_curves() if (one.case, one.quantity) == (case, "tip_flap"))
+    flap, design = curves()[case.name, "tip_flap"], _measured_twist(case)
     lever = (0.87 - BEND) / (0.87 * (1.0 - BEND))
     pitch = {n: 1j * n * lever * wave(flap.waves, n) for n in (2, 3)}
     for one in design.pitch_per_rev:
         pitch[one.per_rev] = pitch.get(one.per_rev, 0.0) + cmath.rect(one.amplitude, one.phase)
-    given = tuple(_harmonic(n, of) for n, of in pitch.items())
-    return replace(_measured_twist(case, design), pitch_per_rev=given)
+    return replace(design, pitch_per_rev=tuple(_harmonic(n, of) for n, of in pitch.items()))
 
 
 def _harmonic(n: int, of: complex) -> Harmonic:
@@ -250,87 +235,74 @@ def _harmonic(n: int, of: complex) -> Harmonic:
 _Agreements = Mapping[tuple[str, str], CurveAgreement]
 
 
-def _row(what: str, shown: str, error: float, allowed: float, test: str, **more: str) -> TrustRow:
-    met = more.pop("met", "")
-    verdict = "no target" if not met else "met" if met == "yes" else "missed"
+def _row(
+    what: str, shown: str, error: float, allowed: float, test: str, note: str = "", target: str = "",
+    met: bool | None = None,
+) -> TrustRow:  # fmt: skip
+    verdict = "no target" if met is None else "met" if met else "missed"
     return TrustRow(
-        SET, "validation", what, REPORTS[SET], shown, error, allowed, f"{_TEST}::{test}", verdict=verdict, **more
+        SET, "validation", what, REPORTS[SET], shown, error, allowed, f"{_TEST}::{test}", note, target, verdict
     )
 
 
-def _yes(met: bool) -> str:
-    return "yes" if met else "no"
-
-
-def _load_rows(agreements: _Agreements) -> Iterator[TrustRow]:
-    for name in ("BL", "MN"):
-        one = agreements[name, "cn_m2"]
-        met = one.correlation >= LEAST_CORRELATION
+def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterator[TrustRow]:
+    """Loads, twist, flapping, tip vortices."""
+    for name in solutions:
+        one = agreements[name, "cn_m2"].correlation
+        met = one >= LEAST_CORRELATION
         yield _row(
-            f"{name}: C_n M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.02,
-            "test_normal_force", target=f"at least {LEAST_CORRELATION:g}", met=_yes(met),
-            note="" if met else _MISSED["cn"],
+            f"{name}: C_n M² at 0.87 R, correlation", f"{one:.2f}", one, 0.02, "test_normal_force",
+            "" if met else _MISSED["cn"], f"at least {LEAST_CORRELATION:g}", met,
         )  # fmt: skip
-    for name in ("BL", "MN"):
-        one = agreements[name, "cm_m2"]
-        yield _row(
-            f"{name}: C_m M² at 0.87 R, correlation", f"{one.correlation:.2f}", one.correlation, 0.03, "test_moments"
-        )
-
-
-def _twist_rows(agreements: _Agreements) -> Iterator[TrustRow]:
+    for name in solutions:
+        one = agreements[name, "cm_m2"].correlation
+        yield _row(f"{name}: C_m M² at 0.87 R, correlation", f"{one:.2f}", one, 0.03, "test_moments")
     moved, base = agreements["MN", "tip_twist_deg"], agreements["BL", "tip_twist_deg"]
     size, late = moved.ratio(3), moved.late_deg(3)
     yield _row(
         "MN: twist of the tip at 3/rev", f"{100 * size:+.0f} %, {late:+.0f}°", size, 0.03, "test_twist",
         target=f"{100 * TORSION_3:g} % and {TORSION_3_DEG:g}°",
-        met=_yes(abs(size) <= TORSION_3 and abs(late) <= TORSION_3_DEG),
+        met=abs(size) <= TORSION_3 and abs(late) <= TORSION_3_DEG,
     )  # fmt: skip
     for n in (1, 2):
-        met = abs(base.ratio(n)) <= TORSION_LOW
+        size, met = base.ratio(n), abs(base.ratio(n)) <= TORSION_LOW
         yield _row(
-            f"BL: twist of the tip at {n}/rev", f"{100 * base.ratio(n):+.0f} %, {base.late_deg(n):+.0f}°",
-            base.ratio(n), 0.03, "test_twist", target=f"{100 * TORSION_LOW:g} % of amplitude", met=_yes(met),
-            note="" if met else _MISSED["twist"],
+            f"BL: twist of the tip at {n}/rev", f"{100 * size:+.0f} %, {base.late_deg(n):+.0f}°", size, 0.03,
+            "test_twist", "" if met else _MISSED["twist"], f"{100 * TORSION_LOW:g} % of amplitude", met,
         )  # fmt: skip
     for one in (base, moved):
         error = one.mean - one.measured_mean
         yield _row(
-            f"{one.case.name}: mean twist of the tip", f"{error:+.2f}°", error, 0.03, "test_twist", note=_NOTES["mean"]
+            f"{one.case.name}: mean twist of the tip", f"{error:+.2f}°", error, 0.03, "test_twist", _NOTES["mean"]
         )
-
-
-def _motion_rows(agreements: _Agreements) -> Iterator[TrustRow]:
-    for name in ("BL", "MN"):
+    for name in solutions:
         one = agreements[name, "tip_flap"]
         yield _row(
             f"{name}: flap deflection of the tip", f"mean {one.mean - one.measured_mean:+.4f} R, rms {one.rms:.4f} R",
-            one.rms, 3e-4, "test_flapping", note=_NOTES["flap"],
+            one.rms, 3e-4, "test_flapping", _NOTES["flap"],
         )  # fmt: skip
-
-
-def _vortex_rows(solutions: Mapping[str, Solution]) -> Iterator[TrustRow]:
     for name, solution in solutions.items():
-        rms, mean, points = vortex_errors(solution, name)
+        size, mean, points = vortex_errors(solution, name)
         yield _row(
-            f"{name}: height of tip vortices, {points} points", f"rms {rms:.3f} R, mean {mean:+.3f} R", rms, 2e-3,
-            "test_tip_vortices", note=_NOTES["vortices"],
+            f"{name}: height of tip vortices, {points} points", f"rms {size:.3f} R, mean {mean:+.3f} R", size, 2e-3,
+            "test_tip_vortices", _NOTES["vortices"],
         )  # fmt: skip
 
 
 def vortex_errors(solution: Solution, case: str) -> tuple[float, float, int]:
     """Root mean square and mean of our height of the tip vortices less the measured one, over R; number of points."""
-    course, measured = solution.wake_course, measured_vortices(case)
+    course, (x, y, z) = solution.wake_course, measured_vortices(case)
     assert course is not None
-    error = height(course, measured.x, measured.y) - measured.z
-    return float(np.sqrt(np.mean(error**2))), float(error.mean()), len(error)
+    error = height(course, x, y) - z
+    return rms(error), float(error.mean()), len(error)
 
 
-def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[str, Solution]) -> Iterator[LineChart]:
+def _charts(solutions: Mapping[str, Solution]) -> Iterator[LineChart]:
     """Loads less their mean, a chart for each case; twist and flapping as they are."""
+    beside = curves()
     for quantity in ("cn_m2", "cm_m2"):
         for name, solution in solutions.items():
-            measured = curves[name, quantity]
+            measured = beside[name, quantity]
             psi, values = our_curve(measured, solution)
             theirs = measured.values - measured.values.mean()
             label = f"{QUANTITIES[quantity]}, {name}, without mean"
@@ -342,7 +314,7 @@ def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[
     for quantity in ("tip_twist_deg", "tip_flap"):
         series_of: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
-            measured = curves[name, quantity]
+            measured = beside[name, quantity]
             theirs = tuple(measured.values.tolist())
             series_of.append(Series(f"{name}, measured", _degrees(measured.psi), theirs, "points", k))
             series_of.append(Series("computed", *_closed(*our_curve(measured, solution)), "line", k))
@@ -352,17 +324,16 @@ def _charts(curves: Mapping[tuple[str, str], MeasuredCurve], solutions: Mapping[
 
 def _vortex_chart(solution: Solution) -> LineChart:
     """Height over x of BL near three planes y."""
-    course, measured = solution.wake_course, measured_vortices("BL")
+    course, (x, y, z) = solution.wake_course, measured_vortices("BL")
     assert course is not None
     series: list[Series] = []
-    for k, y in enumerate((0.4, 0.7, -0.7), start=1):
-        here = np.flatnonzero(np.abs(measured.y - y) < 0.05)
-        here = here[np.argsort(measured.x[here])]
-        x, z = measured.x[here], measured.z[here]
-        side = "advancing" if y > 0.0 else "retreating"
-        series.append(Series(f"{side}, {abs(y):g} R, measured", tuple(x.tolist()), tuple(z.tolist()), "points", k))
-        along = np.linspace(-math.sqrt(1.0 - y * y), float(x.max()), 30)
-        ours = height(course, along, np.full_like(along, y))
+    for k, plane in enumerate((0.4, 0.7, -0.7), start=1):
+        here = np.flatnonzero(np.abs(y - plane) < 0.05)
+        here = here[np.argsort(x[here])]
+        label = f"{'advancing' if plane > 0.0 else 'retreating'}, {abs(plane):g} R, measured"
+        series.append(Series(label, tuple(x[here].tolist()), tuple(z[here].tolist()), "points", k))
+        along = np.linspace(-math.sqrt(1.0 - plane**2), float(x[here].max()), 30)
+        ours = height(course, along, np.full_like(along, plane))
         series.append(Series("computed", tuple(along.tolist()), tuple(ours.tolist()), "line", k))
     return LineChart("Tip vortices above the hub, BL", "x/R, aft", "z/R of tip vortices, BL", tuple(series))
 

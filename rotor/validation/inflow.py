@@ -20,7 +20,7 @@ from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.trust import TrustRow, TrustSet
+from rotor.validation.trust import TrustRow, TrustSet, rms
 
 ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
@@ -96,7 +96,6 @@ def inflow_set() -> TrustSet:
     for name in SHOWN:
         mine = [row for row in found if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
-        rms = ", ".join(f"{row.rms:.4f}" for row in mine)
         rows.append(
             TrustRow(
                 SET,
@@ -107,7 +106,7 @@ def inflow_set() -> TrustSet:
                 sum(known) / len(known),
                 0.02,
                 "rotor/validation/test_validation.py::test_measured_inflow",
-                f"rms {rms} of the tip speed.",
+                f"rms {', '.join(f'{row.rms:.4f}' for row in mine)} of the tip speed.",
             )
         )
     return TrustSet(
@@ -141,12 +140,11 @@ def inflow_agreement() -> Iterator[InflowAgreement]:
     for measured in measured_inflow():
         for name in MODELS:
             ours = _time_mean(name, measured)
-            difference = ours - measured.inflow
             yield InflowAgreement(
                 mu=measured.mu,
                 model=name,
                 correlation=float(np.corrcoef(ours, measured.inflow)[0, 1]) if np.ptp(ours) > 1e-9 else None,
-                rms=float(np.sqrt(np.mean(difference**2))),
+                rms=rms(ours - measured.inflow),
                 mean=float(ours.mean()),
                 measured_mean=float(measured.inflow.mean()),
             )

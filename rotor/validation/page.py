@@ -15,13 +15,12 @@ from itertools import groupby
 from pathlib import Path
 
 from rotor.line_chart import draw, draw_small
-from rotor.validation import cross_codes, flown, hart2, stall_loops, uh60a
+from rotor.validation import flown, hart2, stall_loops, uh60a, verification
+from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set
-from rotor.validation.measured import SETS as MEASURED
 from rotor.validation.sensitivity import sensitivity_chart
-from rotor.validation.theory import theory
 from rotor.validation.trust import KINDS, VERDICTS, SensitivityRow, TrustRow, TrustSet
 
 SETS: dict[str, Callable[[], TrustSet]] = {
@@ -35,9 +34,9 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     "sc1095": uh60a.section,
     "uh60a-constants": uh60a.constants,
     "uh60a-forward": uh60a.forward,
-    "theory": theory,
-    "dynbem": cross_codes.dynbem,
-    "ccblade": cross_codes.ccblade,
+    "theory": verification.theory,
+    "dynbem": verification.dynbem,
+    "ccblade": verification.ccblade,
 }
 """Maker of each set by its name. Statements of the thesis come from its figures (`rotor.reproduce.catalogue`)."""
 LONGEST = 64

@@ -38,7 +38,7 @@ def _drag(factor: float) -> Change:
     )
 
 
-def _blades(count: int) -> Change:
+def with_blades(count: int) -> Change:
     """The same solidity on another number of blades; flap inertia and mass go with the chord."""
 
     def change(design: Design) -> Design:
@@ -104,8 +104,8 @@ CHANGES: tuple[tuple[str, Change], ...] = (
     ("trim: thrust only, flapping free, no cyclic", _models(trim="thrust")),
     ("U_P without µ sin α, as (3.6) prints", _models(disk_axial_flow=False)),
     ("both of these", _models(trim="thrust", disk_axial_flow=False)),
-    ("blades: 3, same solidity", _blades(3)),
-    ("blades: 5, same solidity", _blades(5)),
+    ("blades: 3, same solidity", with_blades(3)),
+    ("blades: 5, same solidity", with_blades(5)),
     ("blade rigid in torsion", _models(elastic_twist=False)),
     ("control stiffness, an assumption: half", _structure(controls=0.5)),
     ("control stiffness, an assumption: double", _structure(controls=2.0)),

@@ -15,6 +15,7 @@ from rotor.airfoil.stall_onset import stall_onset
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.line_chart import LineChart, Series
+from rotor.validation.airloads import columns
 from rotor.validation.trust import TrustRow, TrustSet, judged
 
 SET = "glasgow-loops"
@@ -64,8 +65,7 @@ class StallLoop:
 def glasgow_section() -> SectionTable:
     """The static data of the model, symmetric."""
     rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == "static"]
-    half = [tuple(float(row[name]) for name in ("alpha_deg", "cl", "cd", "cm")) for row in rows] + list(_ENDS)
-    upper = np.array(half)
+    upper = np.concatenate([np.stack(columns(rows, "alpha_deg", "cl", "cd", "cm"), axis=1), _ENDS])
     whole = np.concatenate([upper[:0:-1] * [-1.0, -1.0, 1.0, -1.0], upper])
     mach = np.array([0.0, 1.0])
     blocks = (C81Block(mach, whole[:, 0], np.repeat(whole[:, k : k + 1], 2, axis=1)) for k in (1, 2, 3))
@@ -75,7 +75,7 @@ def glasgow_section() -> SectionTable:
 def stall_loop(run: str) -> StallLoop:
     """A run beside ours."""
     rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == run]
-    alpha, cl, cd, cm = (np.array([float(row[name]) for row in rows]) for name in ("alpha_deg", "cl", "cd", "cm"))
+    alpha, cl, cd, cm = columns(rows, "alpha_deg", "cl", "cd", "cm")
     mean, amplitude, k = (float(rows[0][name]) for name in ("mean_deg", "amplitude_deg", "k"))
     rises = np.append(np.diff(alpha) > 0.0, True)
     share = np.arcsin(np.clip((alpha - mean) / amplitude, -1.0, 1.0))

@@ -9,6 +9,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from rotor.assets import asset_path, csv_rows
 from rotor.line_chart import LineChart
 
@@ -108,6 +111,18 @@ class SensitivityRow:
 def judged(error: float | None, most: float) -> Verdict:
     """Whether an error is at most its target in size; one that is not known misses it."""
     return "met" if error is not None and abs(error) <= most else "missed"
+
+
+def rms(values: ArrayLike) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def bound(name: str, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
+    """A row whose error is rounding or discretisation: its size matters, not its digits."""
+    verdict, target = judged(error, below), f"below {below:.0e}"
+    shown = target if verdict == "met" else f"{abs(error):.0e}"
+    return TrustRow(name, "verification", what, against, shown, abs(error), below, test, "", target, verdict)
 
 
 def share(

@@ -16,7 +16,7 @@ from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.line_chart import LineChart, Series
 from rotor.trim.solve import solve
 from rotor.units import KNOT
-from rotor.validation.trust import TrustRow, TrustSet, judged, share
+from rotor.validation.trust import TrustRow, TrustSet, judged, rms, share
 
 HORSEPOWER_KW = 0.745700
 """[kW], mechanical"""
@@ -66,7 +66,7 @@ def model_curve_errors(preset: str = "flight") -> tuple[float, float]:
     """Root mean square and mean of a preset over the model's curve, less one, above `SLOWEST`."""
     speeds, theirs, ours = map(np.array, beside_model_curve(preset))
     errors = (ours / theirs - 1.0)[speeds > SLOWEST]
-    return float(np.sqrt(np.mean(errors**2))), float(errors.mean())
+    return rms(errors), float(errors.mean())
 
 
 def hover() -> TrustSet:
@@ -100,13 +100,13 @@ def hover() -> TrustSet:
 def forward() -> TrustSet:
     """Power over speed beside another model's."""
     speeds, theirs, ours = beside_model_curve("flight")
-    rms, mean = model_curve_errors()
+    size, mean = model_curve_errors()
     test = "rotor/reproduce/test_chapter_3.py::test_figure_3_10"
     rows = tuple(
         share("uh60a-forward", "indicative", f"Main-rotor power in forward flight, {what} seven speeds",
               "public model curve of the UH-60A", error, 3e-3, test, note)
         for what, error, note in (
-            ("rms over", rms, "A model, reported to agree with flight test above 50 kt."), ("mean of", mean, ""),
+            ("rms over", size, "A model, reported to agree with flight test above 50 kt."), ("mean of", mean, ""),
         )
     )  # fmt: skip
     series = (
@@ -115,7 +115,7 @@ def forward() -> TrustSet:
     )
     title = "UH-60A, forward flight"
     return TrustSet(
-        "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * rms:.1f} %, mean {100 * mean:+.1f} %",
+        "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         "A flight-mechanics model with Pitt–Peters inflow: Lee, Texas A&M dissertation, 2021, read off a graph to 2 %.",
         rows, (LineChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
         ("No measured forward-flight power of the UH-60A could be reached.",),

@@ -15,7 +15,7 @@ from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from rotor.assets import MEASURED_ROTORS
 from rotor.trim.solve import solve
-from rotor.validation.measured import SETS, load_set
+from rotor.validation.compare import SETS, load_set
 
 XV15 = next(one for one in measured_conditions("xv15") if one.test == "Tunnel, 15° forward")
 FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio, stand=XV15.stand)

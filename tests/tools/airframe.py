@@ -95,21 +95,6 @@ class Hull:
         return np.stack((np.broadcast_to(x, y.shape), y, z), axis=-1)
 
 
-def glb() -> bytes:
-    """The file."""
-    scene = trimesh.Scene()
-    scene.metadata = {"source": SOURCE, "ground_m": GROUND}
-    for name, mesh in parts().items():
-        solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
-        scene.add_geometry(solid, node_name=name, geom_name=name, transform=_Z_UP)
-    return cast(bytes, scene.export(file_type="glb", include_normals=False))
-
-
-def parts() -> dict[str, Mesh]:
-    """By the name of the node: what there is of each aircraft in one colour."""
-    return {**_black_hawk(), **_generic()}
-
-
 GROUND = {"uh60a": -3.76, "generic": -3.95}
 """Height of the ground below the hub [m]."""
 
@@ -151,30 +136,31 @@ def _black_hawk() -> dict[str, Mesh]:
         dark.append(_wheel(place, 0.33, 0.22))
     body.append(tube((6.75, 0.0, -2.20), (7.15, 0.0, -3.30), 0.07, 0.05))
     dark.append(_wheel(np.array([7.21, 0.0, -3.54]), 0.22, 0.16))
-    return {"uh60a-body": joined(body), "uh60a-glass": _cabin_glass(hull), "uh60a-dark": joined(dark)}
+    door, cockpit = (-2.28, -1.50), (-2.30, -1.46)
+    panes = (((-0.92, 0.04), door, 0.0), ((0.20, 1.16), door, 0.0), ((-2.66, -1.90), cockpit, 0.12))
+    glass = _glass(hull, panes, (-3.94, -2.84), 0.42, 0.28)
+    return {"uh60a-body": joined(body), "uh60a-glass": glass, "uh60a-dark": joined(dark)}
 
 
-def _cabin_glass(hull: Hull) -> Mesh:
-    """Windscreen, cockpit door, and two panes of the cabin door, on each side."""
-    panes = []
+def _glass(
+    hull: Hull,
+    panes: Sequence[tuple[tuple[float, float], tuple[float, float], float]],
+    front: tuple[float, float],
+    lowest: float,
+    slant: float,
+) -> Mesh:
+    """Side panes, each from x to x, from height to height, slanted aft [m], and the windscreen, on each side."""
+    found = []
     for port in (False, True):
-        for first, last, low, high, slant in (
-            (-0.92, 0.04, -2.28, -1.50, 0.0),
-            (0.20, 1.16, -2.28, -1.50, 0.0),
-            (-2.66, -1.90, -2.30, -1.46, 0.12),
-        ):
-            panes.append(_pane(hull, (first, last), (low, high), slant, port))
-        x, angle = np.meshgrid(np.linspace(-3.94, -2.84, 14), np.linspace(0.42, 1.50, 12), indexing="ij")
-        x = x + 0.28 * (1.50 - angle)
-        panes.append(hull.patch(x, math.pi - angle if port else angle, _GLASS_OUT))
-    return joined(panes)
-
-
-def _pane(hull: Hull, along: tuple[float, float], height: tuple[float, float], slant: float, port: bool) -> Mesh:
-    x, z = np.meshgrid(np.linspace(*along, 9), np.linspace(*height, 8), indexing="ij")
-    x = x + slant * (z - height[0]) / (height[1] - height[0])
-    angle = hull.side_angle(x, z)
-    return hull.patch(x, math.pi - angle if port else angle, _GLASS_OUT)
+        for along, height, aft in panes:
+            x, z = np.meshgrid(np.linspace(*along, 9), np.linspace(*height, 8), indexing="ij")
+            x = x + aft * (z - height[0]) / (height[1] - height[0])
+            angle = hull.side_angle(x, z)
+            found.append(hull.patch(x, math.pi - angle if port else angle, _GLASS_OUT))
+        x, angle = np.meshgrid(np.linspace(*front, 14), np.linspace(lowest, 1.50, 12), indexing="ij")
+        x = x + slant * (1.50 - angle)
+        found.append(hull.patch(x, math.pi - angle if port else angle, _GLASS_OUT))
+    return joined(found)
 
 
 def _generic() -> dict[str, Mesh]:
@@ -210,15 +196,10 @@ def _generic() -> dict[str, Mesh]:
         skids += [tube((x, 0.75 * side, -3.15), (x, 1.25 * side, ground), 0.045) for x in (-1.60, 0.70)]
     legs.append(tube((6.60, 0.0, -2.00), (6.90, 0.0, ground + 0.24), 0.06, 0.05))
     wheels.append(_wheel(np.array([6.95, 0.0, ground + 0.22]), 0.22, 0.16))
-    panes = []
-    for port in (False, True):
-        panes.append(_pane(hull, (-1.10, 0.20), (-2.50, -1.62), 0.0, port))
-        panes.append(_pane(hull, (-2.35, -1.35), (-2.50, -1.62), 0.10, port))
-        x, angle = np.meshgrid(np.linspace(-3.55, -2.55, 14), np.linspace(0.10, 1.50, 12), indexing="ij")
-        panes.append(hull.patch(x + 0.16 * (1.50 - angle), math.pi - angle if port else angle, _GLASS_OUT))
+    panes = (((-1.10, 0.20), (-2.50, -1.62), 0.0), ((-2.35, -1.35), (-2.50, -1.62), 0.10))
     return {
         "generic-body": joined(body),
-        "generic-glass": joined(panes),
+        "generic-glass": _glass(hull, panes, (-3.55, -2.55), 0.10, 0.16),
         "generic-legs": joined(legs),
         "generic-wheels": joined(wheels),
         "generic-skids": joined(skids),
@@ -246,11 +227,21 @@ def _tail_rotor(hub: Array, radius: float, blades: int, cant: float) -> list[Mes
     return parts
 
 
-def main() -> None:
-    """Write the file."""
-    FILE.write_bytes(glb())
-    print(f"{FILE}: {FILE.stat().st_size / 1e3:.0f} kB")
+def parts() -> dict[str, Mesh]:
+    """By the name of the node: what there is of each aircraft in one colour."""
+    return {**_black_hawk(), **_generic()}
+
+
+def glb() -> bytes:
+    """The file."""
+    scene = trimesh.Scene()
+    scene.metadata = {"source": SOURCE, "ground_m": GROUND}
+    for name, mesh in parts().items():
+        solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+        scene.add_geometry(solid, node_name=name, geom_name=name, transform=_Z_UP)
+    return cast(bytes, scene.export(file_type="glb", include_normals=False))
 
 
 if __name__ == "__main__":
-    main()
+    FILE.write_bytes(glb())
+    print(f"{FILE}: {FILE.stat().st_size / 1e3:.0f} kB")

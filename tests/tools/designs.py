@@ -118,16 +118,16 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
     warm = solve(design, neighbour)
     stalled = max(solution.stalled_area, warm.stalled_area)
+    kind, said = "trimmed", ""
     if solution.converged != warm.converged:
         kind = "at the limit" if "of the disk is stalled" in solution.message else "other status"
-        return Outcome(asked, kind, f"cold {solution.message} warm {warm.message}", first, alone, plain, stalled)
-    if not solution.converged:
-        return Outcome(asked, "refused", solution.message, first, alone, plain, stalled)
-    if not _same(solution, warm):
-        cold, other = solution.last_power.main_rotor, warm.last_power.main_rotor
+        said = f"cold {solution.message} warm {warm.message}"
+    elif not solution.converged:
+        kind, said = "refused", solution.message
+    elif not _same(solution, warm):
         kind = "in deep stall" if stalled > BEYOND else "other power"
-        return Outcome(asked, kind, f"cold {cold:.3f} W, warm {other:.3f} W", first, alone, plain, stalled)
-    return Outcome(asked, "trimmed", "", first, alone, plain, stalled)
+        said = f"cold {solution.last_power.main_rotor:.3f} W, warm {warm.last_power.main_rotor:.3f} W"
+    return Outcome(asked, kind, said, first, alone, plain, stalled)
 
 
 def _same(one: Solution, other: Solution) -> bool:

@@ -25,8 +25,8 @@ async def visit(address: str) -> str:
         return power
 
 
-def main(port: int) -> int:
-    """Print what was seen as JSON."""
+def facts(port: int) -> dict[str, object]:
+    """What was seen."""
     command = [sys.executable, "-m", "explorer", "--no-browser", "--port", str(port)]
     server = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert server.stdout is not None
@@ -35,10 +35,9 @@ def main(port: int) -> int:
     server.send_signal(signal.SIGTERM)
     _, errors = server.communicate(timeout=90)
     writable = [place for place in (ROOT, Path("/"), Path("/usr")) if os.access(place, os.W_OK)]
-    facts = {"power": power, "code": server.returncode, "errors": errors, "home": os.environ.get("HOME")}
-    print(json.dumps({**facts, "writable": [str(place) for place in writable]}))
-    return 0
+    seen = {"power": power, "code": server.returncode, "errors": errors, "home": os.environ.get("HOME")}
+    return {**seen, "writable": [str(place) for place in writable]}
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1])))
+    print(json.dumps(facts(int(sys.argv[1]))))

@@ -67,11 +67,9 @@ def digests(folder: Path) -> dict[str, str]:
 
 
 def find_python(version: str) -> str | None:
-    """An interpreter of a version, for example 3.12: on the path, or one of pyenv's."""
-    own = ".".join(str(number) for number in sys.version_info[:2])
-    if version == own:
-        return sys.executable
-    places = [*Path.home().glob(f".pyenv/versions/{version}*/bin/python"), shutil.which(f"python{version}")]
+    """An interpreter of a version, for example 3.12: this one, on the path, or one of pyenv's."""
+    pyenv = Path.home().glob(f".pyenv/versions/{version}*/bin/python")
+    places = [sys.executable, *pyenv, shutil.which(f"python{version}")]
     code = "import sys; print('.'.join(map(str, sys.version_info[:2])))"
     for place in filter(None, places):  # One that is on the path may be a shim that leads nowhere.
         found = subprocess.run([place, "-c", code], capture_output=True, text=True)
@@ -212,11 +210,7 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
                 rows = licences(python, place)
                 lines = (f"{name:28}{number:16}{licence or 'not stated'}" for name, number, licence in rows)
                 (folder / "licences.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-                wrong = unfit(rows)
-                yield (
-                    f"licences of {len(rows)} dependencies, in licences.txt",
-                    f"see {', '.join(wrong)}" if wrong else "",
-                )
+                yield f"licences of {len(rows)} dependencies, in licences.txt", ", ".join(unfit(rows))
             shutil.rmtree(place / version)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.tools.release import find_python, first_example, unfit, version_faults
+from tests.tools.release import unfit, version_faults
 
 PROJECT = '[project]\nversion = "1.2.0"\n'
 
@@ -37,14 +37,3 @@ def test_licences_that_bind_or_are_not_stated_are_found():
         ("h", "1", "BSD-3-Clause AND GPL-3.0-or-later WITH GCC-exception-3.1"),
     ]
     assert unfit(rows) == ["b", "c", "e", "g"]
-
-
-def test_this_interpreter_is_found_and_a_future_one_is_not():
-    import sys
-
-    assert find_python(".".join(map(str, sys.version_info[:2]))) == sys.executable
-    assert find_python("3.99") is None
-
-
-def test_the_documentation_has_a_first_example():
-    assert first_example().startswith("import rotor")

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
 from rotor.airfoil.contour import load_contour
-from rotor.airfoil.polars import PolarSet, read_polars, write_polars
+from rotor.airfoil.polars import PolarSet, read_polars
 from rotor.assets import asset_path
 from tests.tools.sections import __main__ as command
 from tests.tools.sections import xfoil
@@ -20,7 +20,19 @@ from tests.tools.sections.recipes import (
     make_deck,
     run_trip_polars,
 )
-from tests.tools.sections.xfoil import XfoilCase, XfoilError, XfoilMissing, require_xfoil, run_polar
+from tests.tools.sections.xfoil import XfoilCase, XfoilError, require_xfoil, run_polar
+
+CASE = XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)
+FEW = np.arange(-2.0, 5.0)
+
+
+@pytest.fixture
+def real_xfoil() -> None:
+    """Skips the test where XFOIL is not installed."""
+    try:
+        require_xfoil()
+    except XfoilError as missing:
+        pytest.skip(str(missing))
 
 
 @pytest.mark.parametrize("name", RECIPES)
@@ -31,7 +43,8 @@ def test_deck_rebuilt_from_the_raw_polars_is_the_shipped_deck(name: str) -> None
     shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
     rebuilt = make_deck(name, polars)
     found = compare_decks(rebuilt, shipped)
-    assert found.within(1.1e-4, 0.003), found  # a unit in the last printed decimal, for other arithmetic
+    assert found.cl < 1.1e-4, found  # a unit in the last printed decimal, for other arithmetic
+    assert found.cd < 0.003, found
     assert_allclose(rebuilt.cm.values, shipped.cm.values, rtol=0, atol=1.1e-4)
     assert tuple(p.mach for p in polars.polars) == (NATIVE_MACHS if recipe.polars == "trip5" else recipe.machs)
     for p in polars.polars:
@@ -96,45 +109,32 @@ def test_gaps_are_grouped_outward() -> None:
 
 
 @pytest.mark.xfoil
-def test_one_real_polar_is_close_to_thin_airfoil_theory() -> None:
+def test_one_real_polar_is_close_to_thin_airfoil_theory(real_xfoil: None) -> None:
     """cl slope of a thin section: 2 pi / beta, plus some 10 % for thickness, less the boundary layer."""
-    try:
-        xfoil.require_xfoil()
-    except xfoil.XfoilMissing as missing:
-        pytest.skip(str(missing))
-    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)
-    polar = xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
+    polar = run_polar(load_contour("sc1095"), CASE, FEW)
     slope = np.polyfit(np.deg2rad(polar.alpha_deg), polar.cl, 1)[0]
     assert_allclose(slope, 2.0 * np.pi / np.sqrt(1.0 - 0.3**2), rtol=0.1)
     assert polar.alpha_deg.size >= 6
 
 
-def test_xfoil_that_crashes_is_an_error_not_a_polar(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Replaces XFOIL by a program that is killed by a signal, as Debian's does with its graphics off."""
-    for name, body in (("xfoil", "kill -FPE $$"), ("xvfb-run", "exit 136")):
-        (tmp_path / name).write_text(f"#!/bin/sh\n{body}\n", encoding="utf-8")
-        (tmp_path / name).chmod(0o755)
-    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)
-    with pytest.raises(xfoil.XfoilError, match="converged at only 0 of 7"):
-        xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
-
-
-def test_xfoil_that_hangs_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("does", "limit", "words"),
+    [("kill -FPE $$", 120.0, "converged at only 0 of 7"), ("sleep 60 & wait", 0.05, "from-polars")],
+    ids=["crashes, as Debian's does with its graphics off", "hangs"],
+)
+def test_xfoil_that_fails_is_an_error_not_a_polar(
+    does: str, limit: float, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     for name in ("xfoil", "xvfb-run"):
-        (tmp_path / name).write_text("#!/bin/sh\nsleep 60 & wait\n", encoding="utf-8")
+        (tmp_path / name).write_text(f"#!/bin/sh\n{does}\n", encoding="utf-8")
         (tmp_path / name).chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    monkeypatch.setattr(xfoil, "_TIME_LIMIT", 0.05)
-    case = xfoil.XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=None)
-    with pytest.raises(xfoil.XfoilError, match="from-polars"):
-        xfoil.run_polar(load_contour("sc1095"), case, np.arange(-2.0, 5.0))
+    monkeypatch.setattr(xfoil, "_TIME_LIMIT", limit)
+    with pytest.raises(XfoilError, match=words):
+        run_polar(load_contour("sc1095"), CASE, FEW)
 
 
-def test_polar_files_round_trip(tmp_path: Path) -> None:
-    path = asset_path("airfoils/sc1095_trip5.polars.csv")
-    write_polars(tmp_path / "copy.csv", read_polars(path))
-    assert (tmp_path / "copy.csv").read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
+def test_a_damaged_polar_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.csv").write_text("mach,reynolds,alpha_deg,cl,cd,cm\n0.3,1e6,0,0.1,-0.01,0\n", encoding="utf-8")
     with pytest.raises(ValueError, match="line 2"):
         read_polars(tmp_path / "bad.csv")
@@ -146,7 +146,7 @@ def test_verify_detects_a_change() -> None:
     values[shipped.cl.alpha_deg == 5.0, 4] += 0.02
     changed = C81Deck(shipped.title, C81Block(shipped.cl.mach, shipped.cl.alpha_deg, values), shipped.cd, shipped.cm)
     found = compare_decks(changed, shipped)
-    assert not found.within(0.01, 0.03)
+    assert found.cl == pytest.approx(0.02)
     assert found.cl_at == "5 deg, Mach 0.4"
     with pytest.raises(ValueError, match=r"lack Mach 0\.1"):
         make_deck("sc1095", PolarSet((), ()))
@@ -160,12 +160,8 @@ def test_a_measured_polar_is_not_rebuilt_by_xfoil() -> None:
 @pytest.mark.slow
 @pytest.mark.xfoil
 @pytest.mark.parametrize("name", [name for name, recipe in RECIPES.items() if recipe.polars == "trip5"])
-def test_xfoil_reproduces_the_polars(name: str) -> None:
+def test_xfoil_reproduces_the_polars(name: str, real_xfoil: None) -> None:
     """Attached flow only: near stall the angles that converge depend on the time a sweep is given."""
-    try:
-        require_xfoil()
-    except XfoilMissing as missing:
-        pytest.skip(str(missing))
     for shipped in read_polars(asset_path(f"airfoils/{name}_trip5.polars.csv")).polars:
         alpha = np.arange(-4.0, 8.25, 0.5)
         found = run_polar(load_contour(name), XfoilCase(shipped.mach, shipped.reynolds, 9.0, TRIP), alpha)

@@ -13,8 +13,7 @@ from rotor.files.make_design import RETIRED, current_model, make_design
 from rotor.study.point import design_of
 from rotor.study.study_file import read_study
 from rotor.user_input import Notice
-from rotor.validation.compare import compare
-from rotor.validation.measured import load_set
+from rotor.validation.compare import compare, load_set
 
 QUICK = ("--twist", "linear:-10", "--off", "elastic-twist")
 OLD = "dynamic-wake-quick"

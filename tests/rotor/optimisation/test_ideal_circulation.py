@@ -1,10 +1,10 @@
 """The least induced power: an independent program's table, and conditions of a minimum."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
-from inflow_tables import table
 from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
 
@@ -12,6 +12,7 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
+from rotor.assets import csv_rows
 from rotor.files.make_design import make_design
 from rotor.optimisation.ideal_bound import (
     AZIMUTHS,
@@ -26,7 +27,7 @@ from rotor.trim.forward import with_course
 
 COARSE = Line(4, 0.13, 16, 36)
 BLADE = LinearBlade()
-ROWS = {row["mu"]: row for row in table("bound_kappa")}
+ROWS = {row["mu"]: row for row in csv_rows(Path(__file__).parents[2] / "data/inflow/bound_kappa.csv")}
 
 
 class Helix(WakeCourse):

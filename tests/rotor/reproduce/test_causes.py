@@ -1,7 +1,7 @@
 """Sentences that name a cause, in the page of a lecture, the README and the documentation, and the switch behind each.
 
 A sentence is found in its file, and what it says is computed here: with the cause switched off, the effect is gone or
-as large as the sentence says. Those of the lecture's steps are in `tests/explorer/test_lecture.py` as well.
+as large as the sentence says. Most of those of the lecture's steps are in `tests/explorer/test_lecture.py`.
 """
 
 from collections.abc import Callable
@@ -136,28 +136,11 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
         lambda: best(without("elastic"), 0.0) < best(ALL, 0.0) - 1.0,
     ),
     (
-        "explorer/story/text/linear_inflow.md",
-        "so the optimum of such a model is one of profile drag only",
-        lambda: abs(total("linear:0", 0.2, inflow="pitt-peters").induced
-                    - total("linear:-12", 0.2, inflow="pitt-peters").induced) < 1e3,
-    ),
-    (
-        "explorer/story/text/responding_wake.md",
-        "What the linear model could not see is most of what twist is worth at this speed",
-        lambda: total("linear:0", 0.2).induced - total("linear:-12", 0.2).induced
-        > 0.5 * (total("linear:0", 0.2).total - total("linear:-12", 0.2).total),
-    ),
-    (
         "explorer/story/text/fast_twist.md",
         "The trim decides. Cyclic pitch and the air that comes through the tilted disk move the best twist",
         lambda: [round(value) for value in ends(*TRIM)] == [-10, -7]
         and max(abs(value) for value in moves("mach")) < 1.5
         and abs(twice_the_blades(FAST).rate_deg - best(without("elastic"))) < 1.5,
-    ),
-    (
-        "explorer/story/text/fast_twist.md",
-        "Without fuselage drag the disk is hardly tilted, and A needs {without_drag} less than B",
-        lambda: total("linear:-4", FAST, off="fuselage").total < total("linear:-11.6", FAST, off="fuselage").total,
     ),
 )  # fmt: skip
 """File, the words that name a cause or its size, and what they say, computed."""

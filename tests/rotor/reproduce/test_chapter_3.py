@@ -104,8 +104,7 @@ def test_tail_rotor(report: Make):
 
 
 def test_figure_3_10(report: Make):
-    """Minimum power between hover and fast flight; within 15 % of a public model's curve; near the hover points. "
-    "Indicative."""
+    """Minimum power between hover and fast flight; within 15 % of a public model's curve; near the hover points."""
     one = report("3.10")
     assert one.verdict is Agreement.INDICATIVE
     total = {name: column(one.tables[0], name) for name in ("flight", "thesis")}
@@ -163,8 +162,7 @@ def test_figure_3_12(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_13(report: Make):
-    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor; with linear inflow it costs < 0.5 "
-    "%."""
+    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor; with linear inflow it costs < 0.5 %."""
     numbers = report("3.13").numbers
     assert numbers["thesis-wake_always_8"] == 1.0
     assert 0.0 < numbers["thesis_cost_of_8"] < 5e-3
@@ -172,8 +170,7 @@ def test_figure_3_13(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_14(report: Make):
-    """−4° is best at µ 0.35 on the thesis' rotor with either inflow, not in the flight preset, nor once trimmed by "
-    "cyclic."""
+    """−4° is best at µ 0.35 on the thesis' rotor with either inflow, not in `flight`, nor once trimmed by cyclic."""
     numbers = report("3.14").numbers
     assert numbers["thesis_best"] == numbers["thesis-wake_best"] == -4.0
     assert numbers["flight_best"] == -12.0

@@ -20,8 +20,7 @@ from rotor.trim.low_speed import trim_problem
 from rotor.trim.power import power_budget
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.compare import design_at
-from rotor.validation.measured import load_set
+from rotor.validation.compare import design_at, load_set
 
 
 def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:

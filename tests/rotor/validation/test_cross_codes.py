@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotor.validation.cross_codes import beside_ccblade, beside_dynbem
+from rotor.validation.verification import beside_ccblade, beside_dynbem
 
 
 def test_dynbem_pitt_peters_forward_flight():

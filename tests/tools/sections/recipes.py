@@ -12,7 +12,7 @@ import numpy as np
 from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.decks import BLEND_END_DEG, SectionTraits, assemble_deck
-from rotor.airfoil.polars import Polar, PolarSet
+from rotor.airfoil.polars import PolarSet
 from rotor.arrays import Array
 from rotor.user_input import did_you_mean
 from tests.tools.sections.tunnel import TunnelTraits
@@ -42,8 +42,9 @@ class Recipe:
     """Why they begin later than the others, for the head of the file."""
 
 
-def _six_series(thickness: float) -> SectionTraits:
-    """Cap of the NACA 0012, Korn's factor of the textbook: of sections without a public table."""
+def _textbook(thickness: float) -> SectionTraits:
+    """Cap and Korn's factor read off the public NACA 0012 C81 table (CITATION.md); the factor is also the textbook's
+    for six-series sections (Mason 1990)."""
     return SectionTraits(thickness=thickness, cap_ratio=0.90, korn=0.87)
 
 
@@ -93,26 +94,23 @@ RECIPES = {
             reynolds_per_mach=12.27e6,
         ),
     ),
-    # The S-61's chord, 0.464 m. Cap and Korn's factor read off the public NACA 0012 C81 table (CITATION.md).
-    "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, SectionTraits(thickness=0.12, cap_ratio=0.90, korn=0.87)),
-    # The R22's chord, 0.189 m. No public table with Mach was found: the cap is that of the NACA 0012, Korn's factor
-    # the textbook's for six-series sections (Mason 1990).
-    "naca63a015": Recipe(
-        "NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, SectionTraits(thickness=0.15, cap_ratio=0.90, korn=0.87)
-    ),
-    # The XV-15's chord, 0.356 m, root to tip. Cap and Korn's factor as for the 63-015A; no table was read off.
-    "naca64208": Recipe("NACA64-208 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.08)),
-    "naca64118": Recipe("NACA64-118 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.18)),
-    "naca64528": Recipe("NACA64-528 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.28)),
+    # The S-61's chord, 0.464 m.
+    "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, _textbook(0.12)),
+    # The R22's chord, 0.189 m. No public table with Mach was found.
+    "naca63a015": Recipe("NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, _textbook(0.15)),
+    # The XV-15's chord, 0.356 m, root to tip; no table was read off.
+    "naca64208": Recipe("NACA64-208 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.08)),
+    "naca64118": Recipe("NACA64-118 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.18)),
+    "naca64528": Recipe("NACA64-528 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.28)),
     "naca64935": Recipe(
         "NACA64-935 XFOIL TRIP5 WRAP",
         8.28e6,
-        _six_series(0.35),
+        _textbook(0.35),
         lowest_alpha_deg=-4.0,
         lowest_reason="the lower side separates and lift rises again",
     ),
     # The PCA-2's outer chord, 0.559 m; its tip stays below Mach 0.5.
-    "goe429": Recipe("GOETTINGEN 429 XFOIL TRIP5", 13.0e6, _six_series(0.114)),
+    "goe429": Recipe("GOETTINGEN 429 XFOIL TRIP5", 13.0e6, _textbook(0.114)),
     # The SA349/2's chord, 0.35 m. Level, onset, centre and zero lift: least squares on the table of NASA TM-88370, -2
     # to 10 deg, Mach 0.3 to 0.85. Largest lift of the same table: 1.28, 1.20, 1.11 at Mach 0.3, 0.4, 0.5. It has no
     # moment.
@@ -133,7 +131,7 @@ RECIPES = {
     "naca23012tab": Recipe("NACA23012 TAB HART2 TABLE", 6.29e6, _naca23012(6.29e6)),
     "naca23012tab-model": Recipe("NACA23012 TAB MODEL HART2", 2.82e6, _naca23012(2.82e6)),
     # Knight and Hefner's model rotor, whose polar they measured at the Reynolds number of its tip.
-    "naca0015re242k": Recipe("NACA0015 RE 242000 MEASURED", 1.21e6, _six_series(0.15), (0.2,), "measured"),
+    "naca0015re242k": Recipe("NACA0015 RE 242000 MEASURED", 1.21e6, _textbook(0.15), (0.2,), "measured"),
 }
 
 
@@ -146,24 +144,21 @@ class Difference:
     cd: float
     cd_at: str
 
-    def within(self, cl_tolerance: float, cd_tolerance: float) -> bool:
-        """True when both are within their tolerances."""
-        return self.cl <= cl_tolerance and self.cd <= cd_tolerance
 
-
-def check_name(name: str) -> None:
+def recipe_of(name: str) -> Recipe:
     """ValueError unless `name` is a section this project can build."""
     if name not in RECIPES:
         hint = did_you_mean(name, RECIPES) or ":"
         raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(RECIPES)}")
+    return RECIPES[name]
 
 
 def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
     """Run XFOIL for the deck of `name` at every angle of its recipe; takes up to minutes."""
-    check_name(name)
-    if RECIPES[name].polars == "measured":
+    recipe = recipe_of(name)
+    if recipe.polars == "measured":
         raise XfoilError(f"the polar of {name} was measured: add --from-polars")
-    contour, recipe = load_contour(name), RECIPES[name]
+    contour = load_contour(name)
     per_mach, lowest = recipe.reynolds_per_mach, recipe.lowest_alpha_deg
     below = f", and those below {lowest:g} deg, where {recipe.lowest_reason}" if recipe.lowest_reason else ""
     header = (
@@ -171,11 +166,9 @@ def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
         f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {per_mach:.4g} * Mach",
         f"angles where no paneling converged are left out{below}",
     )
-    polars: list[Polar] = []
-    for mach in NATIVE_MACHS:
-        case = XfoilCase(mach, per_mach * mach, 9.0, TRIP)
-        polars.append(run_polar(contour, case, POLAR_ALPHA_DEG[lowest <= POLAR_ALPHA_DEG], report))
-    return PolarSet(header, tuple(polars))
+    angles = POLAR_ALPHA_DEG[lowest <= POLAR_ALPHA_DEG]
+    cases = (XfoilCase(mach, per_mach * mach, 9.0, TRIP) for mach in NATIVE_MACHS)
+    return PolarSet(header, tuple(run_polar(contour, case, angles, report) for case in cases))
 
 
 def run_thesis_polar(report: Callable[[str], None]) -> PolarSet:
@@ -190,15 +183,14 @@ def run_thesis_polar(report: Callable[[str], None]) -> PolarSet:
 
 def make_deck(name: str, polars: PolarSet) -> C81Deck:
     """The deck of `name` from its raw polars, rounded as the C81 text rounds it."""
-    check_name(name)
+    recipe = recipe_of(name)
     by_mach = {round(p.mach, 3): p for p in polars.polars}
-    machs = RECIPES[name].machs
-    missing = [m for m in machs if m not in by_mach]
+    missing = [m for m in recipe.machs if m not in by_mach]
     if missing:
         raise ValueError(
             f"the polars of {name} lack Mach {missing[0]:g}: run `python -m tests.tools.sections build {name}`"
         )
-    return assemble_deck(RECIPES[name].title, [by_mach[m] for m in machs], RECIPES[name].traits.correct)
+    return assemble_deck(recipe.title, [by_mach[m] for m in recipe.machs], recipe.traits.correct)
 
 
 def compare_decks(new: C81Deck, old: C81Deck) -> Difference:

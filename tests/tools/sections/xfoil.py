@@ -11,7 +11,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -35,10 +35,6 @@ class XfoilError(RuntimeError):
     """XFOIL gave no usable polar; the message is one sentence with a remedy."""
 
 
-class XfoilMissing(XfoilError):
-    """XFOIL is not installed here."""
-
-
 @dataclass(frozen=True)
 class XfoilCase:
     """Flow of one polar: `mach`, `reynolds` [-], `n_crit`, and `trip` [chord] on both sides or None for free."""
@@ -50,14 +46,14 @@ class XfoilCase:
 
 
 def require_xfoil() -> None:
-    """Raise `XfoilMissing` with a remedy when the xfoil program, or a way to run it without a screen, is absent."""
+    """Raise `XfoilError` with a remedy when the xfoil program, or a way to run it without a screen, is absent."""
     if shutil.which("xfoil") is None:
-        raise XfoilMissing(
+        raise XfoilError(
             "xfoil was not found: the bundled decks serve at run time, only rebuilding polars needs it; "
             "install it (Debian: apt install xfoil xvfb) or rebuild with --from-polars"
         )
     if _compiler() is None and shutil.which("xvfb-run") is None:
-        raise XfoilMissing("xfoil needs a C compiler or xvfb-run to run without a screen: apt install xvfb, or gcc")
+        raise XfoilError("xfoil needs a C compiler or xvfb-run to run without a screen: apt install xvfb, or gcc")
 
 
 def _compiler() -> str | None:
@@ -96,40 +92,22 @@ def _sweep(
     if case.trip is not None:
         commands += [f"XTR {case.trip:g} {case.trip:g}"]
     commands += ["", f"ITER {iterations}", "PACC", "polar.txt", "", f"ASEQ {start:g} {stop:g} {step:g}", "", "QUIT", ""]
+    environment, program = dict(os.environ), ["xvfb-run", "-a", "xfoil"]
+    if (shim := _shim_folder()) is not None:
+        commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
+        environment["LD_PRELOAD"], program = str(Path(shim.name) / "notraps.so"), ["xfoil"]
     body = "\n".join(f"{x:.7f} {y:.7f}" for x, y in contour.points)
-    written, clean = run_commands(commands, {"section.dat": f"{contour.name}\n{body}\n"}, ("polar.txt",))
-    rows = _parse(written["polar.txt"]) if "polar.txt" in written else {}
+    with tempfile.TemporaryDirectory(prefix="rotor-xfoil-") as folder:
+        Path(folder, "section.dat").write_text(f"{contour.name}\n{body}\n", encoding="utf-8")
+        clean = _run(program, "\n".join(commands), folder, environment)
+        polar = Path(folder, "polar.txt")
+        rows = _parse(polar.read_text(encoding="utf-8", errors="replace")) if polar.exists() else {}
     if not clean and rows:
         rows.popitem()  # The last row of a crashed or killed run may be truncated, or NaN.
     return rows
 
 
-def run_commands(
-    commands: Sequence[str], inputs: Mapping[str, str], outputs: Sequence[str]
-) -> tuple[dict[str, str], bool]:
-    """Run one XFOIL process without a screen, starting in its top menu.
-
-    `inputs` are written to its folder first. Returns the texts of those `outputs` that it wrote, and False if it
-    crashed or was killed.
-    """
-    shim = _shim_folder()
-    if shim is not None:
-        commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
-    with tempfile.TemporaryDirectory(prefix="rotor-xfoil-") as folder:
-        where = Path(folder)
-        for name, text in inputs.items():
-            (where / name).write_text(text, encoding="utf-8")
-        call = ["xfoil"] if shim is not None else ["xvfb-run", "-a", "xfoil"]
-        environment = dict(os.environ)
-        if shim is not None:
-            environment["LD_PRELOAD"] = str(Path(shim.name) / "notraps.so")
-        clean = _run(call, "\n".join(commands), where, environment)
-        paths = [where / name for name in outputs]
-        written = {path.name: path.read_text(encoding="utf-8", errors="replace") for path in paths if path.exists()}
-    return written, clean
-
-
-def _run(call: list[str], commands: str, folder: Path, environment: dict[str, str]) -> bool:
+def _run(call: list[str], commands: str, folder: str, environment: dict[str, str]) -> bool:
     """Run one process on `commands`; False when it crashed or was killed for exceeding a limit."""
     with subprocess.Popen(
         [*_LIMITED, *call], cwd=folder, env=environment, text=True, start_new_session=True,

@@ -4,18 +4,17 @@ import asyncio
 import math
 import random
 import time
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 
 import numpy as np
 
-from explorer.model.inputs import OPENING, Inputs, ViewState
+from explorer.model.inputs import OPENING, ViewState
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.picture import flown_twist
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from tests.tools.soak.figures import Visit
 from tests.tools.soak.visitor import Visitor
 
 SLIDER, NAME = "Δ inboard [°/R]", "built_inner"
@@ -34,6 +33,23 @@ _SAME = 1e-4
 slider moves its edges by some millimetres."""
 
 
+@dataclass
+class Visit:
+    """What one browser saw."""
+
+    edits: int = 0
+    """Moves of the slider."""
+    delays_ms: list[float] = field(default_factory=list[float])
+    """From an edit leaving the page to the frame that shows it, or a later one; of each that was answered, in order."""
+    rounds: int = 0
+    """Times it stopped dragging and waited for the last answer."""
+    lost: list[str] = field(default_factory=list[str])
+    """Sentences: last edits whose answer did not come or was not the right one."""
+    frames: int = 0
+    megabytes: float = 0.0
+    complaints: list[str] = field(default_factory=list[str])
+
+
 class Dragger:
     """Drives a visitor and keeps the book: which twist a frame shows, and when it was asked for."""
 
@@ -48,15 +64,12 @@ class Dragger:
         """When each edit was sent [s]."""
         self._answered = 0
         """All edits before this one have been answered."""
-        self._delays: list[float] = []
-        self._frames = self._rounds = 0
-        self._lost: list[str] = []
+        self._visit = Visit()
         self._measuring = False
 
     async def run(self, address: str, begin: float, end: float, rate: float) -> Visit:
         """Come, drag from `begin` to `end` (`time.monotonic`) with short rests, leave."""
-        complaints: list[str] = []
-        visitor = self.visitor
+        visitor, visit = self.visitor, self._visit
         try:
             await visitor.open(address)
             await visitor.until(lambda: visitor.text("status") == "converged", _PATIENCE)
@@ -67,21 +80,13 @@ class Dragger:
             while time.monotonic() < end:
                 await self._drag(min(time.monotonic() + _DRAG, end), 1.0 / rate)
                 await self._check()
+            visit.megabytes = (visitor.bytes - bytes_before) / 1e6
         except (ConnectionError, TimeoutError, LookupError, OSError) as error:
-            complaints.append(f"{self._name}: {error or type(error).__name__}")
-            bytes_before = 0
+            visit.complaints.append(f"{self._name}: {error or type(error).__name__}")
         await visitor.close()
-        megabytes = (visitor.bytes - bytes_before) / 1e6
-        complaints += [f"{self._name}: {notice}" for notice in visitor.notices]
-        return Visit(
-            len(self._times),
-            tuple(self._delays),
-            self._rounds,
-            tuple(self._lost),
-            self._frames,
-            megabytes,
-            tuple(complaints),
-        )
+        visit.edits = len(self._times)
+        visit.complaints += [f"{self._name}: {notice}" for notice in visitor.notices]
+        return visit
 
     async def _drag(self, until: float, period: float) -> None:
         """To and fro as a hand does, in steps of the slider, one edit a period."""
@@ -107,19 +112,19 @@ class Dragger:
         """A frame: it answers the last edit that asked for its blade, and all before that one."""
         if not self._measuring:
             return
-        self._frames += 1
+        self._visit.frames += 1
         asked = self._asked.get(expected().value_of(vertices))
         if asked is None:
-            self._lost.append(f"{self._name}: a frame showed a blade that nobody asked for")
+            self._visit.lost.append(f"{self._name}: a frame showed a blade that nobody asked for")
             return
         now = time.monotonic()
         while asked and self._answered <= asked[-1]:
-            self._delays.append(1e3 * (now - self._times[self._answered]))
+            self._visit.delays_ms.append(1e3 * (now - self._times[self._answered]))
             self._answered += 1
 
     async def _check(self) -> None:
         """The slider rests: blade and power must become those of its value."""
-        self._rounds += 1
+        self._visit.rounds += 1
         visitor, power = self.visitor, expected().power_kw[self._value]
 
         def right() -> bool:
@@ -130,7 +135,9 @@ class Dragger:
             await visitor.until(right, _PATIENCE)
         except TimeoutError:
             shown = visitor.text("total-power")
-            self._lost.append(f"{self._name}: {SLIDER} {self._value:g} means {power:.1f} kW, the page shows {shown!r}")
+            self._visit.lost.append(
+                f"{self._name}: {SLIDER} {self._value:g} means {power:.1f} kW, the page shows {shown!r}"
+            )
 
 
 class Expected:
@@ -143,7 +150,7 @@ class Expected:
         self.power_kw: dict[float, float] = {}
         blades: list[Array] = []
         for value in self._values:
-            solution = solve(_inputs(value).design(), solution)
+            solution = solve(replace(OPENING, **{NAME: value}).design(), solution)
             self.power_kw[value] = solution.power.total / 1e3
             view = ViewState()
             twist = flown_twist(solution, math.radians(view.azimuth_deg))
@@ -164,10 +171,6 @@ class Expected:
 def expected() -> Expected:
     """Made once, before anything is timed."""
     return Expected()
-
-
-def _inputs(value: float) -> Inputs:
-    return replace(OPENING, **{NAME: value})
 
 
 def _kilowatts(text: str) -> float:

@@ -29,7 +29,7 @@ _CAMERA = {
     "look_at": (0.0, 0.0, 0.0),
     "up_direction": (0.0, 0.0, 1.0),
 }
-_SHOWN = re.compile(r'data-explorer="([\w-]+)"([^>]*)>([^<]*)')
+_SHOWN = r'data-explorer="{}"([^>]*)>([^<]*)'
 _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
 _CARD_KINDS = {"care": "converged"}
 """Kinds of the power card that the page marks otherwise."""
@@ -115,12 +115,9 @@ class Visitor:
             kind = power["status"]["kind"]
             return f"{power['total']} {power['unit']}" if part == "total-power" else str(_CARD_KINDS.get(kind, kind))
         for widget in self.widgets.values():
-            content = widget.get("content")
-            if isinstance(content, str) and part in content:
-                for name, attributes, text in _SHOWN.findall(content):
-                    if name == part:
-                        kind = _KIND.search(attributes)
-                        return kind[1] if kind else text
+            if shown := re.search(_SHOWN.format(part), str(widget.get("content"))):
+                kind = _KIND.search(shown[1])
+                return kind[1] if kind else shown[2]
         return ""
 
     async def until(self, true: Callable[[], bool], patience: float = 90.0) -> None:

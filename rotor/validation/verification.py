@@ -1,0 +1,360 @@
+"""Verification: our equations beside what they must satisfy, and beside two independent public codes.
+
+Theory: identities, closed forms and integration in time. Codes: dynbem in forward flight, WISDEM's CCBlade in axial
+flow, both with our trimmed controls, blade and section data, so the remaining differences come from their mathematics.
+Neither is a dependency: they are installed by the extras `test` and `crosscheck`.
+"""
+
+import importlib
+import importlib.util
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
+from scipy.optimize import root
+
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.problem import build_problem, in_disk_axes
+from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UT, section
+from rotor.airfoil.sections import load_section
+from rotor.arrays import Array
+from rotor.columns.hover import closed_form_inflow
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.line_chart import LineChart, Series
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import SolverOptions, newton
+from rotor.trim.power import profile_power_coefficient
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.validation.trust import TrustRow, TrustSet, bound, share, trust_rows
+
+SPEEDS = (0.1, 0.2, 0.3)
+CCBLADE_MASSES = (5000.0, 8322.4)
+RATE_DEG = -8.0
+SECTION = "sc1095-thesis"
+MACH = 0.3
+AXIAL_SPEED = 0.02
+"""CCBlade divides by the axial speed; hover is run as a climb of 0.02 m/s, with about 13 m/s induced."""
+DYNBEM_DIFFERENCES = (
+    "Same: blade, twist, section table, collective, cyclic, shaft tilt, no loss factors. Theirs: three inflow states "
+    "driven by thrust and both hub moments, rigid blades. Ours: the same states with zero hub moments, and coning "
+    "taken away by a heavy blade."
+)
+CCBLADE_DIFFERENCES = (
+    "Same: blade, twist, section table, collective, Prandtl tip factor. Theirs: a turbine code run as a rotor (section "
+    "mirrored), sin φ for φ in the tip factor. Ours leaves out swirl; both are shown."
+)
+
+
+def theory() -> TrustSet:
+    """The equations as solved against what they must satisfy."""
+    flapping, second = _flapping()
+    bounds = (
+        bound("theory", "Uniform inflow of the ideal twist, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(),
+              1e-12, "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow"),
+        bound("theory", "Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)",
+              _closes(), 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance"),
+        bound("theory", "Shaft power is the sum of its parts, three inflow models", "identity", _energy(), 1e-8,
+              "rotor/trim/test_power.py::test_energy_identity"),
+        bound("theory", "Gradient of power by linear twist, lifting line", "central differences", _gradient(), 1e-6,
+              "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences"),
+        bound("theory", "Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
+              "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected"),
+    )  # fmt: skip
+    rows = (
+        *bounds,
+        TrustRow(
+            "theory", "verification", "First-harmonic flapping, µ 0.15, free flapping",
+            "equation of motion in time", f"{flapping:.2f}°", flapping, 0.02,
+            "rotor/dynamics/test_flapping.py::test_ode_agrees_with_harmonic_balance",
+            f"The rest is the neglected 2/rev motion ({second:.2f}°).",
+        ),
+    )  # fmt: skip
+    places = tuple(map(float, range(len(bounds))))
+    chart = LineChart(
+        "Errors and their bounds", "relative error", "",
+        (
+            Series("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, "points", 1),
+            Series("bound", tuple(row.allowed for row in bounds), places, "crosses"),
+        ),
+        log="x",
+        names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)"),
+    )  # fmt: skip
+    met = sum(row.verdict == "met" for row in bounds)
+    return TrustSet(
+        "theory", "Theory", "Identities and closed forms", f"{met} of {len(bounds)} within bounds",
+        "Momentum theory, identities of the discretised equations, closed forms and integration in time.",
+        rows, (chart,),
+    )  # fmt: skip
+
+
+def _ideal_twist() -> float:
+    """Spread of λ over its mean, r 0.13…1, linear lift curve, no losses."""
+    r = np.linspace(0.13, 1.0, 50)
+    inflow = closed_form_inflow(r, 0.12 / r, 0.0821, 5.9)
+    return float(np.ptp(inflow) / inflow.mean())
+
+
+def _closes() -> float:
+    r = np.linspace(0.15, 0.99, 50)
+    pitch, solidity, slope, factor = 0.25 - 0.15 * r, 0.0821, 5.9, 0.4 + 0.5 * r
+    inflow = closed_form_inflow(r, pitch, solidity, slope, factor=factor)
+    push = 4.0 * factor * inflow**2 * r
+    return float(np.abs(push / (0.5 * solidity * slope * (pitch * r**2 - inflow * r)) - 1.0).max())
+
+
+def _energy() -> float:
+    errors: list[float] = []
+    for inflow in ("lifting-line", "local-momentum", "pitt-peters"):
+        for mu in SPEEDS:
+            power = solve(_with_inflow(make_design(mu=mu), inflow)).require().power
+            errors.append(abs(power.shaft / power.main_rotor - 1.0))
+    return max(errors)
+
+
+def _gradient() -> float:
+    """Of ∂P/∂rate at µ 0.25, by differences of 0.001°: section data are C¹, so larger ones straddle knots."""
+
+    def at(rate: float) -> Design:
+        return make_design(twist=f"linear:{rate:.9g}", mu=0.25)
+
+    exactly = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12, torsion_tolerance=1e-13)
+    solution = solve(at(-8.0), options=exactly)
+    exact = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
+    step = 0.001
+    ends = [solve(at(-8.0 + sign * step), solution, exactly).require().power.total for sign in (1, -1)]
+    return (ends[0] - ends[1]) / (2.0 * math.radians(step)) / exact - 1.0
+
+
+def _profile() -> float:
+    """∬|U_T|³ over a fine grid against 1 + 3µ² + ⅜µ⁴."""
+    n, m, mu = 2000, 720, 0.35
+    r = (np.arange(n) + 0.5) / n
+    u = np.abs(r[:, None] + mu * np.sin(2.0 * np.pi * np.arange(m) / m))
+    return float((u**3).mean()) * 0.5 * 0.0821 * 0.01 / profile_power_coefficient(0.0821, 0.01, mu) - 1.0
+
+
+def _flapping() -> tuple[float, float]:
+    """Largest difference of β0, β1c, β1s [°] between balance and marched motion; the marched 2/rev amplitude [°]."""
+    design = _with_inflow(make_design(preset="thesis", twist="linear:-10", mu=0.15), "pitt-peters")
+    problem = build_problem(design)
+    trim = newton(problem, first_guess(problem))
+    state, elements, model = trim.state, trim.linear.elements, problem.inflow
+    assert isinstance(model, LinearInflow)
+    disk, flap, flow, loss = problem.disk, problem.flap, elements.flow, trim.point.channels[LOSS, :, :1]
+    wake = Wake(*in_disk_axes(design.condition.advance_ratio, problem.climb, state.shaft_tilt), state.lambda0)
+    r, data = disk.r[:, None], problem.section_data(len(disk.psi))
+
+    def rates(psi: float, motion: Array) -> list[float]:
+        cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
+        channels = np.zeros((len(CHANNELS), len(r), 1))
+        channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
+        channels[UT], channels[LOSS] = r - elements.swirl[:, None] + flow.mu_x * sin, loss
+        channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
+        channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
+        moment = float(problem.arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
+        return [float(motion[1]), flap.load_gain * moment - flap.droop - flap.frequency_squared * float(motion[0])]
+
+    turns, n = 10, 36
+    psi = 2.0 * math.pi * np.arange(n) / n
+    end = 2.0 * math.pi * turns
+    found = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
+    beta: Array = found.y[0]
+    marched = (beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean())
+    balanced = (state.coning, state.flap_1c, state.flap_1s)
+    second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
+    gap = max(abs(float(a) - float(b)) for a, b in zip(marched, balanced, strict=True))
+    return math.degrees(gap), math.degrees(second)
+
+
+def _with_inflow(design: Design, inflow: str) -> Design:
+    return replace(design, models=replace(design.models, inflow=inflow))
+
+
+@dataclass(frozen=True)
+class CodeComparison:
+    """One condition in both codes."""
+
+    condition: str
+    thrust: float
+    """Their value over ours, minus one."""
+    power: float
+    """Their torque over ours, minus one."""
+    detail: str
+
+
+def have(package: str) -> bool:
+    """Whether the code is installed."""
+    return importlib.util.find_spec(package) is not None
+
+
+def dynbem() -> TrustSet:
+    """Pitt–Peters inflow in forward flight; the shipped rows where dynbem is not installed."""
+    test = "rotor/validation/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
+    made = beside_dynbem() if have("dynbem") else []
+    rows = [
+        share("dynbem", "public code", f"Torque, {one.condition}", "dynbem 0.8, Pitt–Peters", one.power, 5e-4, test,
+              f"Thrust {100 * one.thrust:+.2f} %. {one.detail}.", digits=2)
+        for one in made
+    ]  # fmt: skip
+    rows = rows or [row for row in trust_rows() if row.set == "dynbem"]
+    series = Series("dynbem's torque over ours", SPEEDS, _percent(rows), "both", 1)
+    chart = LineChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
+    return TrustSet(
+        "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
+        "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
+    )  # fmt: skip
+
+
+def ccblade() -> TrustSet:
+    """Hover, without and with swirl; the shipped rows where WISDEM is not installed."""
+    test = "rotor/validation/test_cross_codes.py::test_ccblade_hover"
+    made = beside_ccblade() if have("wisdem") else []
+    rows = [
+        share("ccblade", "public code", f"Power, {one.condition}", "CCBlade of WISDEM 4.2, axial", one.power, 5e-4,
+              test, f"Thrust {100 * one.thrust:+.2f} %, {one.detail}.", digits=2)
+        for one in made
+    ]  # fmt: skip
+    rows = rows or [row for row in trust_rows() if row.set == "ccblade"]
+    power = _percent(rows)
+    series = (
+        Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
+        Series("with swirl", CCBLADE_MASSES, power[1::2], "both", 2),
+    )
+    chart = LineChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
+    return TrustSet(
+        "ccblade", "CCBlade", "Hover power without and with swirl",
+        f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",
+        "CCBlade of WISDEM 4.2, run at our collective.", tuple(rows), (chart,), (CCBLADE_DIFFERENCES,),
+    )  # fmt: skip
+
+
+def _percent(rows: list[TrustRow]) -> tuple[float, ...]:
+    return tuple(100.0 * (row.error or 0.0) for row in rows)
+
+
+def beside_dynbem() -> list[CodeComparison]:
+    """Pitt–Peters, forward flight, moment trim; dynbem at our controls with its inflow settled."""
+    return [_one_dynbem(mu) for mu in SPEEDS]
+
+
+def beside_ccblade() -> list[CodeComparison]:
+    """Hover: CCBlade at our collective, without and with its swirl."""
+    return [_one_ccblade(mass, swirl) for mass in CCBLADE_MASSES for swirl in (False, True)]
+
+
+def moment_trimmed(mu: float) -> Solution:
+    """The thesis' rotor in propulsive trim with three-state gains, no loss factors and, as dynbem's, rigid blades."""
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu)
+    models = replace(
+        design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
+    )
+    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)  # Too heavy to cone.
+    return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
+
+
+def _one_dynbem(mu: float) -> CodeComparison:
+    dynbem: Any = importlib.import_module("dynbem")
+    ours = moment_trimmed(mu)
+    design, controls, rotor = ours.design, ours.controls, ours.design.rotor
+    alpha = np.radians(np.arange(-180.0, 180.1, 0.25))
+    polar = load_section(SECTION)(alpha, MACH)
+    stations = np.linspace(rotor.blade.root_cutout, 1.0, 81)
+    chord = [rotor.reference_chord] * len(stations)
+    blade = dynbem.BladeGeometry(
+        rotor.blades, rotor.radius, rotor.blade.root_cutout * rotor.radius, rotor.reference_chord, 0.0,
+        design.models.elements, (rotor.radius * stations).tolist(), chord, (RATE_DEG * (stations - 0.75)).tolist(),
+        False,
+    )  # fmt: skip
+    definition = dynbem.RotorDefinition(
+        blade,
+        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: replaced by the table below.
+        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
+    )
+    table = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(polar.cl), np.ascontiguousarray(polar.cd))
+    model = dynbem.PittPetersModel(definition, table, design.models.azimuths)
+    speed, tilt = design.airspeed, controls.shaft_tilt
+    # World axes: x forward, z down; azimuth from the nose, so both cyclics change sign.
+    inputs = dynbem.RotorInputs(
+        collective_rad=controls.collective, tilt_lon=controls.cyclic_1c, tilt_lat=-controls.cyclic_1s, R_hub=np.eye(3),
+        v_hub_world=np.array([speed * math.cos(tilt), 0.0, -speed * math.sin(tilt)]), wind_world=np.zeros(3),
+        omega_rad_s=rotor.angular_speed, rho_kg_m3=design.condition.density,
+    )  # fmt: skip
+    state = dynbem.PittPetersRotorState(controls.lambda0, 0.0, 0.0)
+    forces, state = _settle(model, inputs, state)
+    thrust = -float(forces.F_world[2])
+    torque = ours.power.shaft / rotor.angular_speed
+    lambda0, gradient, _ = (float(value) for value in state.to_array())
+    return CodeComparison(
+        condition=f"µ {mu:g}",
+        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
+        power=float(forces.Q_spin) / torque - 1.0,
+        detail=f"λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
+        f"{_inflow_gradient(ours):.4f} λ0",
+    )
+
+
+def _inflow_gradient(ours: Solution) -> float:
+    """k_x = 15π/32 tan(χ/2) at the trim."""
+    mu, tilt = ours.design.condition.advance_ratio, ours.controls.shaft_tilt
+    skew = math.atan2(mu * math.cos(tilt), mu * math.sin(tilt) + ours.controls.lambda0)
+    return 15.0 * math.pi / 32.0 * math.tan(0.5 * skew)
+
+
+def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
+    """Forces and inflow states where the rates of these are zero."""
+
+    def rates(x: Array) -> Array:
+        return np.array(model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64)
+
+    found = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
+    assert np.abs(rates(found.x)).max() < 1e-10, found.message
+    settled = state.from_array(found.x)
+    return model.compute_forces(inputs, settled)[0], settled
+
+
+class _MirroredSection:
+    """Our section table in CCBlade's interface: for a turbine α is φ − θ, and lift changes sign."""
+
+    def __init__(self) -> None:
+        self.table = load_section(SECTION)
+
+    def evaluate(self, alpha: float, reynolds: float, return_cm: bool = False) -> tuple[float, ...]:
+        """(cl, cd) at α [rad], and cm, which CCBlade does not use."""
+        del reynolds
+        found = self.table(-float(np.asarray(alpha).item()), MACH)
+        pair = (-float(found.cl), float(found.cd))
+        return (*pair, 0.0) if return_cm else pair
+
+
+def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
+    ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass)
+    models = replace(design.models, hover_inflow="annulus", hub_loss=False)
+    ours = solve(replace(design, models=models)).require()
+    rotor = design.rotor
+    root = rotor.blade.root_cutout
+    n = models.elements
+    r = root + (np.arange(n) + 0.5) / n * (1.0 - root)
+    code = ccblade.CCBlade(
+        rotor.radius * r, np.full(n, rotor.reference_chord), RATE_DEG * (r - 0.75), [_MirroredSection()] * n,
+        rotor.radius * root, rotor.radius, B=rotor.blades, rho=design.condition.density, tiploss=True, hubloss=False,
+        wakerotation=swirl, usecd=True, shearExp=0.0,
+    )  # fmt: skip
+    rpm = rotor.angular_speed * 60.0 / (2.0 * math.pi)
+    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(ours.controls.collective), 0.0)
+    # Summed like ours, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
+    width = rotor.radius * (1.0 - root) / n
+    thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
+    torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
+    return CodeComparison(
+        condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
+        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
+        power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,
+        detail=f"C_T/σ {ours.ct_over_sigma:.3f}",
+    )
