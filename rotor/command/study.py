@@ -1,6 +1,7 @@
 """`study`: runs a study file on all cores or on Dask; `study show`: best points, effects, failures."""
 
 import argparse
+import hashlib
 import json
 import math
 import sys
@@ -16,9 +17,17 @@ import numpy as np
 
 from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible
-from rotor.study.chunks import ClusterLost, FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
-from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
-from rotor.study.results import Results, Store, StoreError, read_results, sha256
+from rotor.study.chunks import (
+    ClusterLost,
+    FinishedChunk,
+    Store,
+    StoreError,
+    StudyProvenance,
+    connected,
+    evaluate_points,
+    run_chunks,
+)
+from rotor.study.results import Effect, Results, RobustDesign, best_row, effects, read_results, robust_best
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
@@ -208,7 +217,7 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
-    provenance = StudyProvenance(package_version(), commit(), sha256(file.text))
+    provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
     store = Store(args.out or Path(file.path).stem, file, provenance)
     try:
         return _run(args, store, provenance)

@@ -32,9 +32,10 @@ COLUMNS = (
     "parasite_kw", "climb_kw", "tail_kw", "message",
 )  # fmt: skip
 """The unit is the end of the name; without one a column is a text or a ratio. Those of one rotor at one setting."""
+HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
-    "index_percent", "least_index_percent", "largest_index_percent", *(f"hub_{name}_n" for name in LOADS[:3]),
-    *(f"hub_{name}_nm" for name in LOADS[3:]), "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev",
+    "index_percent", "least_index_percent", "largest_index_percent", *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev",
+    "torsion_1_per_rev",
 )  # fmt: skip
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
 amplitudes, and frequencies of the blade."""

@@ -285,9 +285,8 @@ class Reader:
         names = study.axis_names
         if not isinstance(uncertain, list) or not all(one in names for one in cast(list[Any], uncertain)):
             raise self._file.wrong("show", "uncertain", f"uncertain is {uncertain!r}: list axes, of {', '.join(names)}")
-        sampled = () if study.points.sample is None else tuple(name for name, _, _ in study.points.sample.ranges)
         try:
-            check_uncertain(tuple(cast(list[str], uncertain)), names, sampled)
+            check_uncertain(tuple(cast(list[str], uncertain)), names, tuple(study.points.sampled))
         except ValueError as error:
             raise self._file.wrong("show", "uncertain", str(error)) from None
         return ShowSettings(least, tuple(cast(list[str], uncertain)))
@@ -295,14 +294,13 @@ class Reader:
     def _try_points(self, study: Study) -> None:
         """Try every value of every axis, the others at their first, to report errors before the run."""
         first: dict[str, Value] = {axis.name: axis.values[0] for axis in study.points.axes}
-        sampled = () if study.points.sample is None else study.points.sample.ranges
-        first |= {name: low for name, low, _ in sampled}
+        first |= {name: low for name, (low, _) in study.points.sampled.items()}
         shared = dict(study.given)
         tried: list[tuple[str, dict[str, Value]]] = [("", {})]
         for axis in study.points.axes:
             ends = axis.values if axis.textual else (min(axis.values), max(axis.values))
             tried.extend((axis.name, {axis.name: value}) for value in ends)
-        tried.extend((name, {name: value}) for name, low, high in sampled for value in (low, high))
+        tried.extend((name, {name: value}) for name, ends in study.points.sampled.items() for value in ends)
         for key, own in tried:
             try:
                 check_point({**shared, **first, **own}, study)

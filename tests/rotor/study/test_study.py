@@ -21,10 +21,9 @@ from rotor.assets import asset_path
 from rotor.command.common import interruptible
 from rotor.command.study import estimate
 from rotor.files.make_design import make_design
-from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
-from rotor.study.findings import best_row, effects, robust_best
+from rotor.study.chunks import FinishedChunk, Store, StoreError, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
-from rotor.study.results import Results, Store, StoreError, read_file, read_results
+from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
 from rotor.study.study import Axis, Sample, StudyPoints, columns_of, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.trim.solve import solve
@@ -350,7 +349,7 @@ def test_a_full_disk_is_reported_and_finished_chunks_are_kept(
     def full(handle: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("rotor.study.results.os.fsync", full)
+    monkeypatch.setattr("rotor.study.chunks.os.fsync", full)
     with pytest.raises(StoreError, match=r"No space left on device\).*finished chunks are kept"):
         store.keep(1, content)
     assert store.missing() == [1]

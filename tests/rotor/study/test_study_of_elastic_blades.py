@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from rotor.assets import package_version
-from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.results import Store, read_results
+from rotor.study.chunks import Store, StudyProvenance, evaluate_chunk
+from rotor.study.results import read_results
 from rotor.study.study_file import StudyFile, parse_study
 
 STUDY = """
