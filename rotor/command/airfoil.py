@@ -11,13 +11,12 @@ from rotor.command.common import add_command
 
 
 def add_parser(subparsers: Any) -> None:
-    parser = add_command(subparsers, "airfoil", "shows section data")
+    parser = add_command(subparsers, "airfoil", run, "shows section data")
     parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
     parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
     parser.add_argument("--mach", type=float, metavar="M", help="one point, with --alpha")
     parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point [deg]")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -99,10 +99,9 @@ _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "bench", "times evaluations and trims beside their targets and other codes")
+    parser = add_command(commands, "bench", run, "times evaluations and trims beside their targets and other codes")
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -2,21 +2,20 @@
 
 import argparse
 import hashlib
-import json
 import math
 import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rotor.assets import commit, package_version
-from rotor.command.common import STOPPED, add_command, interruptible
+from rotor.command.common import STOPPED, add_command, interruptible, print_result
 from rotor.study.chunks import (
     ClusterLost,
     FinishedChunk,
@@ -27,7 +26,7 @@ from rotor.study.chunks import (
     evaluate_points,
     run_chunks,
 )
-from rotor.study.results import Effect, Results, RobustDesign, best_row, effects, read_results, robust_best
+from rotor.study.results import Results, best_row, effects, read_results, robust_best
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
@@ -39,34 +38,27 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
     """The JSON of `study show --json`; None where there is no result. ValueError for an unknown column or axis."""
     least, uncertain = _aims(results, least, uncertain)
     row = best_row(results, least)
+    messages: list[str] = results.columns["message"][~results.good].tolist()
     robust = robust_best(results, least, uncertain) if uncertain else None
     return {
         "title": results.about.get("title", ""),
         "points": results.points,
         "done": results.rows,
         "failed": int((~results.good).sum()),
-        "sentences": _sentences(results),
+        "sentences": dict(Counter(messages).most_common(_SENTENCES)),
         "least": least,
-        "best": None if row is None else _row(results, row),
+        "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
-        "robust": None
-        if robust is None
-        else {
-            "least_worst": _robust(robust.least_worst),
-            "least_mean": _robust(robust.least_mean),
-            "designs": robust.designs,
-            "dropped": robust.dropped,
-        },
-        "sensitivities": [_effect(one) for one in effects(results, least)],
+        "robust": robust and asdict(robust),
+        "sensitivities": [asdict(one) for one in effects(results, least)],
         "package_version": results.about.get("package_version", ""),
         "commit": results.about.get("commit") or None,
     }
 
 
-def report(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> str:
-    shown = record(results, least, uncertain)
+def report(results: Results, shown: dict[str, Any]) -> str:
+    """The same as text."""
     least = shown["least"]
-    assert least is not None
 
     def value(number: float) -> str:
         return _shown(number, results.unit(least))
@@ -103,11 +95,6 @@ def report(results: Results, least: str | None = None, uncertain: tuple[str, ...
     return "\n".join(lines)
 
 
-def _sentences(results: Results) -> dict[str, int]:
-    messages: list[str] = results.columns["message"][~results.good].tolist()
-    return dict(Counter(messages).most_common(_SENTENCES))
-
-
 def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None) -> tuple[str, tuple[str, ...]]:
     least = least or str(results.about.get("least", "power_total_w"))
     numbers = [name for name in results.columns if results.numeric(name)]
@@ -118,23 +105,6 @@ def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None
     else:
         check_uncertain(uncertain, results.axes, results.sampled)
     return least, uncertain
-
-
-def _row(results: Results, row: int) -> dict[str, Any]:
-    values = {name: column[row] for name, column in results.columns.items()}
-    return {name: _plain(value) for name, value in values.items()}
-
-
-def _robust(one: RobustDesign) -> dict[str, Any]:
-    design = {name: _plain(value) for name, value in one.design.items()}
-    return {"design": design, "worst": one.worst, "mean": one.mean, "cases": one.cases}
-
-
-def _effect(one: Effect) -> dict[str, Any]:
-    return {
-        "axis": one.axis, "share": one.share, "least_at": one.least_at, "least": one.least, "most_at": one.most_at,
-        "most": one.most,
-    }  # fmt: skip
 
 
 def _plain(value: Any) -> Any:
@@ -177,6 +147,7 @@ def add_parser(commands: Any) -> None:
     parser = add_command(
         commands,
         "study",
+        run,
         "many designs from one file, on one machine or a cluster",
         "Runs a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
     )
@@ -195,20 +166,15 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
     parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: uncertain axes")
     parser.add_argument("--json", action="store_true", help="with show: machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C; finished chunks are kept."""
     if args.file == "show":
         return _show(args)
-    for flag, name in (
-        ("folder", repr(args.folder)),
-        ("least", "--least"),
-        ("uncertain", "--uncertain"),
-        ("json", "--json"),
-    ):
+    for flag in ("folder", "least", "uncertain", "json"):
         if getattr(args, flag):
+            name = repr(args.folder) if flag == "folder" else f"--{flag}"
             raise ValueError(f"{name} belongs to show: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and not 1 <= args.workers <= 1024:
@@ -284,7 +250,8 @@ def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
     missing = store.missing()
     done = store.study.count - sum(b - a for a, b in map(store.study.span, missing))
     if done:
-        print(report(read_results(store.folder)))
+        results = read_results(store.folder)
+        print(report(results, record(results)))
     if stopped and missing:
         print(
             f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
@@ -307,7 +274,7 @@ def _show(args: argparse.Namespace) -> int:
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)
-    print(json.dumps(shown, indent=2, allow_nan=False) if args.json else report(results, args.least, uncertain))
+    print_result(args, lambda: shown, lambda: report(results, shown))
     return 0
 
 

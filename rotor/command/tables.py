@@ -15,12 +15,13 @@ from tqdm import tqdm
 
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import (
+    CONCEPT_HELP,
     add_command,
     add_design_arguments,
     add_rotor_argument,
-    concept_help,
     design_from,
     finite,
+    print_result,
     short_spec,
     waves_text,
     write_table,
@@ -38,13 +39,12 @@ from rotor.user_input import check_writable, parse_range
 
 def add_sweep(commands: Any) -> None:
     """Register `sweep`."""
-    parser = add_command(commands, "sweep", "power of one or more twists over advance ratio")
+    parser = add_command(commands, "sweep", run_sweep, "power of one or more twists over advance ratio")
     parser.add_argument(
         "--mu", dest="range", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover"
     )
     add_design_arguments(parser, twists=True)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.set_defaults(run=run_sweep)
 
 
 def run_sweep(args: argparse.Namespace) -> int:
@@ -97,8 +97,10 @@ FRONT_COLUMNS = (
 
 def add_front(commands: Any) -> None:
     """Register `front`."""
-    parser = add_command(commands, "front", "least power for less and less vibration, by active or static twist")
-    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {concept_help()}; else active twist")
+    parser = add_command(
+        commands, "front", run_front, "least power for less and less vibration, by active or static twist"
+    )
+    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {CONCEPT_HELP}; else active twist")
     parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
     parser.add_argument(
         "--reach-deg", type=finite, default=1.0, metavar="DEG", help="largest amplitude of each harmonic (default 1)"
@@ -107,7 +109,6 @@ def add_front(commands: Any) -> None:
     add_design_arguments(parser, speed=True)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run_front)
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -127,9 +128,7 @@ def run_front(args: argparse.Namespace) -> int:
     rows = [front_row(one, found.start) for one in (found.start, *found.points)]
     if args.csv:
         write_table(args.csv, [FRONT_COLUMNS, *([_text(name, row[name]) for name in FRONT_COLUMNS] for row in rows)])
-    print(
-        json.dumps(front_record(design, found, rows), indent=2, allow_nan=False) if args.json else _front(found, rows)
-    )
+    print_result(args, lambda: front_record(design, found, rows), lambda: _front(found, rows))
     return 0 if len(found.points) == args.points else 1
 
 
@@ -184,17 +183,18 @@ def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> 
 
 def add_waterfall(commands: Any) -> None:
     """Register `waterfall`."""
-    parser = add_command(commands, "waterfall", "power of tip loss, flapping, reverse flow …, one after another")
+    parser = add_command(
+        commands, "waterfall", run_waterfall, "power of tip loss, flapping, reverse flow …, one after another"
+    )
     add_design_arguments(parser, speed=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run_waterfall)
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
     """0 when every step converged, else 1."""
     design = design_from(args)
     found = waterfall(design)
-    print(json.dumps(waterfall_record(found), indent=2, allow_nan=False) if args.json else waterfall_report(found))
+    print_result(args, lambda: waterfall_record(found), lambda: waterfall_report(found))
     return 0 if found.converged else 1
 
 
@@ -281,7 +281,9 @@ _EXPLANATION = (
 
 def add_ideal(commands: Any) -> None:
     """Register `ideal`."""
-    parser = add_command(commands, "ideal", "least induced power over all circulations and over all steady twists")
+    parser = add_command(
+        commands, "ideal", run_ideal, "least induced power over all circulations and over all steady twists"
+    )
     parser.add_argument(
         "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
     )
@@ -290,7 +292,6 @@ def add_ideal(commands: Any) -> None:
     )
     add_rotor_argument(parser)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.set_defaults(run=run_ideal)
 
 
 def run_ideal(args: argparse.Namespace) -> int:

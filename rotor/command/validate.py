@@ -24,7 +24,7 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
+    parser = add_command(commands, "validate", run, "compares with every measured point of rotors that were tested")
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
     parser.add_argument(
@@ -35,7 +35,6 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -289,9 +289,8 @@ def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> Rob
     def robust(of: Array) -> RobustDesign:
         at = int(np.argmin(np.where(whole, of, math.inf)))
         row = int(np.argmax(design == at))
-        return RobustDesign(
-            {name: results.columns[name][row] for name in chosen}, float(worst[at]), float(mean[at]), cases
-        )
+        values = {name: results.columns[name][row] for name in chosen}
+        return RobustDesign(values, float(worst[at]), float(mean[at]), cases)
 
     return RobustBest(robust(worst), robust(mean), int(whole.sum()), int((~whole).sum()))
 
