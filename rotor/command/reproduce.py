@@ -106,7 +106,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def add_ladder(commands: Any) -> None:
-    """Register `ladder`."""
     parser = add_command(
         commands,
         "ladder",
