@@ -11,7 +11,6 @@ from rotor.terminal import OneLineParser, run_command
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """All commands."""
     parser = OneLineParser(
         prog="python -m rotor",
         description="Helicopter main rotors: trim, power, twist.",

@@ -16,6 +16,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any, get_args
 
+from tqdm import tqdm
+
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import change_limit, install
 from rotor.actuator.section import Host, default_placement
@@ -159,7 +161,6 @@ def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Ca
 
 
 def add_processes_argument(parser: argparse.ArgumentParser) -> None:
-    """`--processes`."""
     parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
 
 
@@ -301,21 +302,15 @@ STOPPED = 130
 @contextmanager
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
     """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
-    if not sys.stderr.isatty():
-        yield lambda words: None
-        return
-    from tqdm import tqdm
-
-    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True)
+    hidden = not sys.stderr.isatty()
+    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
 
     def advance(words: str) -> None:
         made.set_postfix_str(words, refresh=False)
         made.update()
 
-    try:
+    with made:
         yield advance
-    finally:
-        made.close()
 
 
 @contextmanager

@@ -172,7 +172,6 @@ def _end(one: Step) -> str:
 
 
 def ladder_record(found: Ladder) -> dict[str, Any]:
-    """The JSON of `ladder --json`."""
     return {
         "speeds_mu": list(found.speeds),
         "steps": [_step_record(one) for one in found.steps],

@@ -84,7 +84,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def plan_from(args: argparse.Namespace) -> Plan:
-    """The plan that the flags describe."""
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
     division = parse_division(args.division)
     concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
@@ -196,7 +195,6 @@ def report(schedule: Schedule) -> str:
 
 
 def _where(schedule: Schedule, condition: int | None) -> str:
-    """The flight condition in words."""
     if condition is None:
         return "One fixed blade for all"
     flight = schedule.plan.conditions[condition].flight

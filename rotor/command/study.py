@@ -6,17 +6,18 @@ import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from contextlib import closing
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from tqdm import tqdm
 
 from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible, print_result
 from rotor.study.chunks import (
+    ChunkRun,
     ClusterLost,
     FinishedChunk,
     Store,
@@ -57,7 +58,6 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
 
 
 def report(results: Results, shown: dict[str, Any]) -> str:
-    """The same as text."""
     least = shown["least"]
 
     def value(number: float) -> str:
@@ -184,29 +184,24 @@ def run(args: argparse.Namespace) -> int:
     if args.dry_run:
         return _dry_run(file)
     provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
-    store = Store(args.out or Path(file.path).stem, file, provenance)
-    try:
+    with closing(Store(args.out or Path(file.path).stem, file, provenance)) as store:
         return _run(args, store, provenance)
-    finally:
-        store.close()
 
 
 def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) -> int:
     study = store.study
     missing = store.missing()
-    spans = {chunk: study.span(chunk) for chunk in missing}
-    left = sum(last - first for first, last in spans.values())
+    left = sum(last - first for first, last in map(study.span, missing))
     print(f"{study.title}: {study.count:,} points, {study.count - left:,} done → {store.folder}", flush=True)
-    message, stopped, lost, effort = "", False, list[int](), _Effort()
+    message, ended = "", ChunkRun()
     if missing:
         if args.scheduler is None:
             evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
-        with interruptible() as stop, _progress(study.count, study.count - left) as advance:
+        with interruptible() as stop, closing(_Progress(study.count, study.count - left)) as progress:
 
             def keep(done: FinishedChunk) -> None:
                 store.keep(done.chunk, done.content)
-                effort.add(done)
-                advance(done.rows, done.failures)
+                progress.add(done)
 
             try:
                 with connected(args.scheduler, args.workers) as client:
@@ -216,50 +211,68 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
                         words = f"no workers yet; start some with `dask worker {args.scheduler}`"
                         print(f"rotor: {words}", file=sys.stderr)
                     ended = run_chunks(client, study, missing, provenance, keep, stop)
-                stopped, lost = ended.stopped, ended.lost
             except (ClusterLost, StoreError) as error:
                 message = str(error)
-        if effort.points:
-            print(effort.sentence())
-    return _summary(store, stopped, lost, message)
+        if progress.points:
+            print(progress.sentence())
+    return _summary(store, ended, message)
 
 
-@dataclass
-class _Effort:
-    """Points and processor time of a run."""
+class _Progress:
+    """A run so far: a bar on a terminal, else a line per minute with rate, time left and failures."""
 
-    begun: float = field(default_factory=time.monotonic)
-    points: int = 0
-    seconds: float = 0.0
-    """Processor time of the workers."""
-    workers: set[str] = field(default_factory=set[str])
+    def __init__(self, total: int, done: int) -> None:
+        self._total, self._before = total, done
+        self._begin = self._said = time.monotonic()
+        self.points, self._failed = 0, 0
+        self._seconds = 0.0
+        """Processor time of the workers."""
+        self._workers: set[str] = set()
+        self._bar: Any = tqdm(
+            total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05,
+            disable=not sys.stderr.isatty(),
+        )  # fmt: skip
 
     def add(self, done: FinishedChunk) -> None:
         self.points += done.rows
-        self.seconds += done.seconds
-        self.workers.add(done.worker)
+        self._failed += done.failures
+        self._seconds += done.seconds
+        self._workers.add(done.worker)
+        self._bar.set_postfix_str(f"{self._failed:,} failed", refresh=False)
+        self._bar.update(done.rows)
+        if self._bar.disable and time.monotonic() - self._said > _SAY_EVERY:
+            self._said = time.monotonic()
+            rate, now = self.points / (self._said - self._begin), self._before + self.points
+            left = _span((self._total - now) / rate)
+            words = f"{now:,} of {self._total:,} points, {_rate(rate)}, {left} left, {self._failed:,} failed"
+            print(words, file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        self._bar.close()
 
     def sentence(self) -> str:
-        elapsed = time.monotonic() - self.begun
-        rate, each = _rate(self.points / elapsed), 1e3 * self.seconds / self.points
-        workers = f"{len(self.workers)} worker{'s' if len(self.workers) > 1 else ''}"
+        elapsed = time.monotonic() - self._begin
+        rate, each = _rate(self.points / elapsed), 1e3 * self._seconds / self.points
+        workers = f"{len(self._workers)} worker{'s' if len(self._workers) > 1 else ''}"
         return f"{self.points:,} points in {_span(elapsed)} on {workers}: {rate}, {each:.2f} ms of processor time each"
 
 
-def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
+def _summary(store: Store, ended: ChunkRun, message: str) -> int:
     missing = store.missing()
     done = store.study.count - sum(b - a for a, b in map(store.study.span, missing))
     if done:
         results = read_results(store.folder)
         print(report(results, record(results)))
-    if stopped and missing:
+    if ended.stopped and missing:
         print(
             f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
             file=sys.stderr,
         )
         return STOPPED
-    if lost:
-        message = f"{len(lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
+    if ended.lost:
+        message = (
+            f"{len(ended.lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
+        )
     if message:
         print(f"rotor: {message}", file=sys.stderr)
     return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
@@ -279,7 +292,6 @@ def _show(args: argparse.Namespace) -> int:
 
 
 def _dry_run(file: StudyFile) -> int:
-    """Estimates the time of a study from some of its points."""
     study = file.study
     each, count = estimate(study)
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
@@ -315,43 +327,9 @@ def estimate(study: Study) -> tuple[float, int]:
 
 
 def _seconds(study: Study, first: int, last: int) -> float:
-    """Processor time of these points."""
     begin = time.process_time()
     evaluate_points(study, first, last)
     return time.process_time() - begin
-
-
-@contextmanager
-def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
-    """A bar on a terminal, else a line per minute: rate, time left, failures."""
-    begin, first, failed = time.monotonic(), done, 0
-    said = begin
-    bar: Any = None
-    if sys.stderr.isatty():
-        from tqdm import tqdm
-
-        bar = tqdm(total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05)
-
-    def advance(rows: int, failures: int) -> None:
-        nonlocal done, failed, said
-        done, failed = done + rows, failed + failures
-        if bar is not None:
-            bar.set_postfix_str(f"{failed:,} failed", refresh=False)
-            bar.update(rows)
-        elif time.monotonic() - said > _SAY_EVERY:
-            said = time.monotonic()
-            rate = (done - first) / (said - begin)
-            print(
-                f"{done:,} of {total:,} points, {_rate(rate)}, {_span((total - done) / rate)} left, {failed:,} failed",
-                file=sys.stderr,
-                flush=True,
-            )
-
-    try:
-        yield advance
-    finally:
-        if bar is not None:
-            bar.close()
 
 
 def _rate(points_per_second: float) -> str:
@@ -360,7 +338,6 @@ def _rate(points_per_second: float) -> str:
 
 
 def _span(seconds: float) -> str:
-    """A time in s, min, h or days."""
     for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:,.1f} {name}"

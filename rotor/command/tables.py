@@ -223,7 +223,6 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
 
 
 def waterfall_report(found: Waterfall) -> str:
-    """The same as two tables."""
     design = found.full.design
     heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in _parts(design))
     return "\n".join(

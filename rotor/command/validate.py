@@ -89,7 +89,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def inflow_report(rows: list[InflowAgreement]) -> str:
-    """Measured inflow beside every model, as a table."""
     lines = [
         f"{INFLOW_SET}: inflow one chord above the disk of the NASA 2MRTS rotor, laser velocimeter; never fitted",
         f"{'mu':>6}  {'model':<30}{'correlation':>12}{'rms':>9}{'mean':>9}{'measured':>10}",
@@ -103,7 +102,6 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:
-    """Measured loads over the azimuth beside ours, as a table."""
     lines = [*(f"{name}: {REPORTS[name]}; never fitted" for name in dict.fromkeys(row.case.test for row in rows))]
     lines.append(
         f"{'case':>6}{'r/R':>7}  {'quantity':<14}{'correlation':>12}{'rms':>10}{'of':>10}{'mean':>10}{'measured':>10}"
@@ -120,7 +118,6 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 
 def power_report(rows: list[FlownPower]) -> str:
-    """Measured main-rotor power beside ours, as a table."""
     lines = [
         f"{POWERS}: main-rotor power in level flight [kW]; never fitted",
         f"{'rotor':<9}{'case':>9}{'mu':>8}{'measured':>10}{'ours':>8}{'error %':>9}  between the drag areas",
@@ -136,7 +133,6 @@ def power_report(rows: list[FlownPower]) -> str:
 
 
 def report(found: Comparison) -> str:
-    """The comparison as a table."""
     measured, quantity = found.measured, found.measured.quantity
     lines = [
         f"{measured.name}: {measured.title}",

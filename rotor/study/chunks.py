@@ -43,8 +43,6 @@ CONVERGED = "converged"
 
 @dataclass(frozen=True)
 class StudyProvenance:
-    """Provenance stored in every file of a study."""
-
     version: str
     commit: str | None
     file_sha256: str
@@ -174,7 +172,6 @@ class Store:
             raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR") from None
 
     def close(self) -> None:
-        """Release the folder."""
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None

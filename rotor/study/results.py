@@ -46,8 +46,6 @@ _MOST_SPEEDS = 100
 
 @dataclass(frozen=True, eq=False)
 class Results:
-    """The results of a study, complete or partial."""
-
     about: dict[str, Any]
     """The folder's `_study.json`, or the metadata of one file."""
     axes: tuple[str, ...]
@@ -60,7 +58,6 @@ class Results:
 
     @property
     def points(self) -> int:
-        """Number of points of the whole study."""
         return int(self.about.get("points", self.rows))
 
     @property

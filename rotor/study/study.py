@@ -115,8 +115,6 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
 
 @dataclass(frozen=True)
 class Axis:
-    """A quantity and the values it takes."""
-
     name: str
     values: tuple[float, ...] | tuple[str, ...]
 
@@ -333,8 +331,6 @@ FREQUENCIES = ("flap_1", "flap_2", "lag_1", "lag_2", "torsion_1")
 
 @dataclass(frozen=True)
 class Column:
-    """One column."""
-
     name: str
     kind: Literal["number", "count", "text"]
     unit: str
