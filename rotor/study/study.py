@@ -20,11 +20,10 @@ from rotor.arrays import Array
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.stand import STAND_KEYS
-from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
 from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.series import HUB_COLUMNS, POWERS
-from rotor.user_input import did_you_mean
 
 Value = float | str | bool
 Ints = NDArray[np.int64]
@@ -100,10 +99,7 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
 
     Raises ValueError for a concept or a parameter that there is not.
     """
-    if name not in CONCEPTS:
-        hint = did_you_mean(name, CONCEPTS) or ":"
-        raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
-    concept = CONCEPTS[name]
+    concept = find_concept(name)
     if name in _WIDER and any(label not in [one.label for one in concept.parameters] for label in given):
         concept = _WIDER[name]
     known = {one.label: one for one in concept.parameters}

@@ -8,6 +8,7 @@ import sys
 import urllib.request
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import matplotlib
@@ -252,16 +253,9 @@ class TestSweep:
         pyplot.close("all")
 
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
+        """The tests do without pandas: something else takes its place."""
         table = rotor.sweep(design, [0.2])
-
-        class Pandas:
-            """Replaces pandas, which the tests do not need."""
-
-            @staticmethod
-            def DataFrame(rows: list, columns: list) -> tuple:
-                return rows, columns
-
-        monkeypatch.setitem(sys.modules, "pandas", Pandas)
+        monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows, columns: (rows, columns)))
         assert table.to_dataframe() == (list(table.rows), list(table.columns))
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match="pip install pandas"):

@@ -83,14 +83,11 @@ def test_distribution(capsys: pytest.CaptureFixture[str]):
     found = answer["distribution"]
     assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
     assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
-    code, out, _ = run(capsys, "solve", "--mu", "0.2", "--distribution")
-    assert code == 0
-    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in out
-    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution", "--json")
+    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in run(capsys, "solve", "--distribution")[1]
+    heavy = ("solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
+    code, out, _ = run(capsys, *heavy, "--json")
     assert (code, json.loads(out)["distribution"]) == (1, None)
-    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
-    assert code == 1
-    assert "lift of one blade" not in out
+    assert "lift of one blade" not in run(capsys, *heavy)[1]
 
 
 def test_climb(capsys: pytest.CaptureFixture[str]):
@@ -144,45 +141,27 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
     ("arguments", "words"),
     [
         (["solve", "--mu", "fast"], "fast"),
-        (["solve", "--mu", "0.9"], "0.9"),
-        (["solve", "--twist", "wavy:1"], "wavy:1"),
-        (["solve", "--preset", "mine"], "mine"),
-        (["solve", "--inflow", "free"], "free"),
-        (["solve", "--mass-kg", "-5"], "-5"),
-        (["solve", "--case", "nowhere.json"], "nowhere.json"),
         (["solve", "--mu", "0.2", "--hover"], "--hover"),
         (["sweep"], "--mu"),
-        (["sweep", "--mu", "0.1:0.2:0.1", "--csv", "/nowhere/at/all.csv"], "/nowhere/at/all.csv"),
-        (["fly"], "fly"),
         (["optimize", "--hover"], "did you mean 'optimise'?"),
         (["solve", "--twst", "linear:-8"], "did you mean '--twist'?"),
         (["solve", "--inflow", "pit-peters"], "did you mean 'pitt-peters'?"),
         (["sweep", "--mu", "0.4:0.1:0.1"], "write 0.4:0.1:-0.1 or 0.1:0.4:0.1"),
         (["sweep", "--mu", "0.1:0.4:0"], "0.1:0.4:0"),
-        (["solve", "--twist", "-8"], "linear:-8"),
         (["solve", "--ct-over-sigma", "0.07"], "add --trim wind-tunnel"),
         (["solve", "--preset", "thesis", "--climb-m-s", "4"], "leave the rate of climb out"),
         (["airfoil", "show", "sc1095", "--mach", "0.7"], "needs both --mach and --alpha"),
         (["airfoil", "show", "vr12"], "no section named 'vr12': choose one of sc1095"),
         (["airfoil", "build", "sc1095"], "run `python -m tests.tools.sections build sc1095`"),
-        (["optimise", "--concept", "cubic"], "'cubic' is not known"),
         (["optimise", "--concept", "linear", "--division", "0.5"], "cannot take 1 division"),
         (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
         (["optimise", "--objective", "noise"], "'noise' is not known"),
         (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
-        (["optimise", "--starts", "0"], "0 starts"),
-        (["optimise", "--seed", "-3"], "seed -3"),
         (["optimise", "--bound", "angle=1,2"], "names no parameter"),
         (["optimise", "--bound", "rate=1"], "write two numbers"),
         (["optimise", "--rate-deg", "steep"], "'steep' is not understood"),
-        (["optimise", "--change-deg", "-1"], "negative"),
         (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
-        (["optimise", "--actuator", "MFC"], "'MFC' is not known"),
         (["schedule", "--plies", "3"], "add --actuator"),
-        (["optimise", "--stalled-percent", "200"], "200 %"),
-        (["optimise", "--mission", "nowhere.csv"], "does not exist"),
-        (["schedule", "--concept", "cubic"], "'cubic' is not known"),
-        (["schedule", "--mission", "nowhere.csv"], "does not exist"),
         (["schedule", "--processes", "0"], "0 processes"),
         (["solve", "--airfoils", "sc1095,nothing@0.5"], "'nothing'"),
         (["solve", "--airfoils", "sc1095@0.5"], "1 airfoils"),

@@ -1,6 +1,5 @@
 """Studies: the file, the order of points, rows, the folder, and reading its results."""
 
-import errno
 import importlib
 import json
 import math
@@ -21,7 +20,7 @@ from rotor.assets import asset_path
 from rotor.command.common import interruptible
 from rotor.command.study import estimate
 from rotor.files.make_design import make_design
-from rotor.study.chunks import FinishedChunk, Store, StoreError, StudyProvenance, evaluate_chunk, evaluate_points
+from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
 from rotor.study.study import Axis, Sample, StudyPoints, columns_of, default_chunk
@@ -319,23 +318,6 @@ def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Store
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(ValueError, match="holds other files"):
         stored(tmp_path / "mine")
-
-
-def test_a_full_disk_is_reported_and_finished_chunks_are_kept(
-    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], monkeypatch: pytest.MonkeyPatch
-):
-    store = stored(tmp_path / "out")
-    store.keep(0, done(store, 0).content)
-    content = done(store, 1).content
-
-    def full(handle: int) -> None:
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr("rotor.study.chunks.os.fsync", full)
-    with pytest.raises(StoreError, match=r"No space left on device\).*finished chunks are kept"):
-        store.keep(1, content)
-    assert store.missing() == [1]
-    assert not list(store.folder.glob(".*.part"))
 
 
 def test_first_chunks_are_spread_over_the_study(tmp_path: Path):
