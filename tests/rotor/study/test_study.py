@@ -23,7 +23,7 @@ from rotor.files.make_design import make_design
 from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
-from rotor.study.study import Axis, Sample, StudyPoints, columns_of, default_chunk
+from rotor.study.study import QUANTITIES, Axis, Sample, StudyPoints, columns_of, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -339,6 +339,8 @@ def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[Store, 
     assert about["study"] == store.study.fingerprint
     assert about["package_version"] == "0.0"
     assert json.loads(about["units"])["mass_kg"] == "kg"
+    units = [QUANTITIES[f"stand_{key}"].unit for key in ("shaft_tilt_deg", "thrust_n", "hub_roll_nm", "density_kg_m3")]
+    assert units == ["°", "N", "N m", "kg/m³"]
     models = json.loads(about["models"])
     assert (models["inflow"], models["elements"], models["trim"], models["tip_loss"]) == (
         "pitt-peters", 12, "propulsive", True
