@@ -22,10 +22,9 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
-from importlib.metadata import PackageNotFoundError, version
-
 from rotor import actuator
 from rotor.aero.elements import TrimState
+from rotor.assets import package_version
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
@@ -42,10 +41,7 @@ from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
 from rotor.trim.solve import solve
 
-try:
-    __version__ = version("rotor-explorer")
-except PackageNotFoundError:  # A checkout that was never installed.
-    __version__ = "unknown"
+__version__ = package_version()
 
 __all__ = (
     "Aircraft",

@@ -6,12 +6,11 @@ from functools import partial
 
 from rotor import __version__
 from rotor.blas_threads import keep_one_blas_thread
-from rotor.command import actuator, airfoil, bench, optimise, reproduce, schedule, solve, study, tables, validate
+from rotor.command import actuator, bench, optimise, reproduce, schedule, solve, study, tables, validate
 from rotor.terminal import OneLineParser, run_command
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """All commands."""
     parser = OneLineParser(
         prog="python -m rotor",
         description="Helicopter main rotors: trim, power, twist.",
@@ -33,7 +32,7 @@ def build_parser() -> argparse.ArgumentParser:
         reproduce.add_parser,
         reproduce.add_ladder,
         validate.add_parser,
-        airfoil.add_parser,
+        tables.add_airfoil,
         bench.add_parser,
     ):
         add(commands)

@@ -44,7 +44,6 @@ class _ForgivingCache(FunctionCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep the code where that is possible."""
         try:
             super().save_overload(sig, data)  # pyright: ignore[reportUnknownMemberType]
         except Exception as error:

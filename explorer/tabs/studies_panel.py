@@ -21,8 +21,16 @@ from explorer.tabs.layout import by_hand
 from explorer.tabs.study_charts import FIELD, axis_names, title, value_text
 from explorer.text.glossary import hint
 from rotor.assets import asset_path
-from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
-from rotor.study.results import ABOUT, Results, design_of_row, read_bounded, read_results
+from rotor.study.chunks import ABOUT
+from rotor.study.results import (
+    Results,
+    best_row,
+    cruise_speeds,
+    design_of_row,
+    hover_cruise_pairs,
+    read_bounded,
+    read_results,
+)
 from rotor.user_input import brief, is_file
 
 _DEPTH = 3

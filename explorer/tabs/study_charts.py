@@ -13,8 +13,7 @@ from explorer.charts import svg
 from explorer.charts.strip import round_ticks
 from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.units import number
-from rotor.study.findings import HoverCruisePairs
-from rotor.study.results import Results
+from rotor.study.results import HoverCruisePairs, Results
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]

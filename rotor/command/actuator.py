@@ -14,11 +14,20 @@ from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
 from rotor.actuator.pictures import break_even_charts
-from rotor.actuator.section import BladeKind, Host, Placement, default_placement
+from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
-from rotor.command.common import add_command, add_design_arguments, design_from, finite, short_spec
+from rotor.command.common import (
+    add_command,
+    add_design_arguments,
+    design_from,
+    finite,
+    parse_division,
+    parse_pair,
+    print_result,
+    short_spec,
+)
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
@@ -30,7 +39,10 @@ from rotor.user_input import check_suffix, check_writable, write_whole
 
 def add_parser(commands: Any) -> None:
     parser = add_command(
-        commands, "actuator", "attainable twist, limits and net saving of an actuator between two flight conditions"
+        commands,
+        "actuator",
+        run,
+        "attainable twist, limits and net saving of an actuator between two flight conditions",
     )
     parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default); list: --table 5.1")
     parser.add_argument(
@@ -78,15 +90,13 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
     add_design_arguments(parser)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Exit code 0, or 1 where nothing trims."""
     if args.table == "5.1":
-        _show(table_5_1(), args.json)
-        return 0
-    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
+        return _show(args, table_5_1())
+    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, parse_division(args.division))
     pair = ConditionPair(design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
     if args.what_would_pay is None:
         check_blade(pair.design.aircraft)
@@ -95,7 +105,8 @@ def run(args: argparse.Namespace) -> int:
         Harmonic(args.harmonic, 0.0)
         if pair.design.active_twist is not None:
             raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
-    placement, host = _placement(args), _host(args.blade, args.stiffness)
+    stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
+    placement, host = _placement(args), Host(args.blade, stiffness)
     if args.plot is not None and args.what_would_pay is None:
         raise ValueError("--plot draws the break-even line: add --what-would-pay")
     if args.plot is not None:
@@ -105,8 +116,7 @@ def run(args: argparse.Namespace) -> int:
         if args.what_would_pay is not None:
             return _run_pay(args, pair)
         if args.table == "5.2":
-            _show(table_5_2(pair, placement=placement, host=host, derated=args.derated), args.json)
-            return 0
+            return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
         turned = None
         if args.harmonic is not None:
@@ -120,7 +130,7 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    print(json.dumps(record(verdict, turned), indent=2, allow_nan=False) if args.json else report(verdict, turned))
+    print_result(args, lambda: record(verdict, turned), lambda: report(verdict, turned))
     return 0
 
 
@@ -147,15 +157,9 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "drive_cost_w": verdict.drive_cost,
         "net_saving_w": verdict.net_saving,
         "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
-        "limits": [
-            {
-                "name": limit.name, "ok": limit.ok, "value": limit.value, "bound": limit.bound, "unit": limit.unit,
-                "sentence": limit.sentence,
-            }
-            for limit in verdict.limits
-        ],
+        "limits": [asdict(limit) for limit in verdict.limits],
         "caveats": list(verdict.caveats),
-    }  # fmt: skip
+    }
     if turned is not None:
         values["harmonic"] = {
             "per_rev": turned.dynamic.per_rev,
@@ -170,27 +174,15 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
 
 
 def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
-    """The same keys where nothing trims; unknown values are null."""
-    known = {"status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies}
-    unknown = (
-        "required_twist_deg", "attainable_twist_deg", "attainable_twist_derated_deg", "feasible",
-    )  # fmt: skip
-    numbers = (
-        "ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w",
-        "fuel_saving_kg_h",
-    )  # fmt: skip
+    """The keys of `record` where nothing trims; unknown values are null."""
     return {
-        **known,
-        "concept": args.concept,
-        **dict.fromkeys(unknown),
-        "voltages_v": [],
-        "added_mass_kg": None,
-        "torsion_frequency_per_rev": None,
-        "against": args.against,
-        **dict.fromkeys(numbers),
-        "limits": [],
-        "caveats": [],
-    }
+        "status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies,
+        "concept": args.concept, "required_twist_deg": None, "attainable_twist_deg": None,
+        "attainable_twist_derated_deg": None, "feasible": None, "voltages_v": [], "added_mass_kg": None,
+        "torsion_frequency_per_rev": None, "against": args.against, "ideal_saving_w": None, "gross_saving_w": None,
+        "stiffness_cost_w": None, "mass_cost_w": None, "drive_cost_w": None, "net_saving_w": None,
+        "fuel_saving_kg_h": None, "limits": [], "caveats": [],
+    }  # fmt: skip
 
 
 def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
@@ -317,48 +309,21 @@ def pay_record(search: PaySearch) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _show(table: ActuatorTable, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps({key: value for key, value in asdict(table).items() if key != "keys"}, indent=2))
-    else:
-        print(table.text())
+def _show(args: argparse.Namespace, table: ActuatorTable) -> int:
+    print_result(args, lambda: {key: value for key, value in asdict(table).items() if key != "keys"}, table.text)
+    return 0
 
 
 def _kw(power: float) -> str:
     return f"{kilowatts(power):>8} kW"
 
 
-def _host(kind: BladeKind, stiffness: float | None) -> Host:
-    if stiffness is None:
-        stiffness = 1.0 if kind == "retrofit" else 0.5
-    return Host(kind, stiffness)
-
-
 def _placement(args: argparse.Namespace) -> Placement:
     base = default_placement(args.plies)
-    span = _ends(args.span, "span") or base.span
-    chord = _ends(args.chord, "chord") or base.chord
+    span = parse_pair(args.span, f"active span {args.span!r}", "0.25:0.9", ":") if args.span else base.span
+    chord = parse_pair(args.chord, f"active chord {args.chord!r}", "0.05:0.8", ":") if args.chord else base.chord
     if not 0.0 < args.angle_deg < 90.0:
         raise ValueError(
             f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside; 45 gives the most twist"
         )
     return Placement(span, chord, args.plies, math.radians(args.angle_deg))
-
-
-def _ends(text: str | None, what: str) -> tuple[float, float] | None:
-    if text is None:
-        return None
-    try:
-        low, high = (float(item) for item in text.split(":"))
-    except ValueError:
-        raise ValueError(f"active {what} {text!r} is not understood: write two numbers as 0.25:0.9") from None
-    return low, high
-
-
-def _divisions(text: str | None) -> tuple[float, ...] | None:
-    if text is None:
-        return None
-    try:
-        return tuple(float(item) for item in text.split(","))
-    except ValueError:
-        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.48,0.84") from None

@@ -9,7 +9,9 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from functools import partial
+from itertools import starmap
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
@@ -29,14 +31,30 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import Guess, first_point, newton
+from rotor.trim.newton import first_point, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
+T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
 """Targets of the project [s], flight preset, one core for an optimum, two for the schedule."""
 
+TARGETS_MS = {
+    "evaluation": 0.25,
+    "rigid blade, warm": 4.0,
+    "bending blade, cold": 60.0,
+    "bending blade, warm": 6.0,
+    "cold": 40.0,
+    "warm": 4.0,
+    "gradient": 2.0,
+}
+"""Targets of the project [ms], on the grid of each model, one core of an idle machine."""
+
+_ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 _SEARCH_ADVANCE_RATIOS = (0.1, 0.2, 0.3)
+TARGET_PER_SECOND = 28.0
+"""10⁵ trims of elastic blades with the lifting line on two cores in 30 minutes."""
+_POINTS = 200
 
 
 def measure_searches(*, long: bool) -> dict[str, float]:
@@ -62,11 +80,6 @@ def measure_searches(*, long: bool) -> dict[str, float]:
     return figures
 
 
-TARGET_PER_SECOND = 28.0
-"""10⁵ trims of elastic blades with the lifting line on two cores in 30 minutes."""
-_POINTS = 200
-
-
 def measure_batch() -> dict[str, float]:
     """Trims a second of processor time, one core; the middle of the shipped study of 10⁵ sampled trims."""
     study = read_study("hundred_thousand.toml").study
@@ -84,25 +97,10 @@ def _points_per_second(call: Callable[[], Any]) -> float:
     return _POINTS / (time.process_time() - begin)
 
 
-TARGETS_MS = {
-    "evaluation": 0.25,
-    "rigid blade, warm": 4.0,
-    "bending blade, cold": 60.0,
-    "bending blade, warm": 6.0,
-    "cold": 40.0,
-    "warm": 4.0,
-    "gradient": 2.0,
-}
-"""Targets of the project [ms], on the grid of each model, one core of an idle machine."""
-
-_ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
-
-
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "bench", "times evaluations and trims beside their targets and other codes")
+    parser = add_command(commands, "bench", run, "times evaluations and trims beside their targets and other codes")
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -162,41 +160,41 @@ class OtherCode:
         return self.ms / self.ours_ms
 
 
+_CASES: dict[str, dict[str, Any]] = {
+    "": {"inflow": "lifting-line", "elastic_twist": True, "bending": False},
+    "linear inflow, ": {"inflow": "pitt-peters", "elastic_twist": False, "bending": False},
+    "rigid blade, ": {"inflow": "lifting-line", "elastic_twist": False, "bending": False},
+    "bending blade, ": {"inflow": "lifting-line", "elastic_twist": True, "bending": True},
+}
+"""Models, by what a figure is called after."""
+
+
 def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     """Figures [ms] by name, other codes, and notes on what could not be measured."""
-    linear, rigid, default = _cases("pitt-peters"), _cases("lifting-line"), _cases("lifting-line", elastic=True)
     figures: dict[str, float] = {}
-    bent = _cases("lifting-line", elastic=True, bending=True)
-    for beside, cases in (
-        ("", default),
-        ("linear inflow, ", linear),
-        ("rigid blade, ", rigid),
-        ("bending blade, ", bent),
-    ):
-        problems = [build_problem(design) for design in cases.designs]
+    for beside, models in _CASES.items():
+        designs = _designs(0.0, "linear:-16", models)
+        nearby = _designs(0.002, "linear:-15.5", models)  # One slider step away.
+        solutions = [solve(design) for design in designs]
+        problems = [build_problem(design) for design in designs]
         points = [newton(problem, first_guess(problem)).linear.point for problem in problems]
-        systems = [point.system for point in points]
         figures[f"{beside}evaluation"] = _mean(
-            lambda k, s=systems, p=points: evaluate(s[k], s[k].grid, p[k].x, slopes=True, flow=True), 50
+            lambda point: evaluate(point.system, point.system.grid, point.x, slopes=True, flow=True), points, 50
         )
-        figures[f"{beside}cold"] = _mean(lambda k, c=cases: solve(c.designs[k]), 15)
-        figures[f"{beside}warm"] = statistics.fmean(_warm(cases, k) for k in range(len(cases.designs)))
-        figures[f"{beside}gradient"] = statistics.fmean(_gradient(cases, k) for k in range(len(cases.designs)))
+        figures[f"{beside}cold"] = _mean(solve, designs, 15)
+        for solution in solutions:
+            power_gradient(solution)  # As of a design that the page shows.
+        pairs = list(zip(nearby, solutions, strict=True))
+        figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
+        figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
     cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
-    problems = [build_problem(design) for design in linear.designs]
-    baselines = [
-        OtherCode(
-            "scipy root, hybr, without Jacobian",
-            _mean(lambda k: _hybr(problems[k], first_guess(problems[k])), 3),
-            "cold trim",
-            cold,
-            "the same equations",
-        )
-    ]
+    linear = _designs(0.0, "linear:-16", _CASES["linear inflow, "])
+    hybr = _mean(_hybr, [build_problem(design) for design in linear], 3)
+    baselines = [OtherCode("scipy root, hybr, without Jacobian", hybr, "cold trim", cold, "the same equations")]
     notes: list[str] = []
     try:
-        baselines += _dynbem(linear.designs[2], evaluation, cold)
+        baselines += _dynbem(linear[2], evaluation, cold)
     except ImportError:
         notes.append("dynbem is not installed: pip install 'rotor-explorer[test]' adds that baseline")
     try:
@@ -206,46 +204,27 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     return figures, baselines, notes
 
 
-@dataclass(frozen=True, eq=False)
-class _Cases:
-    """Designs over speed, their solutions, and the designs one slider step away."""
-
-    designs: list[Design]
-    nearby: list[Design]
-    solutions: list[Solution]
+def _designs(faster: float, twist: str, models: dict[str, Any]) -> list[Design]:
+    """Over speed, at advance ratios higher by `faster`."""
+    designs = [make_design(preset="flight", twist=twist, mu=mu + faster) for mu in _ADVANCE_RATIOS]
+    return [replace(design, models=replace(design.models, **models)) for design in designs]
 
 
-def _cases(inflow: str, *, elastic: bool = False, bending: bool = False) -> _Cases:
-    def at(mu: float, twist: str) -> Design:
-        design = make_design(preset="flight", twist=twist, mu=mu)
-        return replace(design, models=replace(design.models, inflow=inflow, elastic_twist=elastic, bending=bending))
-
-    designs = [at(mu, "linear:-16") for mu in _ADVANCE_RATIOS]
-    nearby = [at(mu + 0.002, "linear:-15.5") for mu in _ADVANCE_RATIOS]
-    return _Cases(designs, nearby, [solve(design) for design in designs])
-
-
-def _warm(cases: _Cases, k: int) -> float:
-    """A trim one slider step away [ms], whose start has its gradient, as a design that the page shows."""
-    power_gradient(cases.solutions[k])
-    return _time(lambda: solve(cases.nearby[k], cases.solutions[k]), 15)
-
-
-def _gradient(cases: _Cases, k: int) -> float:
+def _gradient(nearby: Design, start: Solution) -> float:
     """The gradient of a new trim [ms], its derivatives included, which the next trim then uses."""
     times: list[float] = []
     for _ in range(16):
-        solution = solve(cases.nearby[k], cases.solutions[k])
+        solution = solve(nearby, start)
         begin = time.process_time()
         power_gradient(solution)
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times[1:])
 
 
-def _hybr(problem: Problem, start: Guess) -> None:
+def _hybr(problem: Problem) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
     system = flight_system(problem)
-    first, free = first_point(problem, system, start), system.structure.free
+    first, free = first_point(problem, system, first_guess(problem)), system.structure.free
 
     def residual(states: Any) -> Any:
         x = first.copy()
@@ -319,8 +298,8 @@ def _ccblade(evaluation: float) -> OtherCode:
     )  # fmt: skip
 
 
-def _mean(call: Callable[[int], Any], runs: int) -> float:
-    return statistics.fmean(_time(lambda k=k: call(k), runs) for k in range(len(_ADVANCE_RATIOS)))
+def _mean(call: Callable[[T], Any], cases: list[T], runs: int) -> float:
+    return statistics.fmean(_time(partial(call, case), runs) for case in cases)
 
 
 def _time(call: Callable[[], Any], runs: int) -> float:

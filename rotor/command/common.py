@@ -4,7 +4,9 @@ import argparse
 import csv
 import inspect
 import io
+import json
 import math
+import os
 import re
 import signal
 import sys
@@ -13,6 +15,8 @@ from collections.abc import Callable, Generator, Iterable
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any, get_args
+
+from tqdm import tqdm
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import change_limit, install
@@ -31,10 +35,14 @@ from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.search import ChangeLimit, Limits
 from rotor.user_input import write_whole
 
+Run = Callable[[argparse.Namespace], int]
 
-def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
+
+def add_command(commands: Any, name: str, run: Run, words: str, description: str = "") -> argparse.ArgumentParser:
     """A command's parser; its words stand in the list of commands, and above its own flags unless there are others."""
-    return commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
+    parser = commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
+    parser.set_defaults(run=run)
+    return parser
 
 
 _LISTED: dict[str, Iterable[str]] = {
@@ -147,6 +155,23 @@ def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> 
         raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 
 
+def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:
+    """Print the answer of a command: with --json the record, else the report."""
+    print(json.dumps(record(), indent=2, allow_nan=False) if args.json else report())
+
+
+def add_processes_argument(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+
+
+def processes_from(args: argparse.Namespace) -> int:
+    """How many were asked for, or one a core; ValueError outside 1…64."""
+    count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
+    if not 1 <= count <= 64:
+        raise ValueError(f"{count} processes are outside 1…64: give one a core")
+    return count
+
+
 def finite(text: str) -> float:
     value = float(text)
     if not math.isfinite(value):
@@ -195,11 +220,11 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         name = name.removesuffix("_deg")
         if name not in units:
             raise ValueError(f"bound {text!r} names no parameter: use one of {', '.join(units)}")
-        low, high = _pair(numbers, f"bound {text!r}", f"{name}=-20,0")
+        low, high = parse_pair(numbers, f"bound {text!r}", f"{name}=-20,0")
         bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
     rate = None
     if args.rate_deg is not None:
-        low, high = _pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
+        low, high = parse_pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
         rate = math.radians(low), math.radians(high)
     return Limits(
         bounds=tuple(bounds),
@@ -238,31 +263,34 @@ def short_spec(spec: str) -> str:
     return re.sub(r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}", angles) + at + stations
 
 
-def concept_help() -> str:
-    return " | ".join(CONCEPTS)
+CONCEPT_HELP = " | ".join(CONCEPTS)
 
 
-def parse_division(text: str | None) -> list[float] | None:
+def parse_division(text: str | None) -> tuple[float, ...] | None:
     """r/R of one or two divisions."""
     if text is None:
         return None
-    try:
-        values = [float(item) for item in text.split(",")]
-    except ValueError:
-        values = [math.nan]
-    if not all(math.isfinite(value) for value in values):
-        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.4,0.8")
+    values = _finite_numbers(text, ",")
+    if not values:
+        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.48,0.84")
     return values
 
 
-def _pair(text: str, what: str, example: str) -> tuple[float, float]:
-    try:
-        low, high = (float(item) for item in text.split(","))
-    except ValueError:
-        low = high = math.nan
-    if not (math.isfinite(low) and math.isfinite(high)):
+def parse_pair(text: str, what: str, example: str, by: str = ",") -> tuple[float, float]:
+    """Two numbers; `what` and `example` are for the error."""
+    values = _finite_numbers(text, by)
+    if len(values) != 2:
         raise ValueError(f"{what} is not understood: write two numbers, for example {example}")
-    return low, high
+    return values[0], values[1]
+
+
+def _finite_numbers(text: str, by: str) -> tuple[float, ...]:
+    """Empty where one of them is not a finite number."""
+    try:
+        values = tuple(float(item) for item in text.split(by))
+    except ValueError:
+        return ()
+    return values if all(map(math.isfinite, values)) else ()
 
 
 _TWICE = 0.5
@@ -274,21 +302,15 @@ STOPPED = 130
 @contextmanager
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
     """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
-    if not sys.stderr.isatty():
-        yield lambda words: None
-        return
-    from tqdm import tqdm
-
-    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True)
+    hidden = not sys.stderr.isatty()
+    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
 
     def advance(words: str) -> None:
         made.set_postfix_str(words, refresh=False)
         made.update()
 
-    try:
+    with made:
         yield advance
-    finally:
-        made.close()
 
 
 @contextmanager

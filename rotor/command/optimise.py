@@ -1,24 +1,24 @@
 """`optimise`: the twist of least power or vibration for one flight condition, or for several at once."""
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from rotor.command.common import (
+    CONCEPT_HELP,
     STOPPED,
     add_command,
     add_design_arguments,
     add_search_arguments,
     bar,
-    concept_help,
     design_from,
     finite,
     interruptible,
     limits_from,
     parse_division,
+    print_result,
     short_spec,
 )
 from rotor.design.blade import airfoils_spec
@@ -39,8 +39,8 @@ from rotor.trim.solution import Solution
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "optimise", "twist of least power or vibration, width of the optimum, saving")
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
+    parser = add_command(commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving")
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=CONCEPT_HELP)
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     parser.add_argument(
         "--objective",
@@ -58,7 +58,6 @@ def add_parser(commands: Any) -> None:
         "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -80,11 +79,7 @@ def run(args: argparse.Namespace) -> int:
     with interruptible() as stop, bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     beside = _beside(design, objective, optimum)
-    print(
-        json.dumps(record(optimum, concept, beside), indent=2, allow_nan=False)
-        if args.json
-        else report(optimum, concept, beside, vibration=objective.quantity == "vibration")
-    )
+    print_result(args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective))
     return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
 
 
@@ -206,12 +201,12 @@ def digits_of_band(width: float) -> int:
     return min(max(math.ceil(1.0 - math.log10(width)), 0), 3) if width > 0.0 else 3
 
 
-def report(optimum: Optimum, concept: Concept, beside: _Beside, *, vibration: bool) -> str:
+def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objective) -> str:
     best = optimum.best
     lines = [wrapped(f"{concept.title}: {optimum.status.value}. {optimum.message}")]
     if best is None:
         return "\n".join(lines)
-    least = "index" if vibration else "power"
+    least = "index" if objective.quantity == "vibration" else "power"
     bands = {band.parameter: band for band in optimum.band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
         band = bands.get(parameter.name)

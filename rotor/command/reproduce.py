@@ -1,9 +1,7 @@
 """The source document: `reproduce` rebuilds its figures, `ladder` changes its assumptions one at a time."""
 
 import argparse
-import json
 import math
-import os
 import sys
 import time
 from collections.abc import Sequence
@@ -11,7 +9,15 @@ from typing import Any
 
 from tqdm import tqdm
 
-from rotor.command.common import STOPPED, add_command, bar, interruptible
+from rotor.command.common import (
+    STOPPED,
+    add_command,
+    add_processes_argument,
+    bar,
+    interruptible,
+    print_result,
+    processes_from,
+)
 from rotor.reproduce.ladder import (
     FAST,
     FAST_KMH,
@@ -31,7 +37,9 @@ from rotor.user_input import make_folder, parse_range
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "reproduce", "rebuilds every figure and table of the thesis that can be rebuilt")
+    parser = add_command(
+        commands, "reproduce", run, "rebuilds every figure and table of the thesis that can be rebuilt"
+    )
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and index.html; made when missing")
     parser.add_argument(
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
@@ -41,8 +49,7 @@ def add_parser(commands: Any) -> None:
         action="store_true",
         help="also make the trust page: validation.md, validation/, trust.csv, sensitivity.csv",
     )
-    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
-    parser.set_defaults(run=run)
+    add_processes_argument(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -57,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
-    processes = _processes(args)
+    processes = processes_from(args)
     wanted = [find_entry(number) for number in args.figure or ()]
     entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = make_folder(args.out)
@@ -99,14 +106,15 @@ def run(args: argparse.Namespace) -> int:
 
 
 def add_ladder(commands: Any) -> None:
-    """Register `ladder`."""
     parser = add_command(
-        commands, "ladder", "from preset thesis to flight, one assumption at a time: how far it moves the best twist"
+        commands,
+        "ladder",
+        run_ladder,
+        "from preset thesis to flight, one assumption at a time: how far it moves the best twist",
     )
     parser.add_argument("--mu", metavar="A:B:STEP", help="hover (0) and advance ratios (default 0,0.1,0.15,…,0.35)")
-    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    add_processes_argument(parser)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run_ladder)
 
 
 def run_ladder(args: argparse.Namespace) -> int:
@@ -116,19 +124,11 @@ def run_ladder(args: argparse.Namespace) -> int:
     speeds = check_speeds(parse_range(args.mu)) if args.mu else SPEEDS
     groups = calls(speeds)
     with interruptible() as stop, bar(len({call for group in groups for call in group}), "optimum") as advance:
-        if compute_ahead(groups, _processes(args), advance, stop):
+        if compute_ahead(groups, processes_from(args), advance, stop):
             return STOPPED
     found = climb(speeds)
-    print(json.dumps(ladder_record(found), indent=2, allow_nan=False) if args.json else ladder_text(found))
+    print_result(args, lambda: ladder_record(found), lambda: ladder_text(found))
     return 0
-
-
-def _processes(args: argparse.Namespace) -> int:
-    """How many were asked for, or one a core; ValueError outside 1…64."""
-    count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
-    if not 1 <= count <= 64:
-        raise ValueError(f"{count} processes are outside 1…64: give one a core")
-    return count
 
 
 def ladder_text(found: Ladder) -> str:
@@ -172,7 +172,6 @@ def _end(one: Step) -> str:
 
 
 def ladder_record(found: Ladder) -> dict[str, Any]:
-    """The JSON of `ladder --json`."""
     return {
         "speeds_mu": list(found.speeds),
         "steps": [_step_record(one) for one in found.steps],

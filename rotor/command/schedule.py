@@ -1,23 +1,24 @@
 """`schedule`: optimum twist at each flight condition, best fixed blade, and the gain of in-flight twist change."""
 
 import argparse
-import json
-import os
 import sys
 from dataclasses import replace
 from typing import Any
 
 from rotor.command.common import (
+    CONCEPT_HELP,
     STOPPED,
     add_command,
     add_design_arguments,
+    add_processes_argument,
     add_search_arguments,
     bar,
-    concept_help,
     design_from,
     interruptible,
     limits_from,
     parse_division,
+    print_result,
+    processes_from,
     short_spec,
     write_table,
 )
@@ -35,9 +36,11 @@ COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "sa
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "schedule", "optimum twist per condition, best fixed blade, gain of in-flight twist")
+    parser = add_command(
+        commands, "schedule", run, "optimum twist per condition, best fixed blade, gain of in-flight twist"
+    )
     parser.add_argument(
-        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {concept_help()}"
+        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {CONCEPT_HELP}"
     )
     parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
@@ -48,19 +51,16 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
     add_design_arguments(parser)
     add_search_arguments(parser, 4)
-    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    add_processes_argument(parser)
     parser.add_argument("--resume", metavar="FILE", help="store results in this file and resume from it")
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with the results so far printed."""
     plan = plan_from(args)
-    processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
-    if not 1 <= processes <= 64:
-        raise ValueError(f"{processes} processes are outside 1…64: give one a core")
+    processes = processes_from(args)
     if args.csv:
         check_writable(args.csv)
     found = read_cells(args.resume, plan) if args.resume else []
@@ -77,14 +77,13 @@ def run(args: argparse.Namespace) -> int:
         stopped = stop()
     if args.csv:
         write_table(args.csv, [COLUMNS, *_rows(schedule)])
-    print(json.dumps(record(schedule), indent=2, allow_nan=False) if args.json else report(schedule))
+    print_result(args, lambda: record(schedule), lambda: report(schedule))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
     return STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
 
 
 def plan_from(args: argparse.Namespace) -> Plan:
-    """The plan that the flags describe."""
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
     division = parse_division(args.division)
     concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
@@ -109,7 +108,7 @@ def _rank(name: str) -> int:
     return list(CONCEPTS).index(name) if name in CONCEPTS else -1
 
 
-def _concept(name: str, division: list[float] | None) -> Concept:
+def _concept(name: str, division: tuple[float, ...] | None) -> Concept:
     return find_concept(name, division if division is not None and name in _DIVIDED else None)
 
 
@@ -196,7 +195,6 @@ def report(schedule: Schedule) -> str:
 
 
 def _where(schedule: Schedule, condition: int | None) -> str:
-    """The flight condition in words."""
     if condition is None:
         return "One fixed blade for all"
     flight = schedule.plan.conditions[condition].flight

@@ -17,7 +17,7 @@ from rotor.units import KNOT
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "solve", "trims one design: power, controls and caveats")
+    parser = add_command(commands, "solve", run, "trims one design: power, controls and caveats")
     add_design_arguments(parser, speed=True)
     parser.add_argument(
         "--distribution",
@@ -26,7 +26,6 @@ def add_parser(commands: Any) -> None:
         "blade by radius and azimuth",
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -1,24 +1,33 @@
 """`study`: runs a study file on all cores or on Dask; `study show`: best points, effects, failures."""
 
 import argparse
-import json
+import hashlib
 import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from contextlib import closing
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from tqdm import tqdm
 
 from rotor.assets import commit, package_version
-from rotor.command.common import STOPPED, add_command, interruptible
-from rotor.study.chunks import ClusterLost, FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
-from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
-from rotor.study.results import Results, Store, StoreError, read_results, sha256
+from rotor.command.common import STOPPED, add_command, interruptible, print_result
+from rotor.study.chunks import (
+    ChunkRun,
+    ClusterLost,
+    FinishedChunk,
+    Store,
+    StoreError,
+    StudyProvenance,
+    connected,
+    evaluate_points,
+    run_chunks,
+)
+from rotor.study.results import Results, best_row, effects, read_results, robust_best
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
@@ -30,34 +39,26 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
     """The JSON of `study show --json`; None where there is no result. ValueError for an unknown column or axis."""
     least, uncertain = _aims(results, least, uncertain)
     row = best_row(results, least)
+    messages: list[str] = results.columns["message"][~results.good].tolist()
     robust = robust_best(results, least, uncertain) if uncertain else None
     return {
         "title": results.about.get("title", ""),
         "points": results.points,
         "done": results.rows,
         "failed": int((~results.good).sum()),
-        "sentences": _sentences(results),
+        "sentences": dict(Counter(messages).most_common(_SENTENCES)),
         "least": least,
-        "best": None if row is None else _row(results, row),
+        "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
-        "robust": None
-        if robust is None
-        else {
-            "least_worst": _robust(robust.least_worst),
-            "least_mean": _robust(robust.least_mean),
-            "designs": robust.designs,
-            "dropped": robust.dropped,
-        },
-        "sensitivities": [_effect(one) for one in effects(results, least)],
+        "robust": robust and asdict(robust),
+        "sensitivities": [asdict(one) for one in effects(results, least)],
         "package_version": results.about.get("package_version", ""),
         "commit": results.about.get("commit") or None,
     }
 
 
-def report(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> str:
-    shown = record(results, least, uncertain)
+def report(results: Results, shown: dict[str, Any]) -> str:
     least = shown["least"]
-    assert least is not None
 
     def value(number: float) -> str:
         return _shown(number, results.unit(least))
@@ -94,11 +95,6 @@ def report(results: Results, least: str | None = None, uncertain: tuple[str, ...
     return "\n".join(lines)
 
 
-def _sentences(results: Results) -> dict[str, int]:
-    messages: list[str] = results.columns["message"][~results.good].tolist()
-    return dict(Counter(messages).most_common(_SENTENCES))
-
-
 def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None) -> tuple[str, tuple[str, ...]]:
     least = least or str(results.about.get("least", "power_total_w"))
     numbers = [name for name in results.columns if results.numeric(name)]
@@ -109,23 +105,6 @@ def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None
     else:
         check_uncertain(uncertain, results.axes, results.sampled)
     return least, uncertain
-
-
-def _row(results: Results, row: int) -> dict[str, Any]:
-    values = {name: column[row] for name, column in results.columns.items()}
-    return {name: _plain(value) for name, value in values.items()}
-
-
-def _robust(one: RobustDesign) -> dict[str, Any]:
-    design = {name: _plain(value) for name, value in one.design.items()}
-    return {"design": design, "worst": one.worst, "mean": one.mean, "cases": one.cases}
-
-
-def _effect(one: Effect) -> dict[str, Any]:
-    return {
-        "axis": one.axis, "share": one.share, "least_at": one.least_at, "least": one.least, "most_at": one.most_at,
-        "most": one.most,
-    }  # fmt: skip
 
 
 def _plain(value: Any) -> Any:
@@ -168,6 +147,7 @@ def add_parser(commands: Any) -> None:
     parser = add_command(
         commands,
         "study",
+        run,
         "many designs from one file, on one machine or a cluster",
         "Runs a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
     )
@@ -186,20 +166,15 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
     parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: uncertain axes")
     parser.add_argument("--json", action="store_true", help="with show: machine-readable output")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C; finished chunks are kept."""
     if args.file == "show":
         return _show(args)
-    for flag, name in (
-        ("folder", repr(args.folder)),
-        ("least", "--least"),
-        ("uncertain", "--uncertain"),
-        ("json", "--json"),
-    ):
+    for flag in ("folder", "least", "uncertain", "json"):
         if getattr(args, flag):
+            name = repr(args.folder) if flag == "folder" else f"--{flag}"
             raise ValueError(f"{name} belongs to show: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and not 1 <= args.workers <= 1024:
@@ -208,30 +183,25 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
-    provenance = StudyProvenance(package_version(), commit(), sha256(file.text))
-    store = Store(args.out or Path(file.path).stem, file, provenance)
-    try:
+    provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
+    with closing(Store(args.out or Path(file.path).stem, file, provenance)) as store:
         return _run(args, store, provenance)
-    finally:
-        store.close()
 
 
 def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) -> int:
     study = store.study
     missing = store.missing()
-    spans = {chunk: study.span(chunk) for chunk in missing}
-    left = sum(last - first for first, last in spans.values())
+    left = sum(last - first for first, last in map(study.span, missing))
     print(f"{study.title}: {study.count:,} points, {study.count - left:,} done → {store.folder}", flush=True)
-    message, stopped, lost, effort = "", False, list[int](), _Effort()
+    message, ended = "", ChunkRun()
     if missing:
         if args.scheduler is None:
             evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
-        with interruptible() as stop, _progress(study.count, study.count - left) as advance:
+        with interruptible() as stop, closing(_Progress(study.count, study.count - left)) as progress:
 
             def keep(done: FinishedChunk) -> None:
                 store.keep(done.chunk, done.content)
-                effort.add(done)
-                advance(done.rows, done.failures)
+                progress.add(done)
 
             try:
                 with connected(args.scheduler, args.workers) as client:
@@ -241,49 +211,68 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
                         words = f"no workers yet; start some with `dask worker {args.scheduler}`"
                         print(f"rotor: {words}", file=sys.stderr)
                     ended = run_chunks(client, study, missing, provenance, keep, stop)
-                stopped, lost = ended.stopped, ended.lost
             except (ClusterLost, StoreError) as error:
                 message = str(error)
-        if effort.points:
-            print(effort.sentence())
-    return _summary(store, stopped, lost, message)
+        if progress.points:
+            print(progress.sentence())
+    return _summary(store, ended, message)
 
 
-@dataclass
-class _Effort:
-    """Points and processor time of a run."""
+class _Progress:
+    """A run so far: a bar on a terminal, else a line per minute with rate, time left and failures."""
 
-    begun: float = field(default_factory=time.monotonic)
-    points: int = 0
-    seconds: float = 0.0
-    """Processor time of the workers."""
-    workers: set[str] = field(default_factory=set[str])
+    def __init__(self, total: int, done: int) -> None:
+        self._total, self._before = total, done
+        self._begin = self._said = time.monotonic()
+        self.points, self._failed = 0, 0
+        self._seconds = 0.0
+        """Processor time of the workers."""
+        self._workers: set[str] = set()
+        self._bar: Any = tqdm(
+            total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05,
+            disable=not sys.stderr.isatty(),
+        )  # fmt: skip
 
     def add(self, done: FinishedChunk) -> None:
         self.points += done.rows
-        self.seconds += done.seconds
-        self.workers.add(done.worker)
+        self._failed += done.failures
+        self._seconds += done.seconds
+        self._workers.add(done.worker)
+        self._bar.set_postfix_str(f"{self._failed:,} failed", refresh=False)
+        self._bar.update(done.rows)
+        if self._bar.disable and time.monotonic() - self._said > _SAY_EVERY:
+            self._said = time.monotonic()
+            rate, now = self.points / (self._said - self._begin), self._before + self.points
+            left = _span((self._total - now) / rate)
+            words = f"{now:,} of {self._total:,} points, {_rate(rate)}, {left} left, {self._failed:,} failed"
+            print(words, file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        self._bar.close()
 
     def sentence(self) -> str:
-        elapsed = time.monotonic() - self.begun
-        rate, each = _rate(self.points / elapsed), 1e3 * self.seconds / self.points
-        workers = f"{len(self.workers)} worker{'s' if len(self.workers) > 1 else ''}"
+        elapsed = time.monotonic() - self._begin
+        rate, each = _rate(self.points / elapsed), 1e3 * self._seconds / self.points
+        workers = f"{len(self._workers)} worker{'s' if len(self._workers) > 1 else ''}"
         return f"{self.points:,} points in {_span(elapsed)} on {workers}: {rate}, {each:.2f} ms of processor time each"
 
 
-def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
+def _summary(store: Store, ended: ChunkRun, message: str) -> int:
     missing = store.missing()
     done = store.study.count - sum(b - a for a, b in map(store.study.span, missing))
     if done:
-        print(report(read_results(store.folder)))
-    if stopped and missing:
+        results = read_results(store.folder)
+        print(report(results, record(results)))
+    if ended.stopped and missing:
         print(
             f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
             file=sys.stderr,
         )
         return STOPPED
-    if lost:
-        message = f"{len(lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
+    if ended.lost:
+        message = (
+            f"{len(ended.lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
+        )
     if message:
         print(f"rotor: {message}", file=sys.stderr)
     return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
@@ -298,12 +287,11 @@ def _show(args: argparse.Namespace) -> int:
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)
-    print(json.dumps(shown, indent=2, allow_nan=False) if args.json else report(results, args.least, uncertain))
+    print_result(args, lambda: shown, lambda: report(results, shown))
     return 0
 
 
 def _dry_run(file: StudyFile) -> int:
-    """Estimates the time of a study from some of its points."""
     study = file.study
     each, count = estimate(study)
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
@@ -339,43 +327,9 @@ def estimate(study: Study) -> tuple[float, int]:
 
 
 def _seconds(study: Study, first: int, last: int) -> float:
-    """Processor time of these points."""
     begin = time.process_time()
     evaluate_points(study, first, last)
     return time.process_time() - begin
-
-
-@contextmanager
-def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
-    """A bar on a terminal, else a line per minute: rate, time left, failures."""
-    begin, first, failed = time.monotonic(), done, 0
-    said = begin
-    bar: Any = None
-    if sys.stderr.isatty():
-        from tqdm import tqdm
-
-        bar = tqdm(total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05)
-
-    def advance(rows: int, failures: int) -> None:
-        nonlocal done, failed, said
-        done, failed = done + rows, failed + failures
-        if bar is not None:
-            bar.set_postfix_str(f"{failed:,} failed", refresh=False)
-            bar.update(rows)
-        elif time.monotonic() - said > _SAY_EVERY:
-            said = time.monotonic()
-            rate = (done - first) / (said - begin)
-            print(
-                f"{done:,} of {total:,} points, {_rate(rate)}, {_span((total - done) / rate)} left, {failed:,} failed",
-                file=sys.stderr,
-                flush=True,
-            )
-
-    try:
-        yield advance
-    finally:
-        if bar is not None:
-            bar.close()
 
 
 def _rate(points_per_second: float) -> str:
@@ -384,7 +338,6 @@ def _rate(points_per_second: float) -> str:
 
 
 def _span(seconds: float) -> str:
-    """A time in s, min, h or days."""
     for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:,.1f} {name}"

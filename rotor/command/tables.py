@@ -1,8 +1,8 @@
-"""Commands that print a table: `sweep`, `front`, `waterfall` and `ideal`.
+"""Commands that print a table: `sweep`, `front`, `waterfall`, `ideal` and `airfoil`.
 
 `sweep`: one or more twists over advance ratio. `front`: compromises of power and vibration. `waterfall`: power of each
 physical effect, switched on one after another. `ideal`: the least induced power over all circulations and over all
-steady twists.
+steady twists. `airfoil`: the data of a section; how the bundled decks are made: `tests/tools/sections`.
 """
 
 import argparse
@@ -11,16 +11,20 @@ import math
 import sys
 from typing import Any
 
+import numpy as np
 from tqdm import tqdm
 
+from rotor.airfoil.sections import TABLE_NAMES, Section, load_installed
+from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import (
+    CONCEPT_HELP,
     add_command,
     add_design_arguments,
     add_rotor_argument,
-    concept_help,
     design_from,
     finite,
+    print_result,
     short_spec,
     waves_text,
     write_table,
@@ -37,14 +41,12 @@ from rotor.user_input import check_writable, parse_range
 
 
 def add_sweep(commands: Any) -> None:
-    """Register `sweep`."""
-    parser = add_command(commands, "sweep", "power of one or more twists over advance ratio")
+    parser = add_command(commands, "sweep", run_sweep, "power of one or more twists over advance ratio")
     parser.add_argument(
         "--mu", dest="range", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover"
     )
     add_design_arguments(parser, twists=True)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.set_defaults(run=run_sweep)
 
 
 def run_sweep(args: argparse.Namespace) -> int:
@@ -96,9 +98,10 @@ FRONT_COLUMNS = (
 
 
 def add_front(commands: Any) -> None:
-    """Register `front`."""
-    parser = add_command(commands, "front", "least power for less and less vibration, by active or static twist")
-    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {concept_help()}; else active twist")
+    parser = add_command(
+        commands, "front", run_front, "least power for less and less vibration, by active or static twist"
+    )
+    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {CONCEPT_HELP}; else active twist")
     parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
     parser.add_argument(
         "--reach-deg", type=finite, default=1.0, metavar="DEG", help="largest amplitude of each harmonic (default 1)"
@@ -107,7 +110,6 @@ def add_front(commands: Any) -> None:
     add_design_arguments(parser, speed=True)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run_front)
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -127,9 +129,7 @@ def run_front(args: argparse.Namespace) -> int:
     rows = [front_row(one, found.start) for one in (found.start, *found.points)]
     if args.csv:
         write_table(args.csv, [FRONT_COLUMNS, *([_text(name, row[name]) for name in FRONT_COLUMNS] for row in rows)])
-    print(
-        json.dumps(front_record(design, found, rows), indent=2, allow_nan=False) if args.json else _front(found, rows)
-    )
+    print_result(args, lambda: front_record(design, found, rows), lambda: _front(found, rows))
     return 0 if len(found.points) == args.points else 1
 
 
@@ -183,18 +183,18 @@ def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> 
 
 
 def add_waterfall(commands: Any) -> None:
-    """Register `waterfall`."""
-    parser = add_command(commands, "waterfall", "power of tip loss, flapping, reverse flow …, one after another")
+    parser = add_command(
+        commands, "waterfall", run_waterfall, "power of tip loss, flapping, reverse flow …, one after another"
+    )
     add_design_arguments(parser, speed=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.set_defaults(run=run_waterfall)
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
     """0 when every step converged, else 1."""
     design = design_from(args)
     found = waterfall(design)
-    print(json.dumps(waterfall_record(found), indent=2, allow_nan=False) if args.json else waterfall_report(found))
+    print_result(args, lambda: waterfall_record(found), lambda: waterfall_report(found))
     return 0 if found.converged else 1
 
 
@@ -223,7 +223,6 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
 
 
 def waterfall_report(found: Waterfall) -> str:
-    """The same as two tables."""
     design = found.full.design
     heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in _parts(design))
     return "\n".join(
@@ -280,8 +279,9 @@ _EXPLANATION = (
 
 
 def add_ideal(commands: Any) -> None:
-    """Register `ideal`."""
-    parser = add_command(commands, "ideal", "least induced power over all circulations and over all steady twists")
+    parser = add_command(
+        commands, "ideal", run_ideal, "least induced power over all circulations and over all steady twists"
+    )
     parser.add_argument(
         "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
     )
@@ -290,7 +290,6 @@ def add_ideal(commands: Any) -> None:
     )
     add_rotor_argument(parser)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.set_defaults(run=run_ideal)
 
 
 def run_ideal(args: argparse.Namespace) -> int:
@@ -327,3 +326,88 @@ def _ideal_row(mass: float, bound: Bound, glauert: float) -> tuple[str, ...]:
         *(f"{factor:.3f}" for factor in factors),
         f"{math.degrees(bound.linear_rate):.1f}",
     )
+
+
+def add_airfoil(commands: Any) -> None:
+    parser = add_command(commands, "airfoil", run_airfoil, "shows section data")
+    parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
+    parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
+    parser.add_argument("--mach", type=float, metavar="M", help="one point, with --alpha")
+    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point [deg]")
+
+
+def run_airfoil(args: argparse.Namespace) -> int:
+    """0; ValueError on bad input."""
+    if args.action != "show":
+        raise ValueError(
+            f"airfoil {args.action} belongs to a checkout of the source: run `python -m tests.tools.sections "
+            f"{args.action} {args.name}` there"
+        )
+    if args.mach is None and args.alpha is None:
+        _show_section(load_installed(args.name), args.json)
+    elif args.mach is None or args.alpha is None:
+        raise ValueError("a point needs both --mach and --alpha: give the missing one")
+    else:
+        _show_point(args.name, args.mach, args.alpha, args.json)
+    return 0
+
+
+def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
+    """Lift, drag and moment at one Mach number and angle of attack [°] about the section's own chord line."""
+    table = load_installed(name).table
+    if not 0.0 <= mach <= table.mach_limit:
+        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose within them")
+    if not -180.0 <= alpha <= 180.0:
+        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose within them")
+    here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)
+    cl, cd = round(float(here.cl), 5), round(float(here.cd), 6)
+    cm = None if moment is None else round(float(moment), 5)
+    if as_json:
+        print(json.dumps({"cl": cl, "cd": cd, "cm": cm}))
+        return
+    said = "no moment in its source" if cm is None else f"cm {cm:+.4f}"
+    print(f"{name}, Mach {mach:g}, {alpha:g} deg: cl {cl:.4f}, cd {cd:.5f}, {said}")
+
+
+def _show_section(section: Section, as_json: bool) -> None:
+    table = section.table
+    mach = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])
+    negative, positive = table.stall_alpha(mach)
+    sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), table.moment(0.0, mach)
+    columns: dict[str, tuple[str, int, Array]] = {
+        "mach": ("Mach", 2, mach),
+        "cl_alpha_per_deg": ("cl_alpha/deg", 4, np.deg2rad(table.lift_slope(mach))),
+        "zero_lift_deg": ("alpha0 deg", 2, np.rad2deg(table.zero_lift_alpha(mach))),
+        "stall_negative_deg": ("stall- deg", 1, np.rad2deg(negative)),
+        "stall_positive_deg": ("stall+ deg", 1, np.rad2deg(positive)),
+        "cl_max": ("cl max", 3, table(sweep[:, None], mach).cl.max(axis=0)),
+        "cl_at_4_deg": ("cl(4)", 3, table(four, mach).cl),
+        "cd_at_0_deg": ("cd(0)", 4, table(0.0, mach).cd),
+        "cd_at_4_deg": ("cd(4)", 4, table(four, mach).cd),
+        **({} if moment is None else {"cm_at_0_deg": ("cm(0)", 4, moment)}),
+    }
+    """Heading and decimals of the table, and values."""
+    divergence = {f"{a:g}": round(float(table.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
+    offset = float(np.rad2deg(section.incidence_offset))
+    if as_json:
+        answer = {
+            "name": section.name,
+            "source": table.source,
+            "mach_limit": table.mach_limit,
+            "incidence_offset_deg": round(offset, 6),
+            "chord_ratio": section.chord_ratio,
+            "drag_divergence_mach": divergence,
+            **{key: [round(float(v), 5) for v in values] for key, (_, _, values) in columns.items()},
+        }
+        print(json.dumps(answer))
+        return
+    print(f"{section.name}: {table.source}")
+    print(
+        f"data to Mach {table.mach_limit:g}; chord line {offset:g} deg nose-down of, "
+        f"and chord {section.chord_ratio:g} times, those of SC1095"
+    )
+    print("  ".join(f"{head:>12}" for head, _, _ in columns.values()))
+    for k in range(len(mach)):
+        print("  ".join(f"{values[k]:12.{decimals}f}" for _, decimals, values in columns.values()))
+    print("drag divergence (dcd/dM = 0.1) at Mach " + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items()))

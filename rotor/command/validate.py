@@ -23,7 +23,7 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
+    parser = add_command(commands, "validate", run, "compares with every measured point of rotors that were tested")
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
     parser.add_argument(
@@ -34,7 +34,6 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -89,7 +88,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def inflow_report(rows: list[InflowAgreement]) -> str:
-    """Measured inflow beside every model, as a table."""
     lines = [
         f"{INFLOW_SET}: inflow one chord above the disk of the NASA 2MRTS rotor, laser velocimeter; never fitted",
         f"{'mu':>6}  {'model':<30}{'correlation':>12}{'rms':>9}{'mean':>9}{'measured':>10}",
@@ -103,7 +101,6 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:
-    """Measured loads over the azimuth beside ours, as a table."""
     lines = [*(f"{name}: {REPORTS[name]}; never fitted" for name in dict.fromkeys(row.case.test for row in rows))]
     lines.append(
         f"{'case':>6}{'r/R':>7}  {'quantity':<14}{'correlation':>12}{'rms':>10}{'of':>10}{'mean':>10}{'measured':>10}"
@@ -120,7 +117,6 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 
 def power_report(rows: list[FlownPower]) -> str:
-    """Measured main-rotor power beside ours, as a table."""
     lines = [
         f"{POWERS}: main-rotor power in level flight [kW]; never fitted",
         f"{'rotor':<9}{'case':>9}{'mu':>8}{'measured':>10}{'ours':>8}{'error %':>9}  between the drag areas",
@@ -136,7 +132,6 @@ def power_report(rows: list[FlownPower]) -> str:
 
 
 def report(found: Comparison) -> str:
-    """The comparison as a table."""
     measured, quantity = found.measured, found.measured.quantity
     lines = [
         f"{measured.name}: {measured.title}",

@@ -1,6 +1,9 @@
-"""Chunks of a study: the points of one in order, its Parquet file, and the run of many on Dask.
+"""Chunks of a study: the points of one in order, its Parquet file, the folder of all, and the run of many on Dask.
 
-They run on processes of this machine, one per core, or on a running cluster by its address."""
+They run on processes of this machine, one per core, or on a running cluster by its address. A folder has one file per
+chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads them as one table. All other names
+begin with `_` or a dot, which Parquet readers ignore.
+"""
 
 import ctypes
 import importlib
@@ -8,6 +11,7 @@ import io
 import json
 import logging
 import os
+import random
 import signal
 import socket
 import time
@@ -15,14 +19,22 @@ from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
 from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 from rotor.assets import package_version
 from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate
-from rotor.study.study import QUANTITIES, Column, Study, Value, columns_of
+from rotor.study.study import QUANTITIES, Study, Value, columns_of
+from rotor.study.study_file import StudyFile
+from rotor.user_input import is_file, make_folder, read_bytes, refusing, shorten
 
+ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
+"""The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
+_LOOK = 0.1
+"""[s] between checks for finished chunks, and for a request to stop."""
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 CONVERGED = "converged"
@@ -31,8 +43,6 @@ CONVERGED = "converged"
 
 @dataclass(frozen=True)
 class StudyProvenance:
-    """Provenance stored in every file of a study."""
-
     version: str
     commit: str | None
     file_sha256: str
@@ -59,10 +69,8 @@ class VersionMismatch(ValueError):
 def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
     """Rows of the points first … last − 1; each starts from the results of those before."""
     warm = WarmStarts(study.points.ranges)
-    rows: list[Row] = []
-    for number, values in enumerate(study.values(first, last), start=first):
-        rows.append({"point": number, **evaluate(values, study, warm)})
-    return rows
+    points = enumerate(study.values(first, last), start=first)
+    return [{"point": number, **evaluate(values, study, warm)} for number, values in points]
 
 
 def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> FinishedChunk:
@@ -75,11 +83,10 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
     keep_freed_memory()
     begin = time.process_time()
     rows = evaluate_points(study, *study.span(chunk))
-    content = parquet_of(
-        rows, columns_of(study), describe(study, provenance) | {"chunk": str(chunk), "worker": _worker()}
-    )
+    worker = f"{socket.gethostname()}:{os.getpid()}"
+    content = _parquet(rows, study, describe(study, provenance) | {"chunk": chunk, "worker": worker})
     failures = sum(row["status"] != CONVERGED for row in rows)
-    return FinishedChunk(chunk, len(rows), failures, time.process_time() - begin, _worker(), content)
+    return FinishedChunk(chunk, len(rows), failures, time.process_time() - begin, worker, content)
 
 
 @cache
@@ -95,12 +102,8 @@ def keep_freed_memory() -> None:
         libc.mallopt(_M_MMAP_THRESHOLD, 32 * 2**20)
 
 
-def _worker() -> str:
-    return f"{socket.gethostname()}:{os.getpid()}"
-
-
-def describe(study: Study, provenance: StudyProvenance) -> dict[str, str]:
-    """The provenance in the metadata of every file."""
+def describe(study: Study, provenance: StudyProvenance) -> dict[str, Any]:
+    """The provenance in the metadata of every file and in the description of the folder."""
     given = dict(study.given)
     return {
         "format": "rotor-explorer study",
@@ -111,10 +114,10 @@ def describe(study: Study, provenance: StudyProvenance) -> dict[str, str]:
         "study": study.fingerprint,
         "study_file_sha256": provenance.file_sha256,
         "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
-        "models": json.dumps(_models(study)),
-        "axes": json.dumps(study.axis_names),
-        "given": json.dumps(given),
-        "units": json.dumps({column.name: column.unit for column in columns_of(study) if column.unit}),
+        "models": _models(study),
+        "axes": list(study.axis_names),
+        "given": given,
+        "units": {column.name: column.unit for column in columns_of(study) if column.unit},
     }
 
 
@@ -127,23 +130,150 @@ def _models(study: Study) -> dict[str, Value]:
     return {name: value for name, value in models.items() if name not in study.axis_names} | given
 
 
-def parquet_of(rows: list[Row], columns: tuple[Column, ...], about: dict[str, str]) -> bytes:
+def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     """The rows as a Parquet file: units on each column, `about` on the whole, null where a row has no value."""
     arrow: Any = importlib.import_module("pyarrow")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     kinds = {"number": arrow.float64(), "count": arrow.int64(), "text": arrow.string()}
-    schema = arrow.schema(
-        [arrow.field(one.name, kinds[one.kind], metadata={"unit": one.unit} if one.unit else None) for one in columns],
-        metadata=about,
-    )
-    table = arrow.table({one.name: [row.get(one.name) for row in rows] for one in columns}, schema=schema)
+    fields = [
+        arrow.field(one.name, kinds[one.kind], metadata={"unit": one.unit} if one.unit else None)
+        for one in columns_of(study)
+    ]
+    texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
+    table = arrow.Table.from_pylist(rows, schema=arrow.schema(fields, metadata=texts))
     out = io.BytesIO()
     parquet.write_table(table, out, compression="zstd")
     return out.getvalue()
 
 
-_LOOK = 0.1
-"""[s] between checks for finished chunks, and for a request to stop."""
+class StoreError(RuntimeError):
+    """A chunk could not be written; earlier chunks are kept."""
+
+
+class Store:
+    """The folder of one study, open for writing."""
+
+    def __init__(self, folder: str | Path, file: StudyFile, provenance: StudyProvenance) -> None:
+        """Begin or continue a folder. ValueError for one that belongs to another study, or that somebody writes to."""
+        self.folder, self.study = Path(folder), file.study
+        try:
+            make_folder(self.folder)
+            known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
+            if known is None and any(one.name != _LOCK for one in self.folder.iterdir()):
+                raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
+            if known is not None:
+                self._check(known, provenance)
+            self._lock = _hold(self.folder)
+            self._write(ABOUT, _about(file.study, provenance, known))  # First: a folder without it is not a study's.
+            self._write(SOURCE, file.text.encode())
+            for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
+                left.unlink()
+        except OSError as error:
+            raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR") from None
+
+    def close(self) -> None:
+        if self._lock is not None:
+            os.close(self._lock)
+            self._lock = None
+
+    def missing(self) -> list[int]:
+        """Missing chunks in random order, so that an interrupted run covers the whole study.
+
+        A file of another study, or one that cannot be read, counts as missing.
+        """
+        parquet: Any = importlib.import_module("pyarrow.parquet")
+        found: set[int] = set()
+        for path in self.folder.glob("chunk-*.parquet"):
+            with suppress(Exception):  # A damaged file counts as missing.
+                about = parquet.read_metadata(path)
+                number = int(about.metadata[b"chunk"])
+                first, last = self.study.span(number)
+                if about.metadata[b"study"].decode() == self.study.fingerprint and about.num_rows == last - first:
+                    found.add(number)
+        left = [chunk for chunk in range(self.study.chunks) if chunk not in found]
+        random.Random(0).shuffle(left)
+        return left
+
+    def keep(self, chunk: int, content: bytes) -> None:
+        """Store a chunk. StoreError, for example where the disk is full, leaves the folder as it was."""
+        try:
+            self._write(f"chunk-{chunk:06d}.parquet", content)
+        except OSError as error:
+            raise StoreError(
+                f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
+                "run the same command again; finished chunks are kept"
+            ) from None
+
+    def _check(self, known: dict[str, Any], provenance: StudyProvenance) -> None:
+        if known.get("study") != self.study.fingerprint:
+            raise ValueError(
+                f"folder {str(self.folder)!r} holds another study ({known.get('title')}): give another --out DIR, "
+                "or the study file as it was"
+            )
+        if known.get("package_version") != provenance.version:
+            raise ValueError(
+                f"folder {str(self.folder)!r} was computed by rotor-explorer {known.get('package_version')}, this is "
+                f"{provenance.version}: give another --out DIR, or install that version"
+            )
+
+    def _write(self, name: str, content: bytes) -> None:
+        part = self.folder / f".{name}.part"
+        try:
+            with part.open("wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            part.replace(self.folder / name)
+        except OSError:
+            with suppress(OSError):
+                part.unlink()
+            raise
+
+
+def read_about(folder: str | Path) -> dict[str, Any]:
+    """The contents of a folder's `_study.json`; ValueError if no study wrote it."""
+    path = Path(folder) / ABOUT
+    if not is_file(path):
+        raise ValueError(f"{shorten(str(folder))!r} holds no study: give the --out DIR of a study")
+    remedy = "give the --out DIR of a study"
+    with refusing(f"{shorten(str(path))!r}", remedy):
+        about: Any = json.loads(read_bytes(path, "description", remedy))
+    if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]
+        raise ValueError(f"{str(path)!r} is not a study of this program: give the --out DIR of a study")
+    return about  # pyright: ignore[reportUnknownVariableType]
+
+
+def _about(study: Study, provenance: StudyProvenance, known: dict[str, Any] | None) -> bytes:
+    places = study.points
+    axes: dict[str, Any] = {axis.name: list(axis.values) for axis in places.axes}
+    axes |= {name: {"low": low, "high": high} for name, (low, high) in places.sampled.items()}
+    record = {
+        **describe(study, provenance),
+        "axes": axes,
+        "sample": None if places.sample is None else [places.sample.method, places.sample.count, places.sample.seed],
+        "points": study.count,
+        "chunk": study.chunk,
+        "chunks": study.chunks,
+        "least": study.show.least,
+        "uncertain": list(study.show.uncertain),
+        "begun": known["begun"] if known else datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+    return (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode()
+
+
+def _hold(folder: Path) -> int | None:
+    """A lock that is released when the process ends; None where the system has no such lock."""
+    try:
+        import fcntl
+    except ImportError:
+        return None
+    handle = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(handle)
+        raise ValueError(f"another run writes to {str(folder)!r}: wait for it, or give another --out DIR") from None
+    return handle
 
 
 class ClusterLost(RuntimeError):

@@ -29,7 +29,8 @@ from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
-from rotor.study.study import FREQUENCIES, PLAIN, OptimumSettings, Study, Value, concept_with_breaks
+from rotor.study.series import HUB_COLUMNS
+from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
@@ -323,31 +324,10 @@ def _found(optimum: Optimum, search: Search) -> Row:
 
 
 def _answer(solution: Solution) -> Row:
-    controls, power = solution.controls, solution.power
-    return {
-        "power_total_w": power.total,
-        "power_main_rotor_w": power.main_rotor,
-        "power_induced_w": power.induced,
-        "power_profile_w": power.profile,
-        "power_parasite_w": power.parasite,
-        "power_climb_w": power.climb,
-        "power_tail_w": power.tail,
-        "ct": solution.ct,
-        "cp": solution.cp,
-        "ct_over_sigma": solution.ct_over_sigma,
-        "lambda0": controls.lambda0,
-        "collective_deg": math.degrees(controls.collective),
-        "cyclic_1c_deg": math.degrees(controls.cyclic_1c),
-        "cyclic_1s_deg": math.degrees(controls.cyclic_1s),
-        "coning_deg": math.degrees(controls.coning),
-        "flap_1c_deg": math.degrees(controls.flap_1c),
-        "flap_1s_deg": math.degrees(controls.flap_1s),
-        "shaft_tilt_deg": math.degrees(controls.shaft_tilt),
-        "reverse_flow_area_percent": 100.0 * solution.reverse_flow_area,
-        "stalled_area_percent": 100.0 * solution.stalled_area,
-        "caveats": ", ".join(caveat.name for caveat in solution.caveats),
-        "passes": solution.passes,
-    }
+    record = solution.to_dict()
+    powers = {f"power_{part}_w": power for part, power in record["power_w"].items()}
+    row = {name: value for name, value in {**record, **powers}.items() if name in ANSWER}
+    return row | {"caveats": ", ".join(caveat.name for caveat in solution.caveats), "passes": solution.passes}
 
 
 def _vibration(solution: Solution, caveats: str) -> Row:
@@ -361,5 +341,4 @@ def _vibration(solution: Solution, caveats: str) -> Row:
         return row | {"caveats": ", ".join(name for name in (caveats, reason.name) if name)}
     loads = hub_loads(solution, solve, band=False)
     assert loads is not None
-    amplitudes = {f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}": size for name, size in loads.amplitudes.items()}
-    return row | {"index_percent": loads.index, **amplitudes}
+    return row | {"index_percent": loads.index, **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True))}

@@ -1,22 +1,17 @@
-"""The results of a study on disk: written chunk by chunk, read complete or still running.
+"""The results of a study, complete or still running, and what they show.
 
-A folder has one Parquet file per chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads
-them as one table. All other names begin with `_` or a dot, which Parquet readers ignore. A file that a visitor uploads
-is read in a process of its own, one at a time: some kilobytes may unpack to gigabytes.
+They are read from its folder or from one file. A file that a visitor uploads is read in a process of its own, one at a
+time: some kilobytes may unpack to gigabytes. Shown are the best point, the robust best design, main effects, and the
+Pareto front of hover and cruise.
 """
 
-import hashlib
 import importlib
 import json
 import math
-import os
 import pickle
-import random
 import sys
 import threading
-from contextlib import suppress
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -25,182 +20,32 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor.arrays import Array, Booleans, Integers
 from rotor.design.design import Design
 from rotor.files.make_design import Tell, warn
 from rotor.spawn import start_process
-from rotor.study.chunks import CONVERGED, StudyProvenance, describe
+from rotor.study.chunks import CONVERGED, read_about
 from rotor.study.point import design_of
-from rotor.study.study import PLAIN, QUANTITIES, Study, Value, concept_with_breaks
-from rotor.study.study_file import StudyFile
-from rotor.user_input import brief, is_file, make_folder, read_bytes, refusing, shorten
+from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
+from rotor.user_input import brief, shorten
 
-ABOUT, SOURCE = "_study.json", "_study.toml"
-"""The description of the folder, and a copy of the study file."""
+_LARGEST = 400_000_000
+"""Bytes that a single file may unpack to."""
 _MEMORY = 2 * 10**9
 """[bytes] beyond what the process has after its start; an accepted file unpacks to a fifth of it."""
 _PATIENCE = 60.0
 """[s]"""
 _one_at_a_time = threading.Lock()
-
-
-def sha256(text: str) -> str:
-    """SHA-256 of a study file's text, as hexadecimal digits."""
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-class StoreError(RuntimeError):
-    """A chunk could not be written; earlier chunks are kept."""
-
-
-_LOCK = "_lock"
-"""Left behind by a run that found no room for more."""
-
-
-class Store:
-    """The folder of one study, open for writing."""
-
-    def __init__(self, folder: str | Path, file: StudyFile, provenance: StudyProvenance) -> None:
-        """Begin or continue a folder. ValueError for one that belongs to another study, or that somebody writes to."""
-        self.folder, self.study = Path(folder), file.study
-        try:
-            make_folder(self.folder)
-            known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
-            if known is None and any(one.name != _LOCK for one in self.folder.iterdir()):
-                raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
-            if known is not None:
-                self._check(known, provenance)
-            self._lock = _hold(self.folder)
-            self._write(ABOUT, _about(file.study, provenance, known))  # First: a folder without it is not a study's.
-            self._write(SOURCE, file.text.encode())
-            for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
-                left.unlink()
-        except OSError as error:
-            raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR") from None
-
-    def close(self) -> None:
-        """Release the folder."""
-        if self._lock is not None:
-            os.close(self._lock)
-            self._lock = None
-
-    def missing(self) -> list[int]:
-        """Missing chunks in random order, so that an interrupted run covers the whole study.
-
-        A file of another study, or one that cannot be read, counts as missing.
-        """
-        parquet: Any = importlib.import_module("pyarrow.parquet")
-        found: set[int] = set()
-        for path in self.folder.glob("chunk-*.parquet"):
-            with suppress(Exception):  # A damaged file counts as missing.
-                about = parquet.read_metadata(path)
-                number = int(about.metadata[b"chunk"])
-                first, last = self.study.span(number)
-                if about.metadata[b"study"].decode() == self.study.fingerprint and about.num_rows == last - first:
-                    found.add(number)
-        left = [chunk for chunk in range(self.study.chunks) if chunk not in found]
-        random.Random(0).shuffle(left)
-        return left
-
-    def keep(self, chunk: int, content: bytes) -> None:
-        """Store a chunk. StoreError, for example where the disk is full, leaves the folder as it was."""
-        name = f"chunk-{chunk:06d}.parquet"
-        try:
-            self._write(name, content)
-        except OSError as error:
-            raise StoreError(
-                f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
-                "run the same "
-                "command again; finished chunks are kept"
-            ) from None
-
-    def _check(self, known: dict[str, Any], provenance: StudyProvenance) -> None:
-        if known.get("study") != self.study.fingerprint:
-            raise ValueError(
-                f"folder {str(self.folder)!r} holds another study ({known.get('title')}): give another --out DIR, "
-                "or the study file as it was"
-            )
-        if known.get("package_version") != provenance.version:
-            raise ValueError(
-                f"folder {str(self.folder)!r} was computed by rotor-explorer {known.get('package_version')}, this is "
-                f"{provenance.version}: give another --out DIR, or install that version"
-            )
-
-    def _write(self, name: str, content: bytes) -> None:
-        part = self.folder / f".{name}.part"
-        try:
-            with part.open("wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            part.replace(self.folder / name)
-        except OSError:
-            with suppress(OSError):
-                part.unlink()
-            raise
-
-
-def read_about(folder: str | Path) -> dict[str, Any]:
-    """The contents of a folder's `_study.json`; ValueError if no study wrote it."""
-    path = Path(folder) / ABOUT
-    if not is_file(path):
-        raise ValueError(f"{shorten(str(folder))!r} holds no study: give the --out DIR of a study")
-    remedy = "give the --out DIR of a study"
-    with refusing(f"{shorten(str(path))!r}", remedy):
-        about: Any = json.loads(read_bytes(path, "description", remedy))
-    if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]
-        raise ValueError(f"{str(path)!r} is not a study of this program: give the --out DIR of a study")
-    return about  # pyright: ignore[reportUnknownVariableType]
-
-
-def _about(study: Study, provenance: StudyProvenance, known: dict[str, Any] | None) -> bytes:
-    places = study.points
-    axes: dict[str, Any] = {axis.name: list(axis.values) for axis in places.axes}
-    if places.sample is not None:
-        axes |= {name: {"low": low, "high": high} for name, low, high in places.sample.ranges}
-    said = describe(study, provenance)
-    record = {
-        **said,
-        "models": json.loads(said["models"]),
-        "units": json.loads(said["units"]),
-        "axes": axes,
-        "sample": None if places.sample is None else [places.sample.method, places.sample.count, places.sample.seed],
-        "given": json.loads(said["given"]),
-        "points": study.count,
-        "chunk": study.chunk,
-        "chunks": study.chunks,
-        "least": study.show.least,
-        "uncertain": list(study.show.uncertain),
-        "begun": known["begun"] if known else datetime.now(UTC).isoformat(timespec="seconds"),
-    }
-    return (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode()
-
-
-def _hold(folder: Path) -> int | None:
-    """A lock that is released when the process ends; None where the system has no such lock."""
-    try:
-        import fcntl
-    except ImportError:
-        return None
-    handle = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(handle)
-        raise ValueError(f"another run writes to {str(folder)!r}: wait for it, or give another --out DIR") from None
-    return handle
-
-
-Ints = NDArray[np.int64]
-
-
-_LARGEST = 400_000_000
-"""Bytes that a single file may unpack to."""
+_MANY = 20
+"""Number of values from which an axis is divided into ten parts."""
+_FEW = 10
+"""Least mean number of values per part of a sampled axis: with fewer, noise looks like an effect."""
+_MOST_SPEEDS = 100
+"""Speeds of an axis; more than these are sampled, and no two points share one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Results:
-    """The results of a study, complete or partial."""
-
     about: dict[str, Any]
     """The folder's `_study.json`, or the metadata of one file."""
     axes: tuple[str, ...]
@@ -213,11 +58,10 @@ class Results:
 
     @property
     def points(self) -> int:
-        """Number of points of the whole study."""
         return int(self.about.get("points", self.rows))
 
     @property
-    def good(self) -> NDArray[np.bool_]:
+    def good(self) -> Booleans:
         """Rows with a result, (rows,)."""
         return self.columns["status"] == CONVERGED
 
@@ -239,7 +83,7 @@ class Results:
         ranges = cast(dict[str, Any], said) if isinstance(said, dict) else {}
         return tuple(name for name in self.axes if isinstance(ranges.get(name), dict))
 
-    def codes(self, names: tuple[str, ...]) -> Ints:
+    def codes(self, names: tuple[str, ...]) -> Integers:
         """The same number for rows that agree in all these columns, 0 upward, (rows,)."""
         code = np.zeros(self.rows, dtype=np.int64)
         for name in names:
@@ -369,18 +213,15 @@ def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: 
 
 def _read(answer: Connection, content: bytes, name: str, memory: int) -> None:
     """In the other process: send the results, or a sentence."""
-    made: Results | str
     try:
         importlib.import_module("pyarrow.parquet")  # Its own code is not counted.
         limit_memory(memory)
-        made = read_file(content, name)
-        answer.send_bytes(pickle.dumps(made))
-        return
+        made = pickle.dumps(read_file(content, name))
     except MemoryError:  # Arrow's is one too.
-        made = "it needs too much memory to read"
+        made = pickle.dumps("it needs too much memory to read")
     except Exception as error:
-        made = brief(error)
-    answer.send_bytes(pickle.dumps(made))
+        made = pickle.dumps(brief(error))
+    answer.send_bytes(made)
 
 
 def limit_memory(memory: int) -> None:
@@ -392,3 +233,162 @@ def limit_memory(memory: int) -> None:
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     most = pages * resource.getpagesize() + memory
     resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+@dataclass(frozen=True)
+class RobustDesign:
+    """A design and its results over all uncertain cases."""
+
+    design: dict[str, Any]
+    """Values of the axes that are not uncertain."""
+    worst: float
+    mean: float
+    cases: int
+
+
+@dataclass(frozen=True)
+class RobustBest:
+    """The best designs over all uncertain cases."""
+
+    least_worst: RobustDesign
+    least_mean: RobustDesign
+    designs: int
+    """Number of designs compared: those with a result in every case."""
+    dropped: int
+    """Number of designs left out: a case failed or is missing."""
+
+
+def best_row(results: Results, least: str) -> int | None:
+    """The row with the least value of a column; None where no row has one."""
+    values = np.where(results.good, results.columns[least], math.nan)
+    return int(np.nanargmin(values)) if np.isfinite(values).any() else None
+
+
+def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> RobustBest | None:
+    """The design of the least worst case and that of the least mean; None where no design has all its cases.
+
+    Designs differ in the axes that are not uncertain. Each must have results in as many cases as the finished rows have
+    combinations of the uncertain axes.
+    """
+    chosen = tuple(name for name in results.axes if name not in uncertain)
+    design, case = results.codes(chosen), results.codes(uncertain)
+    cases, designs = int(case.max()) + 1, int(design.max()) + 1
+    values = np.where(results.good, results.columns[least], math.nan)
+    known = np.isfinite(values)
+    count = np.bincount(design[known], minlength=designs)
+    whole = count == cases
+    if not whole.any():
+        return None
+    worst = np.full(designs, -math.inf)
+    np.maximum.at(worst, design[known], values[known])
+    mean = np.bincount(design[known], weights=values[known], minlength=designs) / np.maximum(count, 1)
+
+    def robust(of: Array) -> RobustDesign:
+        at = int(np.argmin(np.where(whole, of, math.inf)))
+        row = int(np.argmax(design == at))
+        values = {name: results.columns[name][row] for name in chosen}
+        return RobustDesign(values, float(worst[at]), float(mean[at]), cases)
+
+    return RobustBest(robust(worst), robust(mean), int(whole.sum()), int((~whole).sum()))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Main effect of one axis, averaged over all others."""
+
+    axis: str
+    share: float
+    """Fraction of the variance due to this axis alone (0…1), the first-order Sobol' index."""
+    least_at: Any
+    least: float
+    """Mean of the column at the value, or in the part of the range, where that is least."""
+    most_at: Any
+    most: float
+
+
+def effects(results: Results, column: str) -> tuple[Effect, ...]:
+    """The main effect of every axis on a column, the strongest first; ranges in tenths, or in fewer parts."""
+    values = results.columns[column]
+    known = results.good & np.isfinite(values)
+    if known.sum() < 2 or float(np.var(values[known])) == 0.0:
+        return ()
+    found = [
+        _effect(axis, *_levels(results.columns[axis][known], axis in results.sampled), values[known])
+        for axis in results.axes
+    ]
+    return tuple(sorted(found, key=lambda one: -one.share))
+
+
+def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> Effect:
+    count = np.bincount(code, minlength=len(levels))
+    means = np.bincount(code, weights=values, minlength=len(levels)) / np.maximum(count, 1)
+    share = float((count * (means - values.mean()) ** 2).sum() / count.sum() / np.var(values))
+    low = int(np.argmin(np.where(count > 0, means, math.inf)))
+    high = int(np.argmax(np.where(count > 0, means, -math.inf)))
+    return Effect(axis, share, levels[low], float(means[low]), levels[high], float(means[high]))
+
+
+def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Integers]:
+    """The values of an axis, or the middles of parts of its range where it has many; and which one each row has."""
+    levels, code = np.unique(at if at.dtype == np.float64 else at.astype(str), return_inverse=True)
+    if at.dtype == np.float64 and (sampled or len(levels) > _MANY):
+        parts = min(10, max(2, len(levels) // _FEW)) if sampled else 10
+        low, part = float(levels[0]), float(levels[-1] - levels[0]) / parts or 1.0
+        middles = [low + (k + 0.5) * part for k in range(parts)]
+        return middles, np.clip(np.floor((at - low) / part), 0, parts - 1).astype(np.int64)
+    return levels.tolist(), code.astype(np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class HoverCruisePairs:
+    """Blades with their power in hover and in cruise; arrays are (blades,)."""
+
+    hover: Array
+    """[W]"""
+    cruise: Array
+    """[W]"""
+    row: Integers
+    """The row of the results that has the cruise."""
+
+    @property
+    def best(self) -> Booleans:
+        """Pareto front: blades that no other one beats in both powers."""
+        order = np.lexsort((self.hover, self.cruise))
+        before = np.minimum.accumulate(np.concatenate([[math.inf], self.hover[order][:-1]]))
+        best = np.zeros(len(self.hover), dtype=bool)
+        best[order] = self.hover[order] < before
+        return best
+
+
+def cruise_speeds(results: Results) -> tuple[float, ...]:
+    """Advance ratios that may have pairs: those on an axis that also has hover, or all where hover is a column."""
+    speeds: list[float] = np.unique(results.columns["mu"][results.good]).tolist()
+    if _has_hover(results):
+        return tuple(speeds)
+    return (
+        tuple(speeds[1:])
+        if "mu" in results.axes and speeds and speeds[0] == 0.0 and len(speeds) <= _MOST_SPEEDS
+        else ()
+    )
+
+
+def hover_cruise_pairs(results: Results, cruise: float) -> HoverCruisePairs:
+    """Pairs at a cruise speed: rows that agree in every axis but speed, or rows with their own hover power."""
+    power, mu = results.columns["power_total_w"], results.columns["mu"]
+    here = np.flatnonzero(results.good & (mu == cruise))
+    if _has_hover(results):
+        hover = results.columns["hover_power_w"][here]
+        known = np.isfinite(hover)
+        return HoverCruisePairs(hover[known], power[here][known], here[known])
+    code = results.codes(tuple(name for name in results.axes if name != "mu"))
+    hovering = np.full(int(code.max(initial=0)) + 1, math.nan)
+    still = results.good & (mu == 0.0)
+    hovering[code[still]] = power[still]
+    hover = hovering[code[here]]
+    known = np.isfinite(hover)
+    return HoverCruisePairs(hover[known], power[here][known], here[known])
+
+
+def _has_hover(results: Results) -> bool:
+    column = results.columns.get("hover_power_w")
+    return column is not None and bool(np.isfinite(column).any())

@@ -32,16 +32,19 @@ COLUMNS = (
     "parasite_kw", "climb_kw", "tail_kw", "message",
 )  # fmt: skip
 """The unit is the end of the name; without one a column is a text or a ratio. Those of one rotor at one setting."""
+HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
-    "index_percent", "least_index_percent", "largest_index_percent", *(f"hub_{name}_n" for name in LOADS[:3]),
-    *(f"hub_{name}_nm" for name in LOADS[3:]), "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev",
+    "index_percent", "least_index_percent", "largest_index_percent", *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev",
+    "torsion_1_per_rev",
 )  # fmt: skip
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
 amplitudes, and frequencies of the blade."""
 _COLUMNS = (
     "rotor", "twist", "pitch_per_rev", "twist_per_rev", *COLUMNS[1:3], "mass_kg", "altitude_m", *COLUMNS[3:],
 )  # fmt: skip
-POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
+PARTS = ("induced", "profile", "parasite", "climb", "tail")
+"""Parts of the total, as in `PowerBudget`."""
+POWERS = ("total", "main_rotor", *PARTS)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -206,17 +209,18 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
             f"plot_power got {', '.join(type(table).__name__ for table in tables) or 'nothing'}: "
             "give what rotor.sweep returns, one table or several"
         )
-    over = _swept(tables)
-    labels = over.label, "Power [kW]"
-    labelled = [pair for table in tables for pair in zip(table.labels, table, strict=True)]
-    curves = {name: [one for other, one in labelled if other == name] for name, _ in labelled}
+    solutions = [solution for table in tables for solution in table]
+    axis = _swept(solutions)
+    labels = _SWEPT[axis], "Power [kW]"
+    curves: dict[str, list[Solution]] = {}
+    for solution in solutions:
+        curves.setdefault(_label(solution.design), []).append(solution)
     if len(tables) == 1 and len(curves) == 1:
-        return plot_lines(
-            over.values(tables[0]), {part: _kilowatts(tables[0], part) for part in _drawn(tables[0])}, labels, ax
-        )
-    for name, solutions in curves.items():
-        table = SweepTable(tuple(solutions))
-        ax = plot_lines(over.values(table), {name: _kilowatts(table, "total")}, labels, ax)
+        climbs = any(solution.design.condition.climb_speed for solution in solutions)
+        drawn = [part for part in POWERS if climbs or part != "climb"]
+        return plot_lines(_values(solutions, axis), {part: _kilowatts(solutions, part) for part in drawn}, labels, ax)
+    for name, curve in curves.items():
+        ax = plot_lines(_values(curve, axis), {name: _kilowatts(curve, "total")}, labels, ax)
     return ax
 
 
@@ -227,42 +231,30 @@ def _label(design: Design) -> str:
     return ", ".join([design.rotor.name, design.twist.spec(), *parts])
 
 
-def _drawn(table: SweepTable) -> list[str]:
-    """The powers of a table; that of the climb where there is one."""
-    climbs = any(solution.design.condition.climb_speed for solution in table)
-    return [part for part in POWERS if climbs or part != "climb"]
+_SWEPT = {
+    "advance_ratio": "Advance ratio µ",
+    "mass": "Mass [kg]",
+    "altitude": "Altitude [m]",
+    "climb_speed": "Rate of climb [m/s]",
+}
+"""Labels on a chart, by the name in `FlightCondition`."""
 
 
-@dataclass(frozen=True)
-class _Axis:
-    """What a sweep went over: its name in `FlightCondition`, and on a chart."""
-
-    name: str
-    label: str
-
-    def values(self, table: SweepTable) -> list[float]:
-        return [getattr(solution.design.condition, self.name) for solution in table]
-
-
-def _swept(tables: Sequence[SweepTable]) -> _Axis:
+def _swept(solutions: Sequence[Solution]) -> str:
     """What varies; the advance ratio where nothing does."""
-    axes = (
-        _Axis("advance_ratio", "Advance ratio µ"),
-        _Axis("mass", "Mass [kg]"),
-        _Axis("altitude", "Altitude [m]"),
-        _Axis("climb_speed", "Rate of climb [m/s]"),
-    )
-    designs = {solution.design.rotor.name for table in tables for solution in table}
-    rotors = [
-        [one for table in tables for one in table if one.design.rotor.name == name] for name in designs
-    ]  # The mass of another rotor is another by itself.
-    return next(
-        (axis for axis in axes if any(len(set(axis.values(SweepTable(tuple(one))))) > 1 for one in rotors)), axes[0]
-    )
+    rotors: dict[str, list[Solution]] = {}
+    for solution in solutions:  # The mass of another rotor is another by itself.
+        rotors.setdefault(solution.design.rotor.name, []).append(solution)
+    varied = (name for name in _SWEPT if any(len(set(_values(one, name))) > 1 for one in rotors.values()))
+    return next(varied, "advance_ratio")
 
 
-def _kilowatts(table: SweepTable, part: str) -> list[float]:
-    return [getattr(solution.power, part) / 1e3 if solution.converged else math.nan for solution in table]
+def _values(solutions: Sequence[Solution], name: str) -> list[float]:
+    return [getattr(solution.design.condition, name) for solution in solutions]
+
+
+def _kilowatts(solutions: Sequence[Solution], part: str) -> list[float]:
+    return [getattr(solution.power, part) / 1e3 if solution.converged else math.nan for solution in solutions]
 
 
 def _row(solution: Solution) -> tuple[float | str | None, ...]:
@@ -292,10 +284,6 @@ def _vibration(solution: Solution) -> tuple[float | None, ...]:
     if loads is None:
         return (*(None for _ in range(3 + len(LOADS))), *modes)
     return (loads.index, *(loads.band or (None, None)), *loads.amplitudes.values(), *modes)
-
-
-PARTS = ("induced", "profile", "parasite", "climb", "tail")
-"""Parts of the total, as in `PowerBudget`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -359,8 +347,6 @@ def waterfall_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> I
 
 @dataclass(frozen=True, eq=False)
 class Waterfall:
-    """All steps of the waterfall."""
-
     steps: tuple[WaterfallStep, ...]
     """All off, then one more on at each step; the last is the full model."""
     alone: tuple[WaterfallStep, ...]

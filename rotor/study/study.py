@@ -6,6 +6,7 @@ is computed, not stored: a study of 10⁹ points needs no memory. A study pickle
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -16,21 +17,29 @@ from scipy.stats import qmc
 
 from rotor.aero.switches import SWITCHES
 from rotor.arrays import Array
-from rotor.columns.bending import LOADS
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.stand import STAND_KEYS
-from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
 from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
 from rotor.optimisation.objective import Quantity as Objective
-from rotor.user_input import did_you_mean
+from rotor.study.series import HUB_COLUMNS, POWERS
 
 Value = float | str | bool
-QuantityKind = Literal["number", "text", "flag"]
-QuantitySection = Literal["fixed", "models"]
 Ints = NDArray[np.int64]
 
 Method = Literal["sobol", "latin-hypercube"]
+
+
+_UNITS = {
+    "_deg": "°", "_percent": "%", "_kt": "kt", "_kg": "kg", "_m": "m", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n": "N",
+    "_nm": "N m", "_w": "W", "_ms": "ms", "_per_rev": "/rev",
+}  # fmt: skip
+"""Units by the end of a name of a number."""
+
+
+def _unit(name: str) -> str:
+    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
 
 
 @dataclass(frozen=True)
@@ -38,57 +47,42 @@ class Quantity:
     """One thing that a study can hold or vary."""
 
     name: str
-    kind: QuantityKind
+    kind: Literal["number", "text", "flag"]
     unit: str
-    section: QuantitySection
-    """The section of the study file that holds it; as an axis it is in [axes]."""
-    whole: bool = False
-    """Whether a number of it is a whole one."""
+    section: str
+    """That of the study file which holds it, "fixed" or "models"; as an axis it is in [axes]."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether a number of it is a whole one."""
+        return self.name in ("elements", "azimuths")
 
 
-_PARAMETERS = [parameter for concept in CONCEPTS.values() for parameter in concept.parameters]
-_LABELS = {parameter.label for parameter in _PARAMETERS}
+def _quantities() -> Iterator[Quantity]:
+    fixed = (
+        "rotor", "mu", "speed_kt", "mass_kg", "altitude_m", "climb_m_s", "twist", "twist_per_rev", "pitch_per_rev",
+        "airfoils", "concept", "hover_share", *(f"stand_{key}" for key in STAND_KEYS),
+    )  # fmt: skip
+    models = ("trim", "preset", "inflow", *_FLAGS, "elements", "azimuths")
+    for section, names in (("fixed", fixed), ("models", models)):
+        for name in names:
+            if name in _TEXTS or name in _FLAGS:
+                yield Quantity(name, "text" if name in _TEXTS else "flag", "", section)
+            else:
+                yield Quantity(name, "number", _unit(name), section)
+    for concept in CONCEPTS.values():
+        yield from (Quantity(one.label, "number", one.shown_unit, "fixed") for one in concept.parameters)
 
 
-_KIND: dict[str, tuple[QuantityKind, str]] = {
-    "flapping": ("text", ""),
-    "thrust_n": ("number", "N"),
-    "density_kg_m3": ("number", "kg/m³"),
-    **{key: ("number", "°") for key in STAND_KEYS if key.endswith("_deg")},
-}
-
-
-def _all() -> dict[str, Quantity]:
-    plain = [
-        Quantity("rotor", "text", "", "fixed"),
-        Quantity("mu", "number", "", "fixed"),
-        Quantity("speed_kt", "number", "kt", "fixed"),
-        Quantity("mass_kg", "number", "kg", "fixed"),
-        Quantity("altitude_m", "number", "m", "fixed"),
-        Quantity("climb_m_s", "number", "m/s", "fixed"),
-        Quantity("twist", "text", "", "fixed"),
-        Quantity("twist_per_rev", "text", "", "fixed"),
-        Quantity("pitch_per_rev", "text", "", "fixed"),
-        Quantity("airfoils", "text", "", "fixed"),
-        Quantity("concept", "text", "", "fixed"),
-        Quantity("hover_share", "number", "", "fixed"),
-        *(Quantity(f"stand_{key}", *_KIND.get(key, ("number", "")), "fixed") for key in STAND_KEYS),
-        Quantity("trim", "text", "", "models"),
-        Quantity("preset", "text", "", "models"),
-        Quantity("inflow", "text", "", "models"),
-        *(Quantity(name, "flag", "", "models") for name in SWITCHES),
-        Quantity("bending", "flag", "", "models"),
-        Quantity("dynamic_stall", "flag", "", "models"),
-        Quantity("elements", "number", "", "models", whole=True),
-        Quantity("azimuths", "number", "", "models", whole=True),
-    ]
-    made = [Quantity(one.label, "number", one.shown_unit, "fixed") for one in _PARAMETERS]
-    return {one.name: one for one in (*plain, *made)}
-
-
-QUANTITIES: dict[str, Quantity] = _all()
+_FLAGS = (*SWITCHES, "bending", "dynamic_stall")
+_TEXTS = (
+    "rotor", "twist", "twist_per_rev", "pitch_per_rev", "airfoils", "concept", "stand_flapping", "trim", "preset",
+    "inflow",
+)  # fmt: skip
+QUANTITIES: dict[str, Quantity] = {one.name: one for one in _quantities()}
 """By name; the parameters of all twist concepts are among them, angles in degrees with names that end in _deg."""
 
+_LABELS = {parameter.label for concept in CONCEPTS.values() for parameter in concept.parameters}
 PLAIN = tuple(name for name in QUANTITIES if name not in _LABELS)
 """Quantities that do not belong to a concept."""
 
@@ -105,10 +99,7 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
 
     Raises ValueError for a concept or a parameter that there is not.
     """
-    if name not in CONCEPTS:
-        hint = did_you_mean(name, CONCEPTS) or ":"
-        raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
-    concept = CONCEPTS[name]
+    concept = find_concept(name)
     if name in _WIDER and any(label not in [one.label for one in concept.parameters] for label in given):
         concept = _WIDER[name]
     known = {one.label: one for one in concept.parameters}
@@ -118,16 +109,8 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
     return concept, {known[label].name: known[label].from_shown(value) for label, value in given.items()}
 
 
-def concept_labels(name: str, given: tuple[str, ...]) -> tuple[str, ...]:
-    """Labels of a concept's parameters, with the breaks where a study sets those."""
-    concept, _ = concept_with_breaks(name, dict.fromkeys(given, 0.0))
-    return tuple(parameter.label for parameter in concept.parameters)
-
-
 @dataclass(frozen=True)
 class Axis:
-    """A quantity and the values it takes."""
-
     name: str
     values: tuple[float, ...] | tuple[str, ...]
 
@@ -146,12 +129,6 @@ class Sample:
     ranges: tuple[tuple[str, float, float], ...]
     """Quantity, low, high."""
 
-    def __post_init__(self) -> None:
-        if not 1 <= self.count <= 2**24:
-            raise ValueError(f"sample count {self.count} is outside 1…{2**24}: choose a number inside")
-        if self.seed < 0:
-            raise ValueError(f"sample seed {self.seed} is negative: give 0 or more")
-
 
 @dataclass(frozen=True)
 class StudyPoints:
@@ -162,17 +139,18 @@ class StudyPoints:
 
     @property
     def count(self) -> int:
-        return math.prod(
-            (len(axis.values) for axis in self.axes), start=1 if self.sample is None else self.sample.count
-        )
+        return math.prod(len(axis.values) for axis in self.axes) * (self.sample.count if self.sample else 1)
+
+    @property
+    def sampled(self) -> dict[str, tuple[float, float]]:
+        """Low and high of every sampled range."""
+        return {name: (low, high) for name, low, high in self.sample.ranges} if self.sample else {}
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
         """Low and high of every axis of numbers."""
-        grids = {
-            axis.name: (float(min(axis.values)), float(max(axis.values))) for axis in self.axes if not axis.textual
-        }
-        return grids | ({name: (low, high) for name, low, high in self.sample.ranges} if self.sample else {})
+        numbers = [axis for axis in self.axes if not axis.textual]
+        return {axis.name: (float(min(axis.values)), float(max(axis.values))) for axis in numbers} | self.sampled
 
     def at(self, first: int, last: int) -> list[dict[str, float | str]]:
         """Values of the points first … last − 1 in the order of computation."""
@@ -276,7 +254,6 @@ class Study:
 
     @property
     def count(self) -> int:
-        """How many points."""
         return self.points.count
 
     @property
@@ -295,8 +272,7 @@ class Study:
     @property
     def axis_names(self) -> tuple[str, ...]:
         """Axes in the order of the file, sampled ranges last."""
-        sampled = () if self.points.sample is None else tuple(name for name, _, _ in self.points.sample.ranges)
-        return (*(axis.name for axis in self.points.axes), *sampled)
+        return (*(axis.name for axis in self.points.axes), *self.points.sampled)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -306,11 +282,8 @@ class Study:
     @property
     def concepts(self) -> tuple[str, ...]:
         """The twist concepts that occur."""
-        for axis in self.points.axes:
-            if axis.name == "concept":
-                return tuple(str(value) for value in axis.values)
-        found = dict(self.given).get("concept")
-        return () if found is None else (str(found),)
+        values = {name: (value,) for name, value in self.given} | {axis.name: axis.values for axis in self.points.axes}
+        return tuple(map(str, values.get("concept", ())))
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -348,90 +321,49 @@ def default_chunk(count: int, *, search: bool) -> int:
     return max(min(most, few), -(-count // 20_000))
 
 
-Kind = Literal["number", "count", "text"]
 FREQUENCIES = ("flap_1", "flap_2", "lag_1", "lag_2", "torsion_1")
 """Modes of the rotating blade whose frequencies are in the table."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """One column."""
-
     name: str
-    kind: Kind
-    unit: str = ""
+    kind: Literal["number", "count", "text"]
+    unit: str
 
 
-_POWERS = tuple(
-    Column(f"power_{part}_w", "number", "W")
-    for part in ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
-)
-_ANGLES = tuple(
-    Column(f"{name}_deg", "number", "°")
-    for name in ("collective", "cyclic_1c", "cyclic_1s", "coning", "flap_1c", "flap_1s", "shaft_tilt")
-)
 _HEAD = (
-    Column("point", "count"),
-    Column("status", "text"),
-    Column("message", "text"),
-)
-_CONDITION = (
-    Column("rotor", "text"),
-    Column("mu", "number"),
-    Column("speed_m_s", "number", "m/s"),
-    Column("mass_kg", "number", "kg"),
-    Column("altitude_m", "number", "m"),
-    Column("climb_m_s", "number", "m/s"),
-    Column("preset", "text"),
-    Column("inflow", "text"),
-    Column("twist", "text"),
-)
-_ANSWER = (
-    *_POWERS,
-    Column("ct", "number"),
-    Column("cp", "number"),
-    Column("ct_over_sigma", "number"),
-    Column("lambda0", "number"),
-    *_ANGLES,
-    Column("reverse_flow_area_percent", "number", "%"),
-    Column("stalled_area_percent", "number", "%"),
-    Column("caveats", "text"),
-    Column("passes", "count"),
-    Column("elapsed_ms", "number", "ms"),
-)
-_VIBRATION = (
-    Column("index_percent", "number", "%"),
-    *(Column(f"hub_{name}_n", "number", "N") for name in LOADS[:3]),
-    *(Column(f"hub_{name}_nm", "number", "N m") for name in LOADS[3:]),
-    *(Column(f"{mode}_per_rev", "number", "/rev") for mode in FREQUENCIES),
-)
+    "point", "status", "message", "rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", "climb_m_s", "preset", "inflow",
+    "twist",
+)  # fmt: skip
+ANSWER = (
+    *(f"power_{part}_w" for part in POWERS), "ct", "cp", "ct_over_sigma", "lambda0", "collective_deg", "cyclic_1c_deg",
+    "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg", "shaft_tilt_deg", "reverse_flow_area_percent",
+    "stalled_area_percent", "caveats", "passes", "elapsed_ms",
+)  # fmt: skip
+"""Results of a trim."""
+_VIBRATION = ("index_percent", *HUB_COLUMNS, *(f"{mode}_per_rev" for mode in FREQUENCIES))
 """Of a study with `bending`: amplitudes at N_b/rev, without the band over wakes, which takes three more trims."""
 _SEARCH = (
-    Column("mean_power_w", "number", "W"),
-    Column("hover_power_w", "number", "W"),
-    Column("baseline_power_w", "number", "W"),
-    Column("saving_percent", "number", "%"),
-    Column("local_minima", "count"),
-    Column("active", "text"),
-    Column("evaluations", "count"),
-)
+    "mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent", "local_minima", "active", "evaluations",
+)  # fmt: skip
 """`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
+_COUNTS = ("point", "passes", "local_minima", "evaluations")
+_WORDS = ("status", "message", "caveats", "active", *_TEXTS)
 
 
 def columns_of(study: Study) -> tuple[Column, ...]:
     """All columns of a study's table: point, status, condition, values set or found, results."""
-    known = {column.name for column in (*_HEAD, *_CONDITION)}
-    own = tuple(
-        Column(name, "number" if QUANTITIES[name].kind == "number" else "text", QUANTITIES[name].unit)
-        for name in dict.fromkeys((*study.names, *_found(study)))
-        if name not in known and QUANTITIES[name].kind != "flag"
-    )
+    given = dict.fromkeys(study.parameters, 0.0)
+    searched = [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
+    found = [parameter.label for concept in searched for parameter in concept.parameters]
+    own = [name for name in (*study.names, *found) if name not in _FLAGS]
     vibration = _VIBRATION if dict(study.given).get("bending") else ()
-    return (*_HEAD, *_CONDITION, *own, *_ANSWER, *vibration, *(_SEARCH if study.optimum is not None else ()))
+    names = (*_HEAD, *own, *ANSWER, *vibration, *(_SEARCH if study.optimum else ()))
+    return tuple(_column(name) for name in dict.fromkeys(names))
 
 
-def _found(study: Study) -> tuple[str, ...]:
-    """Concept parameters that a search finds, by label."""
-    if study.optimum is None:
-        return ()
-    return tuple(label for name in study.concepts for label in concept_labels(name, study.parameters))
+def _column(name: str) -> Column:
+    if name in _COUNTS or name in _WORDS:
+        return Column(name, "count" if name in _COUNTS else "text", "")
+    return Column(name, "number", QUANTITIES[name].unit if name in QUANTITIES else _unit(name))

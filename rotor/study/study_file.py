@@ -7,10 +7,11 @@ not by msgspec: most keys are quantities whose names and kinds are data, and its
 import math
 import re
 import tomllib
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
@@ -22,6 +23,7 @@ from rotor.study.point import check_point
 from rotor.study.study import (
     QUANTITIES,
     Axis,
+    Method,
     OptimumSettings,
     Sample,
     ShowSettings,
@@ -34,6 +36,7 @@ from rotor.study.study import (
 )
 from rotor.user_input import is_file, parse_range, read_text, refusing, shorten
 
+_MANY = 10**10
 SECTIONS: dict[str, tuple[str, ...]] = {
     "": ("title", "chunk"),
     "axes": (),
@@ -46,11 +49,12 @@ SECTIONS: dict[str, tuple[str, ...]] = {
 """Sections and their keys; empty: names of quantities."""
 
 
-class Document:
-    """A parsed study file. ValueError with the line for an unknown key."""
+class Reader:
+    """Reads a study from the text of a file. ValueError with the line for whatever is wrong."""
 
     def __init__(self, text: str, name: str) -> None:
         self._lines, self._name = text.splitlines(), name
+        self._aircraft: dict[str, Aircraft] = {}
         try:
             self._content = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
@@ -58,22 +62,18 @@ class Document:
         for key, value in self._content.items():
             if key not in SECTIONS[""] and key not in SECTIONS:
                 names = ", ".join([*SECTIONS[""], *(f"[{name}]" for name in SECTIONS if name)])
-                raise self.wrong("", key, f"{key!r} is not known: a study file has {names}")
+                raise self._wrong("", key, f"{key!r} is not known: a study file has {names}")
             if key in SECTIONS and not isinstance(value, dict):
-                raise self.wrong("", key, f"{key} is not a section: write [{key}] on a line and its keys below")
+                raise self._wrong("", key, f"{key} is not a section: write [{key}] on a line and its keys below")
         for section, keys in SECTIONS.items():
-            for key in self.section(section) if keys and section else ():
+            for key in self._section(section) if keys and section else ():
                 if key not in keys:
-                    raise self.wrong(section, key, f"{key!r} is not known in [{section}]: it has {', '.join(keys)}")
+                    raise self._wrong(section, key, f"{key!r} is not known in [{section}]: it has {', '.join(keys)}")
 
-    def section(self, name: str) -> dict[str, Any]:
-        """The keys of a section; those above all sections by the name ''."""
-        return self._content if not name else cast(dict[str, Any], self._content.get(name, {}))
+    def _section(self, name: str) -> dict[str, Any]:
+        return self._content.get(name, {})
 
-    def has(self, section: str) -> bool:
-        return section in self._content
-
-    def wrong(self, section: str, key: str, sentence: str) -> ValueError:
+    def _wrong(self, section: str, key: str, sentence: str) -> ValueError:
         """The error for a key: the sentence with file and line."""
         line = self._line(section, key)
         return ValueError(f"study file {self._name!r}{f' line {line}' if line else ''}: {sentence}")
@@ -97,33 +97,18 @@ class Document:
                 found = number
         return found
 
-
-_MANY = 10**10
-
-
-class Reader:
-    """Reads a study from a parsed file."""
-
-    def __init__(self, file: Document, path: Path) -> None:
-        self._file, self._path = file, path
-        self._aircraft: dict[str, Aircraft] = {}
-
     def study(self) -> Study:
-        sample = self._file.section("sample")
+        sample = self._section("sample")
         axes, ranges = self._axes()
         places = StudyPoints(axes, self._sample(sample, ranges))
         if not axes and places.sample is None:
-            raise self._file.wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
+            raise self._wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
         searching = self._searching()
-        title, chunk = self._file.section("").get("title", self._path.stem), self._file.section("").get("chunk")
-        if not isinstance(title, str):
-            raise self._file.wrong("", "title", f"title is {title!r}: give a text")
+        title = self._read("", "title", Path(self._name).stem, lambda one: isinstance(one, str), "give a text")
         if places.count > _MANY:
-            raise self._file.wrong("axes", "", f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
-        if chunk is None:
-            chunk = default_chunk(places.count, search=searching is not None)
-        chunk = int(self._whole("", "chunk", chunk, 1, 10**6))
+            raise self._wrong("axes", "", f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
+        chunk = self._whole("", "chunk", default_chunk(places.count, search=searching is not None), 1, 10**6)
         aircraft = tuple(self._aircraft.items())
         study = Study(title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
         self._try_points(study)
@@ -132,7 +117,7 @@ class Reader:
     def _axes(self) -> tuple[tuple[Axis, ...], list[tuple[str, float, float]]]:
         axes: list[Axis] = []
         ranges: list[tuple[str, float, float]] = []
-        for key, value in self._file.section("axes").items():
+        for key, value in self._section("axes").items():
             self._known("axes", key)
             if isinstance(value, dict):
                 ranges.append((key, *self._range(key, cast(dict[str, Any], value))))
@@ -147,37 +132,35 @@ class Reader:
                 for name, one in QUANTITIES.items()
                 if (one.kind != "flag" if section == "axes" else one.section == section)
             ]
-            raise self._file.wrong(
-                section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}"
-            )
+            raise self._wrong(section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}")
         if QUANTITIES[key].kind == "flag" and section == "axes":
-            raise self._file.wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
+            raise self._wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
 
     def _listed(self, key: str, value: Any) -> tuple[float, ...] | tuple[str, ...]:
         """The values of an axis: a list, or a range written as a text."""
         how = 'give a list, a range such as "0.05:0.40:0.05", or { low = 0.1, high = 0.3 } to sample'
         if QUANTITIES[key].kind == "text":
             if not isinstance(value, list) or not all(isinstance(one, str) for one in cast(list[Any], value)):
-                raise self._file.wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
+                raise self._wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
             found: list[Any] = [self._portable("axes", key, one) for one in cast(list[str], value)]
         elif isinstance(value, str):
             try:
                 found = list(parse_range(value))
             except ValueError as error:
-                raise self._file.wrong("axes", key, f"axis {key}: {error}") from None
+                raise self._wrong("axes", key, f"axis {key}: {error}") from None
         elif isinstance(value, list):
             found = cast(list[Any], value)
         else:
-            raise self._file.wrong("axes", key, f"axis {key} is {value!r}: {how}")
+            raise self._wrong("axes", key, f"axis {key} is {value!r}: {how}")
         if not found:
-            raise self._file.wrong("axes", key, f"axis {key} has no values: give one at least")
+            raise self._wrong("axes", key, f"axis {key} has no values: give one at least")
         for one in found:
             if QUANTITIES[key].kind == "number" and not _finite(one):
-                raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: {how}")
+                raise self._wrong("axes", key, f"axis {key} holds {one!r}: {how}")
             if QUANTITIES[key].whole and float(one) % 1.0:
-                raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
+                raise self._wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
         if len(set(found)) < len(found):
-            raise self._file.wrong("axes", key, f"axis {key} holds a value twice: remove one")
+            raise self._wrong("axes", key, f"axis {key} holds a value twice: remove one")
         return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
 
     def _portable(self, section: str, key: str, text: str) -> str:
@@ -187,12 +170,12 @@ class Reader:
         """
         try:
             if key == "rotor" and text not in SHIPPED_ROTORS:
-                beside = self._path.parent / text
+                beside = Path(self._name).parent / text
                 self._aircraft[text] = find_aircraft(str(beside) if beside.is_file() else text)
             elif key == "twist" and "table:" in text:
                 return inline_spec(make_design(twist=text).twist)
         except ValueError as error:
-            raise self._file.wrong(section, key, str(error)) from None
+            raise self._wrong(section, key, str(error)) from None
         return current_model(key, text)
 
     def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
@@ -200,118 +183,100 @@ class Reader:
         if (
             QUANTITIES[key].kind != "number" or set(value) != {"low", "high"} or not (_finite(low) and _finite(high))
         ):  # fmt: skip
-            raise self._file.wrong(
-                "axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}"
-            )
+            raise self._wrong("axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}")
         if QUANTITIES[key].whole:
-            raise self._file.wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
+            raise self._wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
         if not cast(float, low) < cast(float, high):
-            raise self._file.wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
+            raise self._wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
         return float(cast(float, low)), float(cast(float, high))
 
     def _sample(self, record: dict[str, Any], ranges: list[tuple[str, float, float]]) -> Sample | None:
         if not ranges:
             if record:
-                raise self._file.wrong(
+                raise self._wrong(
                     "", "sample", "[sample] has no range to sample: give an axis as { low = …, high = … }"
                 )
             return None
         if not record:
             key = ranges[0][0]
-            raise self._file.wrong("axes", key, f"axis {key} is a range: add [sample] with method and count")
-        method = record.get("method", "sobol")
-        if method not in ("sobol", "latin-hypercube"):
-            raise self._file.wrong("sample", "method", f"method is {method!r}: use sobol or latin-hypercube")
+            raise self._wrong("axes", key, f"axis {key} is a range: add [sample] with method and count")
+        methods = get_args(Method)
+        method = self._read("sample", "method", methods[0], methods.__contains__, f"use {' or '.join(methods)}")
         if "count" not in record:
-            raise self._file.wrong("", "sample", "[sample] has no count: say how many points, for example count = 1024")
-        count = int(self._whole("sample", "count", record["count"], 1, 2**24))
-        return Sample(method, count, int(self._whole("sample", "seed", record.get("seed", 0), 0, 2**31)), tuple(ranges))
+            raise self._wrong("", "sample", "[sample] has no count: say how many points, for example count = 1024")
+        count = self._whole("sample", "count", 0, 1, 2**24)
+        return Sample(method, count, self._whole("sample", "seed", 0, 0, 2**31), tuple(ranges))
 
     def _given(self, varied: set[str]) -> dict[str, Value]:
         given: dict[str, Value] = {}
         for section in ("fixed", "models"):
-            for key, value in self._file.section(section).items():
+            for key, value in self._section(section).items():
                 self._known(section, key)
                 one = QUANTITIES[key]
                 if one.section != section:
-                    raise self._file.wrong(section, key, f"{key} is in [{section}]: move it to [{one.section}]")
+                    raise self._wrong(section, key, f"{key} is in [{section}]: move it to [{one.section}]")
                 if key in varied:
-                    raise self._file.wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
+                    raise self._wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
                 number = _finite(value) and not (one.whole and value % 1)
                 right = {"number": number, "text": isinstance(value, str), "flag": isinstance(value, bool)}
                 if not right[one.kind]:
                     wanted = {"number": "a whole number" if one.whole else "a number", "text": "a text",
                               "flag": "true or false"}[one.kind]  # fmt: skip
-                    raise self._file.wrong(section, key, f"{key} is {value!r}: give {wanted}")
+                    raise self._wrong(section, key, f"{key} is {value!r}: give {wanted}")
                 if one.kind == "text":
                     value = self._portable(section, key, value)
                 given[key] = float(value) if one.kind == "number" else value
         return given
 
     def _searching(self) -> OptimumSettings | None:
-        if not self._file.has("optimum"):
+        if "optimum" not in self._content:
             return None
-        record, plain = self._file.section("optimum"), OptimumSettings()
-        objective = record.get("objective", "total")
-        if objective not in OBJECTIVES:
-            raise self._file.wrong("optimum", "objective", f"objective is {objective!r}: use {', '.join(OBJECTIVES)}")
-        rate, stalled = record.get("rate_deg"), record.get("stalled_percent")
-        if rate is not None:
-            pair = cast(list[Any], rate) if isinstance(rate, list) else []
-            if len(pair) != 2 or not all(_finite(one) for one in pair) or not pair[0] < pair[1]:
-                raise self._file.wrong("optimum", "rate_deg", f"rate_deg is {rate!r}: give two numbers, as [-20, 0]")
-            rate = math.radians(pair[0]), math.radians(pair[1])
-        if stalled is not None and not (_finite(stalled) and 0.0 <= stalled <= 100.0):
-            raise self._file.wrong("optimum", "stalled_percent", f"stalled_percent is {stalled!r}: give 0 to 100")
-        index = record.get("index_percent")
-        if index is not None and not (_finite(index) and index > 0.0):
-            raise self._file.wrong("optimum", "index_percent", f"index_percent is {index!r}: give more than 0")
+        plain, objectives = OptimumSettings(), ", ".join(OBJECTIVES)
+        rate = self._read("optimum", "rate_deg", None, _ascending, "give two numbers, as [-20, 0]")
+        stalled = self._read("optimum", "stalled_percent", None, _percent, "give 0 to 100")
         return OptimumSettings(
-            starts=int(self._whole("optimum", "starts", record.get("starts", plain.starts), 1, 1000)),
-            seed=int(self._whole("optimum", "seed", record.get("seed", 0), 0, 2**31)),
-            objective=objective,
-            rate=rate,
+            starts=self._whole("optimum", "starts", plain.starts, 1, 1000),
+            seed=self._whole("optimum", "seed", plain.seed, 0, 2**31),
+            objective=self._read("optimum", "objective", "total", OBJECTIVES.__contains__, f"use {objectives}"),
+            rate=rate and (math.radians(rate[0]), math.radians(rate[1])),
             stalled=None if stalled is None else stalled / 100.0,
-            index=index,
+            index=self._read(
+                "optimum", "index_percent", None, lambda one: _finite(one) and one > 0, "give more than 0"
+            ),
         )
 
     def _aims(self, study: Study) -> ShowSettings:
-        record, plain = self._file.section("show"), ShowSettings()
-        least, uncertain = record.get("least", plain.least), record.get("uncertain", [])
         numbers = [column.name for column in columns_of(study) if column.kind == "number"]
-        if least not in numbers:
-            raise self._file.wrong("show", "least", f"least is {least!r}: name a column, one of {', '.join(numbers)}")
-        names = study.axis_names
-        if not isinstance(uncertain, list) or not all(one in names for one in cast(list[Any], uncertain)):
-            raise self._file.wrong("show", "uncertain", f"uncertain is {uncertain!r}: list axes, of {', '.join(names)}")
-        sampled = () if study.points.sample is None else tuple(name for name, _, _ in study.points.sample.ranges)
+        remedy = f"name a column, one of {', '.join(numbers)}"
+        least = self._read("show", "least", ShowSettings.least, numbers.__contains__, remedy)
+        remedy = f"list axes, of {', '.join(study.axis_names)}"
+        uncertain = tuple(self._read("show", "uncertain", [], lambda one: isinstance(one, list), remedy))
         try:
-            check_uncertain(tuple(cast(list[str], uncertain)), names, sampled)
+            check_uncertain(uncertain, study.axis_names, tuple(study.points.sampled))
         except ValueError as error:
-            raise self._file.wrong("show", "uncertain", str(error)) from None
-        return ShowSettings(least, tuple(cast(list[str], uncertain)))
+            raise self._wrong("show", "uncertain", str(error)) from None
+        return ShowSettings(least, uncertain)
 
     def _try_points(self, study: Study) -> None:
         """Try every value of every axis, the others at their first, to report errors before the run."""
         first: dict[str, Value] = {axis.name: axis.values[0] for axis in study.points.axes}
-        sampled = () if study.points.sample is None else study.points.sample.ranges
-        first |= {name: low for name, low, _ in sampled}
+        first |= {name: low for name, (low, _) in study.points.sampled.items()}
         shared = dict(study.given)
         tried: list[tuple[str, dict[str, Value]]] = [("", {})]
         for axis in study.points.axes:
             ends = axis.values if axis.textual else (min(axis.values), max(axis.values))
             tried.extend((axis.name, {axis.name: value}) for value in ends)
-        tried.extend((name, {name: value}) for name, low, high in sampled for value in (low, high))
+        tried.extend((name, {name: value}) for name, ends in study.points.sampled.items() for value in ends)
         for key, own in tried:
             try:
                 check_point({**shared, **first, **own}, study)
             except ValueError as error:
                 section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
-                raise self._file.wrong(section, at, str(error)) from None
+                raise self._wrong(section, at, str(error)) from None
 
     def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str]:
         """The key named in an error message, else the key whose removal makes the point valid."""
-        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._file.section(section)]
+        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._section(section)]
         for section, key in keys:
             value = values[key]
             if re.search(rf"\b{re.escape(key)}\b", sentence) or (isinstance(value, str) and repr(value) in sentence):
@@ -322,14 +287,30 @@ class Reader:
                 return section, key
         return "axes", ""
 
-    def _whole(self, section: str, key: str, value: Any, low: int, high: int) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise self._file.wrong(section, key, f"{key} is {value!r}: give a whole number in {low}…{high}")
-        return value
+    def _whole(self, section: str, key: str, default: int, low: int, high: int) -> int:
+        remedy = f"give a whole number in {low}…{high}"
+        return self._read(section, key, default, lambda one: type(one) is int and low <= one <= high, remedy)
+
+    def _read(self, section: str, key: str, default: Any, right: Callable[[Any], bool], remedy: str) -> Any:
+        """The value of a key, or the default where it is not given."""
+        record = self._section(section) if section else self._content
+        if key in record and not right(record[key]):
+            raise self._wrong(section, key, f"{key} is {record[key]!r}: {remedy}")
+        return record.get(key, default)
 
 
 def _finite(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _percent(value: Any) -> bool:
+    return _finite(value) and 0.0 <= value <= 100.0
+
+
+def _ascending(value: Any) -> bool:
+    """Whether it is two numbers, the lower one first."""
+    pair = cast(list[Any], value) if isinstance(value, list) else []
+    return len(pair) == 2 and all(map(_finite, pair)) and pair[0] < pair[1]
 
 
 @dataclass(frozen=True)
@@ -360,4 +341,4 @@ def read_study(path: str | Path) -> StudyFile:
 
 def parse_study(text: str, name: str = "study.toml") -> Study:
     """The study of a file's text. ValueError with one sentence that names file, line, key and remedy."""
-    return Reader(Document(text, name), Path(name)).study()
+    return Reader(text, name).study()

@@ -13,10 +13,10 @@ from explorer.app import App
 from explorer.hosting.limits import ServerLimits
 from explorer.session import Session
 from rotor.assets import package_version
-from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.results import Store, read_results
+from rotor.study.chunks import Store, StudyProvenance, evaluate_chunk
+from rotor.study.results import read_results
 from rotor.study.study_file import StudyFile, parse_study
-from tests.rotor.study.test_study_of_elastic_blades import STUDY
+from tests.rotor.study.test_study import BLADES as STUDY
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -12,9 +12,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from explorer.tabs import study_charts
 from explorer.tabs.studies_panel import find_studies, numbers, open_study, point_line, summary
 from rotor.assets import package_version
-from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs
-from rotor.study.results import Results, Store, design_of_row, read_file
+from rotor.study.chunks import Store, StudyProvenance, evaluate_chunk
+from rotor.study.results import HoverCruisePairs, Results, cruise_speeds, design_of_row, hover_cruise_pairs, read_file
 from rotor.study.study_file import StudyFile, parse_study
 from rotor.trim.solve import solve
 

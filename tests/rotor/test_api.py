@@ -8,6 +8,7 @@ import sys
 import urllib.request
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import matplotlib
@@ -81,21 +82,9 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
-def test_the_api_is_small_and_no_module_shadows_a_function():
+def test_the_api_is_small():
     assert dir(rotor) == sorted(rotor.__all__)
     assert len(dir(rotor)) <= 28
-    for name in (
-        "solve",
-        "sweep",
-        "optimise",
-        "make_design",
-        "parse_twist",
-        "load_rotor",
-        "load_design",
-        "plot_power",
-        "schedule",
-    ):
-        assert callable(getattr(rotor, name))
     assert rotor.__version__[0].isdigit()
     assert (ROOT / "rotor" / "py.typed").exists()
     assert (ROOT / "explorer" / "py.typed").exists()
@@ -105,13 +94,12 @@ def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(d
     made = replace(design, models=replace(design.models, inflow="uniform"))
     found = rotor.schedule(made, mu=[0.3, 0.1], hours=[2.0, 1.0])
     gain = found.in_flight_gain("linear")
-    assert gain is not None
+    alone, at_three = rotor.optimise(made.at(mu=0.3), "linear").best, found.at(1, "linear")
+    assert gain
     assert 0.0 <= gain.gain < 0.05 * gain.fixed
-    alone = rotor.optimise(made.at(mu=0.3), "linear").best
-    at_three = found.at(1, "linear")
-    assert at_three is not None
-    assert at_three.best is not None
-    assert alone is not None
+    assert alone
+    assert at_three
+    assert at_three.best
     assert_allclose(at_three.best.power, alone.power, rtol=1e-6)
     with pytest.raises(ValueError, match="1 hours for 2 advance ratios: give one for each"):
         rotor.schedule(made, mu=[0.1, 0.2], hours=[1.0])
@@ -136,14 +124,6 @@ def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
     small = rotor.optimise(made, "linear", limits=rotor.Limits(change_deg=1.0), starts=2)
     change = small.twist(1.0) - small.twist(0.13) - made.twist(1.0) + made.twist(0.13)
     assert abs(math.degrees(change)) < 1.02
-
-
-@pytest.mark.slow
-def test_an_actuator_by_its_name(design: rotor.Design):
-    verdict = rotor.actuator.try_actuator("MFC_P1", design, mu=(0.0, 0.25))
-    assert verdict.net_saving < verdict.gross_saving <= verdict.ideal_saving
-    with pytest.raises(ValueError, match="MFC_P9"):
-        rotor.actuator.try_actuator("MFC_P9", design)
 
 
 @pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
@@ -185,25 +165,12 @@ class TestDesign:
         for name in ("uh60a", "r22", "s61"):
             assert rotor.parse_twist(name) == rotor.make_design(rotor=name).rotor.builtin_twist
 
-    def test_a_saved_design_is_the_same_when_loaded(self, design: rotor.Design, tmp_path: Path):
-        changed = design.at(hover=True, altitude_m=500.0)
-        changed.save(tmp_path / "a.json")
-        assert rotor.load_design(tmp_path / "a.json") == changed
-
-    def test_models_by_name(self):
-        assert rotor.make_design(inflow="uniform").models.inflow == "uniform"
-        assert rotor.make_design(preset="thesis").preset == "thesis"
-
 
 class TestSolution:
-    def test_repr_is_three_lines(self, solution: rotor.Solution, failed: rotor.Solution):
+    def test_reprs_are_short(self, design: rotor.Design, solution: rotor.Solution, failed: rotor.Solution):
         for found in (solution, failed):
             assert len(repr(found).splitlines()) == 3
             assert len(repr(found)) < 600
-        assert f"power {solution.power.total / 1e3:.1f} kW" in repr(solution)
-        assert "not in trim" in repr(failed)
-
-    def test_other_reprs_are_short(self, design: rotor.Design, solution: rotor.Solution):
         best = rotor.optimise(design, "linear", starts=1)
         for value in (design, design.rotor, design.aircraft, best, rotor.sweep(design, [0.2])):
             assert len(repr(value)) < 200
@@ -222,13 +189,6 @@ class TestSolution:
         saved = json.loads(path.read_text(encoding="utf-8"))["solution"]
         assert saved["power_w"]["total"] == solution.power.total
 
-    def test_a_start_from_an_earlier_solution_needs_no_more_iterations(
-        self, design: rotor.Design, solution: rotor.Solution
-    ):
-        cold, warm = rotor.solve(design.at(mu=0.21)), rotor.solve(design.at(mu=0.21), start=solution)
-        assert warm.passes <= cold.passes
-        assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
-
     def test_plots(self, solution: rotor.Solution, design: rotor.Design):
         axes = solution.plot("alpha")
         assert "Angle of attack" in axes.get_title()
@@ -245,26 +205,24 @@ class TestSolution:
 
 
 class TestSweep:
-    def test_rows_have_units_in_their_columns(self, design: rotor.Design):
-        table = rotor.sweep(design, mu=(mu for mu in (0.0, 0.2)))
-        row: dict[str, Any] = dict(zip(table.columns, table.rows[1], strict=True))
-        assert row["mu"] == 0.2
-        assert_allclose(row["speed_kt"], table[1].design.airspeed / KNOT)
-        assert_allclose(row["total_kw"], table[1].power.total / 1e3)
+    def test_the_table_and_what_other_libraries_read(self, design: rotor.Design, tmp_path: Path):
+        """Numbers are numbers with the unit in the name, and a power that does not exist is null or an empty cell."""
+        table = rotor.sweep(design.at(mass_kg=11_000), mu=(mu for mu in (0.2, 0.5)))
         assert len(table) == len(list(table)) == 2
-
-    def test_rows_that_do_not_converge_have_no_power(self, design: rotor.Design):
-        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
-        assert [row[table.columns.index("total_kw")] is None for row in table.rows] == [False, True]
-
-    def test_columns_are_a_table_to_other_libraries(self, design: rotor.Design):
-        """Numbers are numbers, and a power that does not exist is null."""
-        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
+        row: dict[str, Any] = dict(zip(table.columns, table.rows[0], strict=True))
+        assert row["mu"] == 0.2
+        assert_allclose(row["speed_kt"], table[0].design.airspeed / KNOT)
+        assert row["total_kw"] == table[0].power.total / 1e3
         read = pyarrow.table(table.to_dict())
         assert tuple(read.column_names) == table.columns
         assert str(read.schema.field("total_kw").type) == str(read.schema.field("mu").type) == "double"
-        assert read.column("total_kw").null_count == 1
-        assert read.column("total_kw")[0].as_py() == table[0].power.total / 1e3
+        assert read.column("total_kw").to_pylist() == [row["total_kw"], None]
+        table.to_csv(tmp_path / "p.csv")
+        with (tmp_path / "p.csv").open(encoding="utf-8", newline="") as file:
+            good, bad = csv.DictReader(file)
+        assert tuple(good) == table.columns
+        assert float(good["total_kw"]) == row["total_kw"]
+        assert (bad["total_kw"], bad["status"]) == ("", table[1].status.value)
 
     def test_several_designs_and_rotors_are_told_apart(self, design: rotor.Design):
         table = rotor.sweep([design, rotor.make_design(rotor="r22")], [0.1, 0.2])
@@ -294,26 +252,10 @@ class TestSweep:
         assert_allclose(drawn.lines[0].get_xdata(), [7000, 9000])
         pyplot.close("all")
 
-    def test_a_csv_file_holds_the_table(self, design: rotor.Design, tmp_path: Path):
-        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
-        table.to_csv(tmp_path / "p.csv")
-        with (tmp_path / "p.csv").open(encoding="utf-8", newline="") as file:
-            read = list(csv.DictReader(file))
-        assert tuple(read[0]) == table.columns
-        assert float(read[0]["total_kw"]) == table[0].power.total / 1e3
-        assert (read[1]["total_kw"], read[1]["status"]) == ("", table[1].status.value)
-
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
+        """The tests do without pandas: something else takes its place."""
         table = rotor.sweep(design, [0.2])
-
-        class Pandas:
-            """Replaces pandas, which the tests do not need."""
-
-            @staticmethod
-            def DataFrame(rows: list, columns: list) -> tuple:
-                return rows, columns
-
-        monkeypatch.setitem(sys.modules, "pandas", Pandas)
+        monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows, columns: (rows, columns)))
         assert table.to_dataframe() == (list(table.rows), list(table.columns))
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match="pip install pandas"):
@@ -328,7 +270,6 @@ WRONG = {
     "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.2"),
     "rotor.make_design(mu=2)": (ValueError, "advance ratio 2 is outside 0…0.6"),
     "rotor.make_design(mu=0.2, hover=True)": (ValueError, "mu=0.2 and hover=True each set the speed"),
-    "rotor.make_design(mu=0.2, speed_kt=90)": (ValueError, "give only one of mu, speed_kt and hover"),
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
     "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
     "rotor.make_design(mass_kg=8)": (ValueError, "mass 8 kg is outside 100…50000 kg"),
@@ -342,44 +283,30 @@ WRONG = {
         ValueError,
         "inflow model 'free' is not known; did you mean 'drees'? use one of uniform",
     ),
-    "design.at(mu='fast')": (TypeError, "mu is 'fast'"),
-    "design.at(speed_kt=90, hover=True)": (ValueError, "speed_kt=90 and hover=True"),
-    "design.with_twist(-12)": (TypeError, 'write "linear:-12"'),
     "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),
     "rotor.parse_twist('ideal')": (ValueError, "write ideal:6.4"),
     "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "rotor.solve(design, start=design)": (TypeError, "give an earlier solution or leave it out"),
     "rotor.sweep(design, mu=0.2)": (TypeError, "give a list, for example mu=[0.1, 0.2, 0.3]"),
-    "rotor.sweep(design, mu=['fast'])": (TypeError, "mu is 'fast'"),
     "rotor.sweep(design)": (TypeError, "a sweep over nothing: give one of mu, speed_kt, mass_kg"),
     "rotor.sweep(design, mu=[0.1], mass_kg=[8000])": (TypeError, "a sweep over mu and mass_kg: give one of"),
-    "rotor.sweep(design, speed_kt=90)": (TypeError, "speed_kt is 90: give a list, for example speed_kt=[60, 90, 120]"),
     "rotor.Limits(rate_deg=-20)": (TypeError, "give the steepest and the flattest, for example (-20, 0)"),
     "rotor.Limits(rate_deg=(0, -20))": (ValueError, "give the steepest first"),
     "rotor.Limits(stalled_percent='few')": (TypeError, "stalled_percent is 'few', not a number"),
-    "rotor.Limits(stalled_percent=200)": (ValueError, "200 % is outside 0…100 %"),
     "rotor.Limits(change_deg=-1)": (ValueError, "change limit -1° is negative: give 0 or more"),
     "rotor.optimise(design, limits=2.0)": (TypeError, "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))"),
     "rotor.optimise(design, conditions=0.3)": (TypeError, "give pairs of advance ratio and weight"),
     "rotor.optimise(design, conditions=[0.1, 0.3])": (TypeError, "condition 0.1 is not a pair"),
-    "rotor.optimise(design, conditions=[])": (ValueError, "an objective needs a flight condition"),
-    "rotor.optimise(design, conditions=[(0.2, 0)])": (ValueError, "0 hours at advance ratio 0.2: give more than 0"),
-    "rotor.optimise(design, conditions=[('fast', 1)])": (TypeError, "mu is 'fast'"),
     "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "give the same rotor"),
-    "rotor.schedule('uh60a', mu=[0.1])": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "rotor.schedule(design, mu=0.1)": (TypeError, "mu is 0.1: give a list of advance ratios"),
     "rotor.distribution(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.optimise(design, concept='cubic')": (ValueError, "concept 'cubic' is not known: use one of linear"),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
     "rotor.optimise(design, quantity='noise')": (
         ValueError,
         "objective 'noise' is not known: use total, induced, vibration",
     ),
-    "rotor.load_design('none.json')": (ValueError, "'none.json' does not exist"),
-    "rotor.load_rotor('none.toml')": (ValueError, "'none.toml' does not exist"),
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
     "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
-    "solution.save('a.csv')": (ValueError, "'a.csv' ends in .csv, but what is written is JSON: write 'a.json'"),
     "rotor.sweep(design, [0.2]).to_csv('a.json')": (ValueError, "write 'a.csv'"),
     "rotor.sweep([design, 'uh60a'], mu=[0.2])": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "solution.plot('noise')": (ValueError, "field 'noise' is not known: use one of alpha"),

@@ -51,46 +51,39 @@ def hits(kernel: Any) -> int:
     return sum(kernel.stats.cache_hits.values())
 
 
-def test_compiled_code_is_kept(source: Path):
-    first = module(source).kernel
-    assert (first(1.0), hits(first)) == (2.0, 0)
-    second = module(source).kernel
-    assert (second(1.0), hits(second)) == (2.0, 1)
-
-
-def test_kept_code_follows_the_functions_it_calls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Compiled code holds that of the functions it calls, here of another file."""
+@pytest.fixture
+def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
+    """A module with a function, and one with a kernel that calls it."""
     monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "called_by_a_test", raising=False)
     inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
     inner.write_text("from rotor.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
     outer.write_text(
         "import called_by_a_test\nfrom rotor.compiled import compiled\n\n"
         "@compiled()\ndef kernel(x):\n    return 10.0 * called_by_a_test.by(x)\n"
     )
+    return inner, outer
+
+
+def test_kept_code_follows_the_functions_it_calls(two: tuple[Path, Path]):
+    """Compiled code holds that of the functions it calls, here of another file."""
+    inner, outer = two
     assert module(outer).kernel(1.0) == 20.0
     again = module(outer).kernel
     assert (again(1.0), hits(again)) == (20.0, 1)
     inner.write_text(inner.read_text().replace("x + 1.0", "x + 21.0"))
-    monkeypatch.delitem(sys.modules, "called_by_a_test")
+    del sys.modules["called_by_a_test"]
     changed = module(outer).kernel
     assert (changed(1.0), hits(changed)) == (220.0, 0)
 
 
-def test_code_compiled_after_its_files_were_replaced_is_not_kept_as_theirs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
+def test_code_compiled_after_its_files_were_replaced_is_not_kept_as_theirs(two: tuple[Path, Path]):
     """A server goes on through an update, and compiles what it had read before."""
-    monkeypatch.syspath_prepend(tmp_path)
-    inner, outer = tmp_path / "replaced_in_a_test.py", tmp_path / "kernels.py"
-    inner.write_text("from rotor.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
-    outer.write_text(
-        "import replaced_in_a_test\nfrom rotor.compiled import compiled\n\n"
-        "@compiled()\ndef kernel(x):\n    return 10.0 * replaced_in_a_test.by(x)\n"
-    )
+    inner, outer = two
     running = module(outer).kernel
     inner.write_text(inner.read_text().replace("x + 1.0", "x + 21.0"))
     assert running(1.0) == 20.0
-    monkeypatch.delitem(sys.modules, "replaced_in_a_test")
+    del sys.modules["called_by_a_test"]
     updated = module(outer).kernel
     assert (updated(1.0), hits(updated)) == (220.0, 0)
 
@@ -119,16 +112,11 @@ def test_code_of_another_version_of_numba_is_compiled_anew(source: Path, monkeyp
 
 def test_code_for_another_processor_is_not_run(source: Path, monkeypatch: pytest.MonkeyPatch):
     """A home folder may be shared by machines. Both kinds of code are then kept beside each other."""
-    monkeypatch.setattr(CPUCodegen, "magic_tuple", lambda self: ("x86_64-unknown-linux-gnu", "other", "+other"))
-    assert module(source).kernel(1.0) == 2.0
-    monkeypatch.undo()
-    ours = module(source).kernel
-    assert (ours(1.0), hits(ours)) == (2.0, 0)
-    for tuple_of in (None, lambda self: ("x86_64-unknown-linux-gnu", "other", "+other")):
-        if tuple_of:
-            monkeypatch.setattr(CPUCodegen, "magic_tuple", tuple_of)
-        again = module(source).kernel
-        assert (again(1.0), hits(again)) == (2.0, 1)
+    ours, other = CPUCodegen.magic_tuple, lambda _: ("x86_64-unknown-linux-gnu", "other", "+other")
+    for codegen, read in ((other, 0), (ours, 0), (ours, 1), (other, 1)):
+        monkeypatch.setattr(CPUCodegen, "magic_tuple", codegen)
+        kernel = module(source).kernel
+        assert (kernel(1.0), hits(kernel)) == (2.0, read)
 
 
 def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):

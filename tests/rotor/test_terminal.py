@@ -31,11 +31,6 @@ def test_a_solution_is_printed_in_any_encoding(monkeypatch: pytest.MonkeyPatch, 
     assert encoding != "cp1252" or "kappa = P_i/(C_T lambda0)" in text
     assert "?" not in text
     assert err.getvalue() == b""
-
-
-@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
-def test_errors_and_help_are_printed_in_any_encoding(monkeypatch: pytest.MonkeyPatch, encoding: str):
-    out, err = piped(monkeypatch, encoding)
     assert main(["solve", "--twist", "linear:≤κ"]) == 2
     assert err.getvalue().decode(encoding).startswith("rotor: twist")
     with pytest.raises(SystemExit, match="0"):

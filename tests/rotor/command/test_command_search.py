@@ -2,7 +2,6 @@
 
 import csv
 import json
-import math
 import os
 import signal
 import subprocess
@@ -14,19 +13,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor.command.optimise as command
-from rotor.__main__ import main
 from rotor.optimisation.search import Progress
+from tests.rotor.command.test_command import run
 
 CONTRACT = [
     "status", "concept", "parameters", "twist", "power_w", "baseline_power_w", "saving_percent", "band",
     "local_minima", "evaluations", "elapsed_s",
 ]  # fmt: skip
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    code = main(list(arguments))
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 def no_constant(name: str) -> None:
@@ -51,31 +44,19 @@ def test_optimise_json(capsys: pytest.CaptureFixture[str]):
 
 
 def test_least_vibration(capsys: pytest.CaptureFixture[str]):
-    flags = (
-        "optimise",
-        "--mu",
-        "0.3",
-        "--bending",
-        "--inflow",
-        "pitt-peters",
-        "--objective",
-        "vibration",
-        "--starts",
-        "2",
-    )
+    case = ("--mu", "0.3", "--bending", "--inflow", "pitt-peters")
+    flags = ("optimise", *case, "--objective", "vibration", "--starts", "2")
     code, out, _ = run(capsys, *flags, "--json")
     answer = json.loads(out, parse_constant=no_constant)
     assert code == 0
     assert answer["index_percent"] < answer["baseline_index_percent"]
     low, high = answer["index_band_percent"]
     assert low - 1e-6 <= answer["index_percent"] <= high + 1e-6
-    code, out, _ = run(
-        capsys, "solve", "--mu", "0.3", "--bending", "--inflow", "pitt-peters", "--twist", answer["twist"], "--json"
-    )
+    code, out, _ = run(capsys, "solve", *case, "--twist", answer["twist"], "--json")
     assert_allclose(json.loads(out)["hub_loads"]["index_percent"], answer["index_percent"], rtol=1e-5)
     code, out, _ = run(capsys, *flags)
-    assert "within 0.1 % of the index" in out
-    assert "over wakes: trade-offs, not a level" in out
+    for words in ("°/R", "saving ", "within 0.1 % of the index", "over wakes: trade-offs, not a level"):
+        assert words in out
 
 
 def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str]):
@@ -90,14 +71,6 @@ def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str
     assert answer["band"] == {}
     code, out, _ = run(capsys, "solve", *flags, "--twist", answer["twist"], "--airfoils", answer["airfoils"], "--json")
     assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
-
-
-def test_optimise_text(capsys: pytest.CaptureFixture[str]):
-    code, out, err = run(capsys, "optimise", "--mu", "0.2", "--starts", "1")
-    assert (code, err) == (0, "")
-    assert "°/R" in out
-    assert "within 0.1 %" in out
-    assert "saving " in out
 
 
 @pytest.mark.slow
@@ -138,43 +111,6 @@ def test_flags_set_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path
     assert answers[6]["active"] == answers[7]["active"] == ["change"]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["optimise", "--concept", "cubic"], "'cubic' is not known"),
-        (["optimise", "--concept", "linear", "--division", "0.5"], "cannot take 1 division"),
-        (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
-        (["optimise", "--objective", "noise"], "'noise' is not known"),
-        (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
-        (["optimise", "--starts", "0"], "0 starts"),
-        (["optimise", "--starts", "few"], "few"),
-        (["optimise", "--seed", "-3"], "seed -3"),
-        (["optimise", "--bound", "angle=1,2"], "names no parameter"),
-        (["optimise", "--bound", "rate=1"], "write two numbers"),
-        (["optimise", "--rate-deg", "steep"], "'steep' is not understood"),
-        (["optimise", "--change-deg", "-1"], "negative"),
-        (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
-        (["optimise", "--actuator", "MFC"], "'MFC' is not known"),
-        (["schedule", "--plies", "3"], "add --actuator"),
-        (["optimise", "--stalled-percent", "200"], "200 %"),
-        (["optimise", "--mission", "nowhere.csv"], "does not exist"),
-        (["optimise", "--mu", "0.9"], "0.9"),
-        (["schedule", "--concept", "cubic"], "'cubic' is not known"),
-        (["schedule", "--mu", "0.3:0.1:0.1"], "write 0.3:0.1:-0.1 or 0.1:0.3:0.1"),
-        (["schedule", "--mission", "nowhere.csv"], "does not exist"),
-        (["schedule", "--processes", "0"], "0 processes"),
-        (["solve", "--airfoils", "sc1095,nothing@0.5"], "'nothing'"),
-        (["solve", "--airfoils", "sc1095@0.5"], "1 airfoils"),
-    ],
-)
-def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], words: str):
-    code, out, err = run(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("rotor: ")
-    assert err.count("\n") == 1
-    assert words in err
-
-
 def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
     code, out, err = run(
         capsys, "optimise", "--hover", "--mass-kg", "20000", "--altitude-m", "4000", "--starts", "1", "--json"
@@ -185,7 +121,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
 
 
 @pytest.mark.slow
-def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     table, found = tmp_path / "schedule.csv", tmp_path / "found.jsonl"
     arguments = (
         "schedule", "--concept", "two-segment", "linear", "--mu", "0,0.2", "--climb-m-s", "2", "--starts", "1",
@@ -205,15 +141,9 @@ def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Pat
         assert 0.0 <= worth["gain_percent"] < 1.0
     with table.open(newline="") as file:
         assert [row["climb_m_s"] for row in csv.DictReader(file)] == [*["2"] * 4, "", ""]
-    least = math.inf
-    for _ in range(5):
-        begin = time.perf_counter()
-        code, again, _ = run(capsys, *arguments)  # All of it is in the file.
-        least = min(least, time.perf_counter() - begin)
-        assert (code, json.loads(again)) == (0, answer)
-        if least < 1.0:
-            break
-    assert least < 1.0
+    monkeypatch.setattr("rotor.optimisation.schedule.run_search", lambda *_: pytest.fail("searched again"))
+    code, again, _ = run(capsys, *arguments)  # All of it is in the file.
+    assert (code, json.loads(again)) == (0, answer)
 
 
 def test_ctrl_c_prints_the_best_so_far(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch):

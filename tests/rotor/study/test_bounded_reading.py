@@ -18,24 +18,15 @@ from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.results import limit_memory, read_bounded, read_file
 from rotor.study.study_file import parse_study
+from tests.rotor.study.test_study import SMALL
 
-STUDY = """
-title = "Small"
-chunk = 2
-[axes]
-mu = "0.1:0.2:0.05"
-[models]
-inflow = "pitt-peters"
-elements = 16
-azimuths = 48
-"""
 PROVENANCE = StudyProvenance(package_version(), None, "")
 linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
 
 def result_file(rows: int) -> bytes:
     """A result of a study in which all rows are equal, so that it packs to almost nothing."""
-    study = parse_study(STUDY)
+    study = parse_study(SMALL)
     small = evaluate_chunk(study, 0, PROVENANCE).content
     table = parquet.read_table(io.BytesIO(small)).slice(0, 1)
     many = table.take(arrow.array([0] * rows))

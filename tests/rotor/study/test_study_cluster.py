@@ -28,6 +28,7 @@ linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
 ROOT = Path(__file__).parent.parent.parent.parent
 DASK = Path(sys.executable).with_name("dask")
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 PATIENCE = 240.0
 """Time limit of every step [s], on a busy machine."""
 
@@ -87,15 +88,14 @@ with Client(sys.argv[1], timeout=200) as client:
 @pytest.fixture
 def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     """`dask scheduler` and two `dask worker` commands, as docs/scale.md says."""
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     address_file = tmp_path / "scheduler.json"
     local = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
-    scheduler = start(DASK, "scheduler", *local, "--scheduler-file", address_file, **quiet)
+    scheduler = start(DASK, "scheduler", *local, "--scheduler-file", address_file, **QUIET)
     until(lambda: address_file.exists() and address_file.stat().st_size > 0)
     cluster = Cluster(json.loads(address_file.read_text())["address"], scheduler)
     for _ in range(2):
         one = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", tmp_path / "scratch")
-        cluster.workers.append(start(DASK, "worker", cluster.address, *one, **quiet))
+        cluster.workers.append(start(DASK, "worker", cluster.address, *one, **QUIET))
     # Before there is work: a worker that comes late would find all of it done by the other.
     subprocess.run([sys.executable, "-c", _BOTH, cluster.address], check=True, timeout=PATIENCE)
     return cluster
@@ -125,6 +125,10 @@ def command(file: Path, out: Path, *more: str) -> list[str]:
     return [sys.executable, "-W", "error", "-m", "rotor", "study", str(file), "--out", str(out), *more]
 
 
+def finished(file: Path, out: Path, *more: str) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(command(file, out, *more), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
+
+
 def same_as_serial(file: Path, results: Results) -> None:
     """All rows, and the numbers of one process that computes the chunks in turn."""
     study = read_study(file).study
@@ -144,9 +148,7 @@ def workers_of(folder: Path) -> set[str]:
 
 def test_two_workers_give_the_results_of_one_process(cluster: Cluster, tmp_path: Path):
     file, out = study_file(tmp_path), tmp_path / "out"
-    done = subprocess.run(
-        command(file, out, "--scheduler", cluster.address), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
-    )
+    done = finished(file, out, "--scheduler", cluster.address)
     assert (done.returncode, done.stderr.count("\n")) == (0, 1)
     assert "has no encryption and no password" in done.stderr
     assert "1,860 of 1,860 points, 0 failed" in done.stdout
@@ -168,14 +170,13 @@ def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Pa
 def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[..., Any]):
     """SIGKILL, then the same command on its own cluster: no finished chunk is computed again."""
     file, out = study_file(tmp_path), tmp_path / "out"
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    run = start(*command(file, out), **quiet)
+    run = start(*command(file, out), **QUIET)
     until(lambda: len(files(out)) >= 10, run)
     os.kill(run.pid, signal.SIGKILL)
     run.wait()
     before = files(out)
     assert 10 <= len(before) < 75
-    again = start(*command(file, out), **quiet)
+    again = start(*command(file, out), **QUIET)
     assert again.wait(PATIENCE) == 0
     after = files(out)
     assert len(after) == 75
@@ -216,13 +217,7 @@ def test_another_cluster_on_the_machine_does_not_interfere(tmp_path: Path):
         with suppress(OSError):  # Somebody else has it, which does as well.
             taken.bind(("127.0.0.1", 8787))
             taken.listen()
-        done = subprocess.run(
-            command(file, tmp_path / "out", "--workers", "1"),
-            cwd=ROOT,
-            capture_output=True,
-            text=True,
-            timeout=PATIENCE,
-        )
+        done = finished(file, tmp_path / "out", "--workers", "1")
     assert (done.returncode, done.stderr) == (0, "")
 
 
@@ -295,12 +290,8 @@ def _alive(process: int) -> bool:
 
 def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path):
     address = "tcp://127.0.0.1:9"
-    done = subprocess.run(
-        command(study_file(tmp_path), tmp_path / "out", "--scheduler", address),
-        cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE,
-    )  # fmt: skip
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
+    done = finished(study_file(tmp_path), tmp_path / "out", "--scheduler", address)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert address in done.stderr
     assert "dask scheduler" in done.stderr
 
@@ -314,5 +305,4 @@ def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: 
     _, complained = run.communicate(timeout=PATIENCE)
     assert run.returncode == 1
     assert "the Dask scheduler is gone" in complained.decode()
-    assert f"{cluster.address} has no encryption and no password: whoever can reach it" in complained.decode()
     assert read_results(out).rows >= 125

@@ -1,7 +1,10 @@
-"""Solving leaves the caller's BLAS threads as they were."""
+"""Solving leaves the caller's BLAS threads as they were; processes do not run the caller's script again."""
 
+import subprocess
+import sys
 import threading
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,3 +78,20 @@ def test_a_trim_runs_on_one_thread():
 
     assert solve(replace(make_design(), twist=Witness(-0.2))).converged
     assert set(seen) == {1}
+
+
+_SCRIPT = """
+from rotor.spawn import start_process
+print("script", flush=True)
+process = start_process(print, ("work",), "worker")
+process.join()
+print(process.exitcode, __spec__)
+"""
+
+
+def test_a_script_without_a_guard_runs_once(tmp_path: Path):
+    script = tmp_path / "script.py"
+    script.write_text(_SCRIPT, encoding="utf-8")
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120)
+    assert done.stdout.split() == ["script", "work", "0", "None"]
+    assert done.stderr == ""
