@@ -20,8 +20,7 @@ from rotor.columns.bending import LOADS
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.stand import STAND_KEYS
-from rotor.optimisation.concepts import CONCEPTS, Concept
-from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
+from rotor.optimisation.concepts import CONCEPTS, THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE, Concept
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.user_input import did_you_mean
 
