@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.fuel import engines_of
+from rotor.actuator.catalogue import PiezoPly, engines_of
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import best_swings, best_twist
 from rotor.actuator.verdict import NOTHING, Verdict

@@ -7,9 +7,17 @@ from typing import Literal
 
 import numpy as np
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, find_actuator, holding_caveats
+from rotor.actuator.catalogue import (
+    Actuator,
+    ExtensionTwist,
+    PiezoPly,
+    TorqueTube,
+    engines_of,
+    find_actuator,
+    fuel_caveats,
+    holding_caveats,
+)
 from rotor.actuator.electrical import Drive, drive
-from rotor.actuator.fuel import engines_of, fuel_caveats
 from rotor.actuator.installation import InstalledActuator, install, segment_voltages, with_actuator_mass
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist

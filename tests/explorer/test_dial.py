@@ -18,7 +18,7 @@ from explorer.tabs.actuator.dial import (
     published,
     with_wave,
 )
-from rotor.actuator.programmes import programmes
+from rotor.actuator import programmes
 from rotor.design.active_twist import Harmonic
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics

@@ -12,8 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.fuel import engines_of
+from rotor.actuator.catalogue import engines_of, find_actuator
 from rotor.actuator.installation import change_limit, install, with_actuator_mass
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, best_fixed, twisted

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotor.actuator.programmes import Programme, programmes
+from rotor.actuator.catalogue import Programme, programmes
 
 
 def test_lift_to_drag_as_power_by_hand():
