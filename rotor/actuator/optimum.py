@@ -10,7 +10,7 @@ twist p within the concept, so only differences of v matter. A retrofit keeps it
 zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -57,6 +57,10 @@ class ConditionPair:
     @property
     def shares(self) -> tuple[float, float]:
         return 1.0 - self.share, self.share
+
+    def mean(self, values: Iterable[float]) -> float:
+        """Of a value at either condition, by shares of time."""
+        return sum(share * value for share, value in zip(self.shares, values, strict=True))
 
     def designs(self, base: Design | None = None) -> tuple[Design, Design]:
         """The design at both conditions."""
@@ -284,7 +288,7 @@ class Baseline:
     @property
     def ideal_power(self) -> float:
         """Mean power with free in-flight twist [W]."""
-        return sum(share * best.power for share, best in zip(self.pair.shares, self.best, strict=True))
+        return self.pair.mean(best.power for best in self.best)
 
     @property
     def ideal_saving(self) -> float:
