@@ -159,10 +159,10 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
                 powers[name].append(trim.power.total)
             best = best_twist(installed.on(design), base.concept, [parameters], alone=True)
             blade = replace(design, twist=jig)
-            free = best_swings(blade, installed, unlimited, derating=verdict.derating)
+            free = best_swings(blade, installed, unlimited, verdict.derating)
             reached = free
             if any(not low <= swing <= high for swing, (low, high) in zip(free.swings[0], window, strict=True)):
-                reached = best_swings(blade, installed, window, derating=verdict.derating)
+                reached = best_swings(blade, installed, window, verdict.derating)
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:

@@ -40,8 +40,8 @@ def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Arra
     hinge = max(rotor.blade.flap_hinge * rotor.radius, structure.clamp)
     nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
     radii, load = unbalanced_load(solution, structure)
-    at_nodes = interpolate_columns(nodes, radii, load, left=0.0)
-    deflection = _deflect(structure, rotor.angular_speed, nodes, at_nodes)
+    at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0)
+    deflection = _deflect(structure, rotor.angular_speed, nodes, at_nodes.T)
     return _moment(structure, nodes, deflection, r)
 
 
@@ -76,15 +76,13 @@ def _moment(structure: BendingStructure, nodes: Array, deflection: Array, r: Arr
     curvature = (turn[1:] - turn[:-1]) / h
     middles = 0.5 * (nodes[1:] + nodes[:-1])
     moment = structure.at(middles, structure.flap_stiffness)[:, None] * curvature
-    return interpolate_columns(r, middles, moment)
+    return interpolate_rows(r, middles, moment.T).T
 
 
-def interpolate_columns(x: Array, known: Array, values: Array, left: float | None = None) -> Array:
-    """np.interp for every column, (known, cases) → (x, cases); `left`: the value below the first."""
-    out = np.empty((len(x), values.shape[1]))
-    for k in range(values.shape[1]):
-        out[:, k] = np.interp(x, known, values[:, k], left=left)
-    return out
+def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = None) -> Array:
+    """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first."""
+    found: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
+    return np.stack(found)
 
 
 def _bending(h: float) -> Array:
