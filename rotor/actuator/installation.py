@@ -74,16 +74,13 @@ def mass_breakdown(
     return MassBreakdown(own, wiring * packages, 0.0, electronics * packages * blades, blades)
 
 
-def addition(
-    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, balance: bool = True
-) -> Addition:
+def addition(masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float) -> Addition:
     """Mass per length, torsional inertia about the balance axis, and stiffness added over the active span."""
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
     front, rear = placement.chord
-    plies = (masses.actuator + masses.wiring if balance else masses.actuator) / (high - low)
-    weight = (masses.balance if balance else 0.0) / (high - low)
+    plies, weight = (masses.actuator + masses.wiring) / (high - low), masses.balance / (high - low)
     arm = 0.5 * (front + rear) - axis
     spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
     return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness)

@@ -58,9 +58,8 @@ def test_on_the_line_nothing_is_saved_and_nothing_lost(rotor: str, k: int):
     assert even.net(float(even.twists[k]), float(even.masses[k])) == pytest.approx(0.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("rotor", ["uh60a", "s61"])
-def test_more_twist_allows_more_mass_and_drive_takes_from_it(rotor: str):
-    even = line(rotor)
+def test_more_twist_allows_more_mass_and_drive_takes_from_it():
+    even = line()
     assert even.twists[0] == even.gross[0] == even.masses[0] == 0.0
     for values in (even.twists, even.gross, even.masses):
         assert np.all(np.diff(values) > 0.0)
@@ -87,9 +86,7 @@ def test_a_requirement_just_pays():
     needed = even.requirement
     assert even.saving(needed.twist) == pytest.approx(ENOUGH * even.ideal_saving)
     assert even.net(needed.twist, needed.mass, needed.drive) == pytest.approx(0.0, abs=1e-6)
-    said = pay_sentence(even)
-    assert f"≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W" in said
-    assert said.startswith("Pays if")
+    assert pay_sentence(even).startswith(f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ ")
 
 
 def test_a_stand_carries_mass_as_thrust():
