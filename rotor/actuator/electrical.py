@@ -45,29 +45,18 @@ class StrainCurve:
     """Strain of one sheet over its voltage range, for a chart."""
 
     label: str
-    voltage: Array
-    """[V]"""
     field: Array
     """[V/m]"""
     along: Array
     """Free strain along the fibres [-]."""
     across: Array
-    by_coefficient: Array
-    """α V of the thermal analogy along the fibres [-]."""
 
 
 def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
     """Free strain against voltage and field."""
     voltage = np.linspace(*ply.voltage_range, points)
-    along, across = free_strain(ply, voltage)
-    return StrainCurve(
-        label=f"{ply.name} ({'d33' if ply.electrodes == 'interdigitated' else 'd31'})",
-        voltage=voltage,
-        field=electric_field(ply, voltage),
-        along=along,
-        across=across,
-        by_coefficient=thermal_coefficients(ply)[0] * voltage,
-    )
+    label = f"{ply.name} ({'d33' if ply.electrodes == 'interdigitated' else 'd31'})"
+    return StrainCurve(label, electric_field(ply, voltage), *free_strain(ply, voltage))
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,9 +116,8 @@ class Drive:
 def capacitance(installed: InstalledActuator) -> float:
     """C = c_A A n of one blade [F]."""
     actuator = installed.actuator
-    if not isinstance(actuator, PiezoPly):
-        return 0.0
-    return actuator.capacitance_per_area * installed.skin_area * installed.placement.plies
+    per_area = actuator.capacitance_per_area if isinstance(actuator, PiezoPly) else 0.0
+    return per_area * installed.skin_area * installed.placement.plies
 
 
 def drive(installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:

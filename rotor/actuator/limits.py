@@ -21,6 +21,9 @@ from rotor.dynamics.torsion import added_pull
 from rotor.trim.solution import Solution
 
 ELEMENTS = 60
+BENDING = np.array([[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]])
+TENSION = np.array([[36.0, 3.0, -36.0, 3.0], [3.0, 4.0, -3.0, -1.0], [-36.0, -3.0, 36.0, -3.0], [3.0, -1.0, -3.0, 4.0]])
+"""Stiffness of an element of unit length, of (w, w') at both ends; tension times 30."""
 
 
 def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Array, Array]:
@@ -52,16 +55,18 @@ def bend(structure: BendingStructure, angular_speed: float, load: Array, r: Arra
 
 
 def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
-    """(w, w') at the nodes, (2 nodes, cases)."""
+    """(w, w') at even nodes, (2 nodes, cases)."""
     n = len(nodes)
     stiffness, force = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, load.shape[1]))
     middles = 0.5 * (nodes[1:] + nodes[:-1])
     bending = structure.at(middles, structure.flap_stiffness)
     pull = structure.centrifugal_force(middles, angular_speed)
+    h = nodes[1] - nodes[0]
+    unit = np.array([1.0, h, 1.0, h])
+    scale = np.outer(unit, unit)
     for k in range(n - 1):
-        h = nodes[k + 1] - nodes[k]
         place = slice(2 * k, 2 * k + 4)
-        stiffness[place, place] += bending[k] / h**3 * _bending(h) + pull[k] / (30.0 * h) * _tension(h)
+        stiffness[place, place] += scale * (bending[k] / h**3 * BENDING + pull[k] / (30.0 * h) * TENSION)
         mean = 0.5 * (load[k] + load[k + 1])
         force[place] += np.outer([h / 2.0, h**2 / 12.0, h / 2.0, -(h**2) / 12.0], mean)
     out = np.zeros_like(force)
@@ -83,28 +88,6 @@ def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = N
     """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first."""
     found: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
     return np.stack(found)
-
-
-def _bending(h: float) -> Array:
-    return np.array(
-        [
-            [12.0, 6.0 * h, -12.0, 6.0 * h],
-            [6.0 * h, 4.0 * h**2, -6.0 * h, 2.0 * h**2],
-            [-12.0, -6.0 * h, 12.0, -6.0 * h],
-            [6.0 * h, 2.0 * h**2, -6.0 * h, 4.0 * h**2],
-        ]
-    )
-
-
-def _tension(h: float) -> Array:
-    return np.array(
-        [
-            [36.0, 3.0 * h, -36.0, 3.0 * h],
-            [3.0 * h, 4.0 * h**2, -3.0 * h, -(h**2)],
-            [-36.0, -3.0 * h, 36.0, -3.0 * h],
-            [3.0 * h, -(h**2), -3.0 * h, 4.0 * h**2],
-        ]
-    )
 
 
 HALF_THICKNESS = 0.0475

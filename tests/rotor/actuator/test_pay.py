@@ -22,7 +22,6 @@ from rotor.actuator.pay import (
     what_would_pay,
     with_mass,
 )
-from rotor.actuator.pictures import break_even_charts
 from rotor.actuator.tables import builds_table, pay_table
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
@@ -108,16 +107,6 @@ def test_where_twist_saves_nothing_no_actuator_pays():
     table = pay_table([even, flat])
     assert table.rows[1][-1] == "–"
     assert float(table.rows[0][-1]) == pytest.approx(even.mass_allowed(even.requirement.twist), abs=0.06)
-
-
-def test_charts_end_on_the_axes():
-    even = line()
-    mass, watts = break_even_charts(even, ("ply", math.radians(2.0), 50.0))
-    assert mass.series[0].y[-1] == pytest.approx(float(even.masses[-1]))
-    assert mass.series[1].y[0] == 0.0
-    assert mass.series[-1].x == (pytest.approx(2.0),)
-    assert watts.series[0].y[0] == pytest.approx(even.ideal_saving)
-    assert watts.series[0].y[-1] == pytest.approx(0.0, abs=1e-6)
 
 
 @cache
