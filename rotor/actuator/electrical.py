@@ -140,24 +140,12 @@ def drive(installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
     return Drive(capacitance(installed), 0.0, slew, time)
 
 
-@dataclass(frozen=True)
-class HarmonicDrive:
-    """Driving the plies at a harmonic of rotor speed, one blade."""
-
-    reactive: float
-    """[VA]"""
-    loss: float
-    """[W], heat in the plies."""
-
-
-def harmonic_drive(
-    installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float
-) -> HarmonicDrive:
-    """Reactive π f C V_a² and loss π f C V_a² tan δ, at `amplitude` as a share of half the range (V_a)."""
+def harmonic_loss(installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float) -> float:
+    """Heat in the plies of one blade driven at a harmonic, π f C V_a² tan δ [W]; amplitude: V_a over half the range."""
     actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
-        return HarmonicDrive(0.0, 0.0)
+        return 0.0
     frequency = per_rev * angular_speed / (2.0 * math.pi)
     voltage = 0.5 * amplitude * actuator.voltage_swing
-    reactive = math.pi * frequency * capacitance(installed) * voltage**2
-    return HarmonicDrive(reactive, reactive * float(structure_data()["electrical"]["loss_tangent"]))
+    loss_tangent = float(structure_data()["electrical"]["loss_tangent"])
+    return math.pi * frequency * capacitance(installed) * voltage**2 * loss_tangent

@@ -40,18 +40,21 @@ def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Ar
 def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Array) -> Array:
     """EI w'' at r [m] over azimuth [N m], (stations, azimuths)."""
     rotor = solution.design.rotor
-    hinge = max(rotor.blade.flap_hinge * rotor.radius, structure.clamp)
-    nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
+    nodes = np.linspace(max(rotor.blade.flap_hinge * rotor.radius, structure.clamp), structure.radius, ELEMENTS + 1)
     radii, load = unbalanced_load(solution, structure)
-    at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0)
-    deflection = _deflect(structure, rotor.angular_speed, nodes, at_nodes.T)
-    return _moment(structure, nodes, deflection, r)
+    at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0).T
+    return bend(structure, rotor.angular_speed, nodes, at_nodes, r)
 
 
-def bend(structure: BendingStructure, angular_speed: float, load: Array, r: Array, hinge: float) -> Array:
-    """EI w'' at r [m] under a steady load per length given at ELEMENTS + 1 even nodes from the hinge [N m]."""
-    nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
-    return _moment(structure, nodes, _deflect(structure, angular_speed, nodes, load[:, None]), r)[:, 0]
+def bend(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array) -> Array:
+    """EI w'' at r [m] under loads per length at even nodes from the hinge, (nodes, cases), (stations, cases) [N m].
+
+    From the curvature in the middle of each element, where cubic elements are best.
+    """
+    turn = _deflect(structure, angular_speed, nodes, load)[1::2]
+    middles = 0.5 * (nodes[1:] + nodes[:-1])
+    curvature = np.diff(turn, axis=0) / (nodes[1] - nodes[0])
+    return interpolate_rows(r, middles, (structure.at(middles, structure.flap_stiffness)[:, None] * curvature).T).T
 
 
 def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
@@ -72,16 +75,6 @@ def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, lo
     out = np.zeros_like(force)
     out[1:] = np.linalg.solve(stiffness[1:, 1:], force[1:])
     return out
-
-
-def _moment(structure: BendingStructure, nodes: Array, deflection: Array, r: Array) -> Array:
-    """From the curvature in the middle of each element, where cubic elements are best."""
-    h = nodes[1] - nodes[0]
-    turn = deflection[1::2]
-    curvature = (turn[1:] - turn[:-1]) / h
-    middles = 0.5 * (nodes[1:] + nodes[:-1])
-    moment = structure.at(middles, structure.flap_stiffness)[:, None] * curvature
-    return interpolate_rows(r, middles, moment.T).T
 
 
 def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = None) -> Array:

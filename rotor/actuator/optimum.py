@@ -110,10 +110,8 @@ def best_actuated(
     return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
-def best_swings(
-    design: Design, installed: InstalledActuator, bounds: Sequence[tuple[float, float]], derating: float
-) -> TwistOptimum:
-    """Least power at one condition of a blade that keeps its twist, each segment's swing within its bounds."""
+def best_swings(design: Design, installed: InstalledActuator, bounds: Array, derating: float) -> TwistOptimum:
+    """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2)."""
     reached = _Task((design,), (1.0,), None, installed, derating, bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
@@ -163,7 +161,7 @@ class _Task:
         concept: Concept | None,
         installed: InstalledActuator | None,
         derating: float,
-        swings: Sequence[tuple[float, float]],
+        swings: Sequence[tuple[float, float]] | Array,
     ) -> None:
         """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
         self.designs = tuple(installed.on(design) for design in designs) if installed else designs
