@@ -41,25 +41,6 @@ def free_strain(ply: PiezoPly, voltage: ArrayLike) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class StrainCurve:
-    """Strain of one sheet over its voltage range, for a chart."""
-
-    label: str
-    field: Array
-    """[V/m]"""
-    along: Array
-    """Free strain along the fibres [-]."""
-    across: Array
-
-
-def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
-    """Free strain against voltage and field."""
-    voltage = np.linspace(*ply.voltage_range, points)
-    label = f"{ply.name} ({'d33' if ply.electrodes == 'interdigitated' else 'd31'})"
-    return StrainCurve(label, electric_field(ply, voltage), *free_strain(ply, voltage))
-
-
-@dataclass(frozen=True, eq=False)
 class FieldMap:
     """The field between electrodes in a cut along the fibres, over the mean field of the gap."""
 

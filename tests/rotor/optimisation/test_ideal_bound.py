@@ -22,7 +22,6 @@ from rotor.optimisation.ideal_bound import (
     AZIMUTHS,
     PANELS,
     InducedPower,
-    LinearBlade,
     LinesInWake,
     find_bound,
     ideal_factor,
@@ -34,7 +33,8 @@ from rotor.trim.solve import solve
 from rotor.trim.wake_course import with_course
 
 COARSE = Line(4, 0.13, 16, 36)
-BLADE = LinearBlade()
+CHORD = 0.5273 / 8.1778
+"""c/R (thesis tables 3.1, 3.2)."""
 ROWS = {row["mu"]: row for row in table("bound_kappa")}
 
 
@@ -68,13 +68,13 @@ def compare(line: Line, mu: str) -> tuple[list[float], list[float]]:
     linear = r - 0.75
     any_twist = chebvander((2.0 * r - 1.13) / 0.87, 6).T[1:].astype(float)
     found = {f"bound_H{h}": least_induced_power(lines, thrust, h) for h in (1, 2, 4, 8)}
-    found |= {f"cl12_H{h}": least_induced_power(lines, thrust, h, chord=BLADE.chord) for h in (1, 2, 8)}
+    found |= {f"cl12_H{h}": least_induced_power(lines, thrust, h, chord=CHORD) for h in (1, 2, 8)}
     found |= {
-        f"lin_{slope}": least_twisted_power(lines, thrust, BLADE, math.radians(slope) * linear)
+        f"lin_{slope}": least_twisted_power(lines, thrust, CHORD, math.radians(slope) * linear)
         for slope in (-16, -8, 0)
     }
-    found["best_lin"] = least_twisted_power(lines, thrust, BLADE, 0.0 * r, linear[None])
-    found["any_twist_cheb7"] = least_twisted_power(lines, thrust, BLADE, 0.0 * r, any_twist)
+    found["best_lin"] = least_twisted_power(lines, thrust, CHORD, 0.0 * r, linear[None])
+    found["any_twist_cheb7"] = least_twisted_power(lines, thrust, CHORD, 0.0 * r, any_twist)
     return [over_glauert(lines, thrust, one) for one in found.values()], [float(row[name]) for name in found]
 
 
@@ -92,7 +92,7 @@ def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int]):
 def test_best_linear_twist():
     for mu in TOLERANCE:
         lines, thrust = condition(mu)
-        best = least_twisted_power(lines, thrust, BLADE, 0.0 * COARSE.r, (COARSE.r - 0.75)[None])
+        best = least_twisted_power(lines, thrust, CHORD, 0.0 * COARSE.r, (COARSE.r - 0.75)[None])
         # The bound on the angle is loose because the optimum is flat: 1° is 0.1 % of power.
         assert_allclose(math.degrees(best.amounts[3]), float(ROWS[mu]["best_lin_deg"]), atol=1.0)
 
@@ -105,15 +105,15 @@ def test_the_grid_is_fine_enough(mu: float):
     ours, finer = (
         [
             least_induced_power(one, 0.0065).coefficient,
-            least_induced_power(one, 0.0065, chord=BLADE.chord).coefficient,
-            least_twisted_power(one, 0.0065, BLADE, 0.0 * one.line.r, (one.line.r - 0.75)[None]).coefficient,
+            least_induced_power(one, 0.0065, chord=CHORD).coefficient,
+            least_twisted_power(one, 0.0065, CHORD, 0.0 * one.line.r, (one.line.r - 0.75)[None]).coefficient,
         ]
         for one in lines
     )
     assert_allclose(ours, finer, rtol=0.01)
 
 
-@pytest.mark.parametrize("chord", [None, BLADE.chord])
+@pytest.mark.parametrize("chord", [None, CHORD])
 def test_bound_makes_the_thrust_without_moments_and_within_the_lift_limit(chord: float | None):
     lines, thrust = condition("0.3")
     result = least_induced_power(lines, thrust, 4, chord=chord)
@@ -123,7 +123,7 @@ def test_bound_makes_the_thrust_without_moments_and_within_the_lift_limit(chord:
     for trig in (np.cos(psi), np.sin(psi)):
         assert_allclose(lines.mean(COARSE.r[:, None] * d * trig), 0.0, atol=1e-8 * thrust)
     assert_allclose(lines.mean(d * result.induced), result.coefficient, rtol=1e-12)
-    lift = 2.0 * result.circulation[u_t > 0.05] / (BLADE.chord * u_t[u_t > 0.05])
+    lift = 2.0 * result.circulation[u_t > 0.05] / (CHORD * u_t[u_t > 0.05])
     if chord is None:
         assert lift.max() > 1.3  # The free bound asks for more than a section can give.
     else:
@@ -161,11 +161,11 @@ def test_bounds_are_ordered():
     lines, thrust = condition("0.25")
     free = [least_induced_power(lines, thrust, h).coefficient for h in (8, 4, 2, 1)]
     assert free == sorted(free)
-    assert least_induced_power(lines, thrust, 2, chord=BLADE.chord).coefficient >= free[2]
+    assert least_induced_power(lines, thrust, 2, chord=CHORD).coefficient >= free[2]
     r = COARSE.r
-    given = least_twisted_power(lines, thrust, BLADE, math.radians(-16.0) * (r - 0.75)).coefficient
-    straight = least_twisted_power(lines, thrust, BLADE, 0.0 * r, (r - 0.75)[None]).coefficient
-    bent = least_twisted_power(lines, thrust, BLADE, 0.0 * r, np.stack([r - 0.75, (r - 0.75) ** 2])).coefficient
+    given = least_twisted_power(lines, thrust, CHORD, math.radians(-16.0) * (r - 0.75)).coefficient
+    straight = least_twisted_power(lines, thrust, CHORD, 0.0 * r, (r - 0.75)[None]).coefficient
+    bent = least_twisted_power(lines, thrust, CHORD, 0.0 * r, np.stack([r - 0.75, (r - 0.75) ** 2])).coefficient
     assert bent <= straight <= given
     bound = find_bound(make_design(mu=0.2))
     assert 1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
@@ -174,7 +174,7 @@ def test_bounds_are_ordered():
 def test_an_impossible_lift_limit_is_reported():
     lines, thrust = condition("0.3")
     with pytest.raises(ValueError, match="allow a higher"):
-        least_induced_power(lines, thrust, 2, chord=BLADE.chord, cl_range=(-0.1, 0.2))
+        least_induced_power(lines, thrust, 2, chord=CHORD, cl_range=(-0.1, 0.2))
 
 
 # The shipped table
