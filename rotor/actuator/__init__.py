@@ -5,14 +5,23 @@ axes are y aft and z up from the leading edge of the chord line [m]; twist is no
 contents of chapter 5 is known, so its numbers are not compared.
 """
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.catalogue import (
+    Actuator,
+    Engines,
+    ExtensionTwist,
+    PiezoPly,
+    Programme,
+    TorqueTube,
+    actuators,
+    engines_of,
+    find_actuator,
+    programmes,
+)
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.fuel import Engines, engines_of
 from rotor.actuator.harmonic import DynamicTwist, PowerMap, phase_sweep, power_map
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
-from rotor.actuator.programmes import Programme, programmes
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 

@@ -1,4 +1,4 @@
-"""The actuators of `assets/actuators.toml`."""
+"""What the data files say: actuators, engines of the shipped aircraft, and what published programmes reached."""
 
 import math
 import re
@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
 
+import numpy as np
+
 from rotor.assets import asset_path
+from rotor.design.aircraft import Aircraft
 from rotor.dynamics.structure import titanium
 from rotor.dynamics.thin_wall import Layer, Material
 from rotor.user_input import did_you_mean
@@ -35,19 +38,12 @@ class DataProvenance:
     tested: str
     """The test that it is placed by."""
 
-    @property
-    def readiness_text(self) -> str:
-        """The step and its test, for a reader."""
-        return f"{self.readiness} of {len(STEPS)}, {STEPS[self.readiness - 1]}: {self.tested}"
-
     def warnings(self, name: str) -> tuple[str, ...]:
         """Caveats of using the numbers, one sentence each."""
-        found: list[str] = []
-        if self.recalled:
-            found.append(f"{name}: recalled, not looked up, verify before use: {_listed(self.recalled)}.")
-        if self.assumed:
-            found.append(f"{name}: assumed: {_listed(self.assumed)}.")
-        return tuple(found)
+        graded = ("recalled, not looked up, verify before use", self.recalled), ("assumed", self.assumed)
+        # Keys of the data file as words, their units left out.
+        listed = ((grade, ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)) for grade, keys in graded)
+        return tuple(f"{name}: {grade}: {keys}." for grade, keys in listed if keys)
 
 
 @dataclass(frozen=True)
@@ -156,10 +152,8 @@ Actuator = PiezoPly | TorqueTube | ExtensionTwist
 @cache
 def actuators() -> dict[str, Actuator]:
     """All actuators by id, in the order of the data file."""
-    data = _data()
-    listed: list[Actuator] = [_ply(row) for row in data["ply"]]
-    listed += [_tube(row) for row in data["tube"]]
-    listed += [_extension_twist(row) for row in data["extension_twist"]]
+    makers = {"ply": _ply, "tube": _tube, "extension_twist": _extension_twist}
+    listed = [make(row) for kind, make in makers.items() for row in _data("actuators")[kind]]
     return {actuator.id: actuator for actuator in listed}
 
 
@@ -172,15 +166,10 @@ def find_actuator(id: str) -> Actuator:
     return known[id]
 
 
-@cache
-def model_to_test() -> float:
-    """Measured over predicted twist of a tested blade (low confidence)."""
-    return float(_data()["derating"]["model_to_test"])
-
-
 def derating(actuator: Actuator) -> float:
-    """Usable fraction of the nominal twist: low-end strain times the ratio of test to model."""
-    return actuator.low_swing * model_to_test() if isinstance(actuator, PiezoPly) else 1.0
+    """Usable fraction of the nominal twist: low-end strain times that measured over predicted of one tested blade."""
+    tested = float(_data("actuators")["derating"]["model_to_test"])
+    return actuator.low_swing * tested if isinstance(actuator, PiezoPly) else 1.0
 
 
 def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
@@ -194,8 +183,8 @@ def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
 
 
 @cache
-def _data() -> dict[str, Any]:
-    return tomllib.loads(asset_path("actuators.toml").read_text(encoding="utf-8"))
+def _data(name: str) -> dict[str, Any]:
+    return tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def _ply(row: dict[str, Any]) -> PiezoPly:
@@ -262,6 +251,116 @@ def _provenance(row: dict[str, Any]) -> DataProvenance:
     return DataProvenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]), row["readiness"], row["tested"])
 
 
-def _listed(keys: tuple[str, ...]) -> str:
-    """Keys of the data file as words, their units left out."""
-    return ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)
+HORSEPOWER = 745.699872
+"""[W]"""
+POUND = 0.45359237
+"""[kg]"""
+
+
+@dataclass(frozen=True)
+class Engines:
+    """The engines of one aircraft: fuel flow of each over its shaft power, as a table or a polynomial.
+
+    Power is that of the rotors: losses of gearboxes and accessories are not in it. At sea level; where a change of some
+    kilowatts is asked for, the slope of the curve counts, which is less than the specific consumption.
+    """
+
+    count: int
+    name: str
+    table: tuple[tuple[float, float], ...]
+    """(power [W], flow [kg/s]), rising; straight lines between and beyond. Empty: the polynomial counts."""
+    polynomial: tuple[float, ...]
+    """Flow [kg/s] over power [hp], lowest power first."""
+    source: str
+    caveat: str
+    """What the numbers are not; empty for those of the engine itself."""
+
+    def flow(self, power: float) -> float:
+        """Fuel flow of all engines [kg/s] at the power of the rotors [W], shared evenly; no fuel is given back."""
+        each = max(power, 0.0) / self.count
+        if not self.table:
+            return self.count * float(np.polynomial.Polynomial(self.polynomial)(each / HORSEPOWER))
+        x, y = np.array(self.table).T
+        k = int(np.clip(np.searchsorted(x, each) - 1, 0, len(x) - 2))
+        slope = (y[k + 1] - y[k]) / (x[k + 1] - x[k])
+        return self.count * float(y[k] + slope * (each - x[k]))
+
+
+def engines_of(aircraft: Aircraft) -> Engines | None:
+    """The engines of a shipped aircraft; None without a source for their fuel flow."""
+    row = _data("engines").get(aircraft.key)
+    if row is None:
+        return None
+    points = zip(row.get("power_hp", ()), row.get("flow_lb_h", ()), strict=True)
+    return Engines(
+        count=row["engines"],
+        name=row["name"],
+        table=tuple((HORSEPOWER * power, POUND / 3600.0 * flow) for power, flow in points),
+        polynomial=tuple(row.get("polynomial_kg_s", ())),
+        source=row["source"],
+        caveat=row["caveat"],
+    )
+
+
+def fuel_caveats(aircraft: Aircraft) -> tuple[str, ...]:
+    """What is not known of the fuel flow of an aircraft, in a sentence."""
+    engines = engines_of(aircraft)
+    if engines is None:
+        return (f"No source for the fuel flow of the engines of {aircraft.name}: savings are told as power only.",)
+    return (f"Fuel: {engines.caveat} ({engines.source}).",) if engines.caveat else ()
+
+
+Control = Literal["active twist", "root pitch", "trailing-edge flap"]
+Evidence = Literal["computed", "wind tunnel", "flight"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Programme:
+    """One published result. Changes are against the same rotor without active control [%]; None: not stated."""
+
+    name: str
+    short: str
+    """For a label beside a point."""
+    rotor: str
+    control: Control
+    kind: Evidence
+    per_rev: tuple[int, ...] = ()
+    """Harmonics driven; empty where the text does not say."""
+    amplitude_deg: tuple[float, float] | None = None
+    """Lowest and highest, at the tip or at the root, as `control` says."""
+    vibration_percent: tuple[float, float] | None = None
+    """Lowest and highest change; negative is less vibration."""
+    vibration: str = ""
+    """Which measure of vibration that is; empty without one."""
+    power_percent: float | None = None
+    """Change of rotor power as stated; negative is less."""
+    lift_to_drag_percent: float | None = None
+    """Change of the rotor's effective lift-to-drag ratio as stated; positive is better."""
+    together: bool
+    """Whether vibration and power belong to the same input at the same condition."""
+    grade: str
+    """P authors' own text, S press or another text that quotes them, T quoted by the source document."""
+    source: str
+    note: str
+
+    @property
+    def power_change_percent(self) -> float | None:
+        """Change of power [%]: as stated, else that of L/D turned into power at the same lift and speed.
+
+        P ∝ 1/(L/D), so ΔP/P = 1/(1 + ΔL/D) − 1; it counts the rotor's propulsive force as power.
+        """
+        if self.power_percent is not None or self.lift_to_drag_percent is None:
+            return self.power_percent
+        return 100.0 * (1.0 / (1.0 + 0.01 * self.lift_to_drag_percent) - 1.0)
+
+
+@cache
+def programmes() -> tuple[Programme, ...]:
+    """All published results, in the order of the data file."""
+    return tuple(_programme(row) for row in _data("active_twist_programmes")["programme"])
+
+
+def _programme(row: dict[str, Any]) -> Programme:
+    ranges = ("per_rev", "amplitude_deg", "vibration_percent")
+    pairs: dict[str, Any] = {key: tuple(row[key]) for key in ranges if key in row}
+    return Programme(**(row | pairs))

@@ -41,36 +41,6 @@ def free_strain(ply: PiezoPly, voltage: ArrayLike) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class StrainCurve:
-    """Strain of one sheet over its voltage range, for a chart."""
-
-    label: str
-    voltage: Array
-    """[V]"""
-    field: Array
-    """[V/m]"""
-    along: Array
-    """Free strain along the fibres [-]."""
-    across: Array
-    by_coefficient: Array
-    """α V of the thermal analogy along the fibres [-]."""
-
-
-def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
-    """Free strain against voltage and field."""
-    voltage = np.linspace(*ply.voltage_range, points)
-    along, across = free_strain(ply, voltage)
-    return StrainCurve(
-        label=f"{ply.name} ({'d33' if ply.electrodes == 'interdigitated' else 'd31'})",
-        voltage=voltage,
-        field=electric_field(ply, voltage),
-        along=along,
-        across=across,
-        by_coefficient=thermal_coefficients(ply)[0] * voltage,
-    )
-
-
-@dataclass(frozen=True, eq=False)
 class FieldMap:
     """The field between electrodes in a cut along the fibres, over the mean field of the gap."""
 
@@ -127,9 +97,8 @@ class Drive:
 def capacitance(installed: InstalledActuator) -> float:
     """C = c_A A n of one blade [F]."""
     actuator = installed.actuator
-    if not isinstance(actuator, PiezoPly):
-        return 0.0
-    return actuator.capacitance_per_area * installed.skin_area * installed.placement.plies
+    per_area = actuator.capacitance_per_area if isinstance(actuator, PiezoPly) else 0.0
+    return per_area * installed.skin_area * installed.placement.plies
 
 
 def drive(installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
@@ -152,24 +121,12 @@ def drive(installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
     return Drive(capacitance(installed), 0.0, slew, time)
 
 
-@dataclass(frozen=True)
-class HarmonicDrive:
-    """Driving the plies at a harmonic of rotor speed, one blade."""
-
-    reactive: float
-    """[VA]"""
-    loss: float
-    """[W], heat in the plies."""
-
-
-def harmonic_drive(
-    installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float
-) -> HarmonicDrive:
-    """Reactive π f C V_a² and loss π f C V_a² tan δ, at `amplitude` as a share of half the range (V_a)."""
+def harmonic_loss(installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float) -> float:
+    """Heat in the plies of one blade driven at a harmonic, π f C V_a² tan δ [W]; amplitude: V_a over half the range."""
     actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
-        return HarmonicDrive(0.0, 0.0)
+        return 0.0
     frequency = per_rev * angular_speed / (2.0 * math.pi)
     voltage = 0.5 * amplitude * actuator.voltage_swing
-    reactive = math.pi * frequency * capacitance(installed) * voltage**2
-    return HarmonicDrive(reactive, reactive * float(structure_data()["electrical"]["loss_tangent"]))
+    loss_tangent = float(structure_data()["electrical"]["loss_tangent"])
+    return math.pi * frequency * capacitance(installed) * voltage**2 * loss_tangent

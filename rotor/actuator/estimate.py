@@ -22,7 +22,6 @@ blades and 12 % on rigid ones, which twist further; stiffness within 1 W, mass w
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -76,11 +75,10 @@ def host_blade(base: Baseline, host: Host) -> HostBlade:
     (rate,) = found.values
     curvatures: list[float] = []
     for at_rest in found.solutions:
-        slopes: list[float] = []
-        for step in (-STEP, STEP):
-            slope = _gradient(solve(base.concept.apply(at_rest.design, [rate + step]), at_rest))
-            slopes.append(float(slope.along(base.concept.slopes([rate], slope.r))[0]))
-        curvatures.append((slopes[1] - slopes[0]) / (2.0 * STEP))
+        turned = (base.concept.apply(at_rest.design, [rate + step]) for step in (-STEP, STEP))
+        low, high = (_gradient(solve(design, at_rest)) for design in turned)
+        linear = base.concept.slopes([rate], low.r)
+        curvatures.append(float((high.along(linear) - low.along(linear))[0]) / (2.0 * STEP))
     return HostBlade(pair, base.concept, rate, found.solutions, tuple(curvatures), base.fixed.power)
 
 
@@ -108,17 +106,15 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
 
     Raises RuntimeError with one sentence where the build does not trim.
     """
-    pair, shares = blade.pair, blade.pair.shares
-    rest = [
-        solve(blade.concept.apply(installed.on(design), [blade.rate]), start).require()
-        for design, start in zip(pair.designs(), blade.solutions, strict=True)
-    ]
+    pair = blade.pair
+    made = [blade.concept.apply(installed.on(design), [blade.rate]) for design in pair.designs()]
+    rest = [solve(design, start).require() for design, start in zip(made, blade.solutions, strict=True)]
     before = [_gradient(one) for one in rest]
     r = before[1].r
     linear = blade.concept.slopes([blade.rate], r)[0]
-    offset = sum(share * float(linear @ one.by_element) for share, one in zip(shares, before, strict=True))
-    stiffness = sum(share * h for share, h in zip(shares, blade.curvatures, strict=True))
-    resting = _mean(pair, rest) - 0.5 * offset**2 / stiffness
+    offset = pair.mean(float(linear @ one.by_element) for one in before)
+    stiffness = pair.mean(blade.curvatures)
+    at_rest = pair.mean(one.power.total for one in rest)
     swing, gross = 0.0, 0.0
     shape: Array = derating * law_shapes(installed, pair.design)[0]
     phi: Array = np.interp(r, STATIONS, shape)
@@ -127,10 +123,10 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
         slope = float(phi @ before[1].by_element)
         trial = -math.copysign(min(1.0, STEP / tip), slope)
         for _ in range(2):  # Once to find the swing, once with second derivatives over just that swing.
-            made = replace(rest[1].design, twist=twisted(rest[1].design.twist, trial * shape))
-            change = _gradient(solve(made, rest[1])).by_element - before[1].by_element
+            driven = replace(made[1], twist=twisted(made[1].twist, trial * shape))
+            change = _gradient(solve(driven, rest[1])).by_element - before[1].by_element
             cross, own = float(linear @ change) / trial, float(phi @ change) / trial
-            swing, gross = _best_swing(slope, cross, own, offset, stiffness, shares[1])
+            swing, gross = _best_swing(slope, cross, own, offset, stiffness, pair.share)
             if abs(swing) < NOTHING:
                 break
             trial = swing
@@ -138,18 +134,14 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
     return Estimate(
         swing=swing,
         gross=gross,
-        stiffness_cost=resting - blade.fixed_power,
-        mass_cost=_mean(pair, loaded) - _mean(pair, rest),
+        stiffness_cost=at_rest - 0.5 * offset**2 / stiffness - blade.fixed_power,
+        mass_cost=pair.mean(one.power.total for one in loaded) - at_rest,
         drive_cost=drive(installed, (swing,)).hold_power,
     )
 
 
 def _gradient(solution: Solution) -> PitchGradient:
     return power_along(Adjoint(solution))
-
-
-def _mean(pair: ConditionPair, solutions: Sequence[Solution]) -> float:
-    return sum(share * one.power.total for share, one in zip(pair.shares, solutions, strict=True))
 
 
 def _best_swing(
@@ -161,9 +153,6 @@ def _best_swing(
     """
     first = share * (slope - cross * offset / stiffness)
     second = share * own - (share * cross) ** 2 / stiffness
-    ends = [-1.0, 0.0, 1.0]
-    if second > 0.0:
-        ends.append(min(max(-first / second, -1.0), 1.0))
-    saved = {swing: -first * swing - 0.5 * second * swing**2 for swing in ends}
-    best = max(saved, key=lambda swing: saved[swing])
-    return best, saved[best]
+    inside = [min(max(-first / second, -1.0), 1.0)] if second > 0.0 else []
+    saved, swing = max((-first * v - 0.5 * second * v**2, v) for v in (-1.0, 0.0, 1.0, *inside))
+    return swing, saved

@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.fuel import engines_of
+from rotor.actuator.catalogue import PiezoPly, engines_of
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import best_swings, best_twist
 from rotor.actuator.verdict import NOTHING, Verdict
@@ -47,19 +46,14 @@ UNLIMITED = math.radians(20.0)
 
 @dataclass(frozen=True)
 class FlightMoment:
-    """A flight between two of its legs, by straight lines."""
+    """A flight between two of its legs, by straight lines. Climb [m/s], twists [rad], powers [W]."""
 
     advance_ratio: float
     climb_speed: float
-    """[m/s]"""
     wanted: float
-    """[rad]"""
     reached: float
-    """[rad]"""
     reference_power: float
-    """[W]"""
     power_with: float
-    """[W]"""
 
     @property
     def net_saving(self) -> float:
@@ -140,12 +134,12 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     if not legs:
         raise ValueError("a flight needs a leg: give at least one FlightLeg")
     installed, base, pair = verdict.installed, verdict.baseline, verdict.baseline.pair
-    segments = _segments(verdict)
-    window, undriven = [one.window for one in segments], np.array([one.undriven for one in segments])
+    undriven, per_unit, drives = _drives(verdict)
+    window = np.sort(undriven[:, None] + np.outer(per_unit, drives), axis=1)
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = verdict.derating * installed.shapes_in(pair.design)[:, -1]
-    unlimited = [(-each, each) for each in UNLIMITED / np.maximum(np.abs(shapes), NOTHING)]
+    unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), NOTHING), (-1.0, 1.0))
     parameters = list(base.fixed.values)
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
     powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "ideal", "with")}
@@ -160,10 +154,9 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
                 powers[name].append(trim.power.total)
             best = best_twist(installed.on(design), base.concept, [parameters], alone=True)
             blade = replace(design, twist=jig)
-            free = best_swings(blade, installed, unlimited, derating=verdict.derating)
-            reached = free
-            if any(not low <= swing <= high for swing, (low, high) in zip(free.swings[0], window, strict=True)):
-                reached = best_swings(blade, installed, window, derating=verdict.derating)
+            reached = free = best_swings(blade, installed, unlimited, verdict.derating)
+            if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
+                reached = best_swings(blade, installed, window, verdict.derating)
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:
@@ -176,7 +169,8 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         designs.append(driven)
     made = {name: np.array(values) for name, values in powers.items()}
     counted = made["built" if verdict.against == "as-built" else "fixed"]
-    ends = np.sort((np.array(window) - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
+    ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
+    volts = (np.array(swings) - undriven) / per_unit
     engines = engines_of(pair.design.aircraft)
     saved = None
     if engines is not None:
@@ -188,7 +182,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),
         swings=tuple(swings),
-        voltages=tuple(_volts(verdict, segments, one) for one in swings),
+        voltages=tuple(tuple(one) if verdict.voltages else () for one in volts.tolist()),
         power_fixed=made["fixed"],
         power_built=made["built"],
         power_ideal=made["ideal"],
@@ -199,46 +193,19 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     )
 
 
-@dataclass(frozen=True)
-class _Segment:
-    """How a segment's swing follows its drive: swing = undriven + per_unit × drive."""
+def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:
+    """How the segments follow their drives, swing = undriven + per_unit × drive: both, (segments,), and its two ends.
 
-    undriven: float
-    """Swing undriven."""
-    per_unit: float
-    """Swing per volt; per whole stroke where there is no voltage."""
-    ends: tuple[float, float]
-    """[V], or 0 and 1."""
-
-    @property
-    def window(self) -> tuple[float, float]:
-        """Lowest and highest swing."""
-        first, second = (self.undriven + self.per_unit * end for end in self.ends)
-        return min(first, second), max(first, second)
-
-    def drive(self, swing: float) -> float:
-        """[V], or the share of the stroke."""
-        return (swing - self.undriven) / self.per_unit
-
-
-def _segments(verdict: Verdict) -> list[_Segment]:
-    """The segments of a verdict, with the offset and the direction of the fibres that its voltages have."""
-    actuator, retrofit = verdict.installed.actuator, verdict.installed.host.kind == "retrofit"
-    pairs = list(zip(*verdict.optimum.swings, strict=True))
+    A drive is a voltage [V]; without voltage a share of the stroke. Offset and direction of the fibres are those that
+    the verdict's voltages have.
+    """
+    actuator = verdict.installed.actuator
+    first, second = np.array(verdict.optimum.swings)
     if not isinstance(actuator, PiezoPly):
-        return [_Segment(0.0, math.copysign(1.0, first + second), (0.0, 1.0)) for first, second in pairs]
-    found: list[_Segment] = []
-    for (first, second), (a, b) in zip(pairs, verdict.voltages, strict=True):
-        per_volt = 1.0 / actuator.voltage_swing
-        if retrofit:
-            turned = (first * a + second * b) < 0.0  # Fibres laid in the other direction.
-            found.append(_Segment(0.0, -per_volt if turned else per_volt, actuator.voltage_range))
-        else:
-            found.append(_Segment(first - a * per_volt, per_volt, actuator.voltage_range))
-    return found
-
-
-def _volts(verdict: Verdict, segments: list[_Segment], swings: tuple[float, ...]) -> tuple[float, ...]:
-    if not verdict.voltages:
-        return ()
-    return tuple(one.drive(swing) for one, swing in zip(segments, swings, strict=True))
+        return np.zeros_like(first), np.copysign(1.0, first + second), (0.0, 1.0)
+    a, b = np.array(verdict.voltages).T
+    per_volt = np.full_like(first, 1.0 / actuator.voltage_swing)
+    if verdict.installed.host.kind == "new":
+        return first - a * per_volt, per_volt, actuator.voltage_range
+    turned = first * a + second * b < 0.0  # Fibres laid in the other direction.
+    return np.zeros_like(first), per_volt * np.where(turned, -1.0, 1.0), actuator.voltage_range

@@ -9,13 +9,14 @@ No measured power of a rotor with active twist was to be had; published savings 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.electrical import harmonic_drive
+from rotor.actuator.electrical import harmonic_loss
 from rotor.actuator.installation import InstalledActuator, with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -66,17 +67,18 @@ def dynamic_twist(
             f"{per_rev}/rev is too close to the first torsion frequency of {installed.frequency:.2f}/rev, where only "
             "damping limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
         )
-    low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
-    share = np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
-    moment = 0.5 * installed.moment * share * (installed.derating if derated else 1.0)
-    static = twist_under_moment(installed.beam, moment)
+    share = 0.5 * (installed.derating if derated else 1.0)
+    still: Array = share * installed.rest_shapes.sum(axis=0)
+    moving = still
+    if not elastic:
+        low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
+        active = np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
+        moving = twist_under_moment(installed.beam, share * installed.moment * active, per_rev=float(per_rev))
     stations = np.linspace(0.0, 1.0, SHAPE_STATIONS)
-    still: Array = 0.5 * installed.rest_shapes.sum(axis=0) * (installed.derating if derated else 1.0)
-    moving = still if elastic else twist_under_moment(installed.beam, moment, per_rev=float(per_rev))
     return DynamicTwist(
         per_rev=per_rev,
         amplitude=abs(float(moving[-1])),
-        static=abs(float(static[-1])),
+        static=share * abs(float(installed.shapes[:, -1].sum())),
         stations=tuple(stations.tolist()),
         shape=_over_the_tip(stations, installed.r, moving),
         at_rest=abs(float(still[-1])),
@@ -152,30 +154,23 @@ def phase_sweep(
     plain = replace(design, active_twist=None)
     still = solve(reference or plain).require()
     off = solve(installed.on(plain)).require()
-    phases: list[float] = []
-    changes: list[float] = []
-    best, least = off, 0.0
-    for k in range(PHASES if made.amplitude else 0):
-        phase = 2.0 * math.pi * k / PHASES
-        turned = solve(with_harmonic(design, made, 1.0, phase), off)
-        if not turned.converged:
-            continue
-        phases.append(phase)
-        changes.append(turned.power.total - off.power.total)
-        if changes[-1] < least:
-            best, least = turned, changes[-1]
-    share = 1.0 if best is not off else 0.0
-    for amplitude, phase in _bowl(phases, changes):
-        turned = solve(with_harmonic(design, made, amplitude, phase), off)
-        if turned.converged and turned.power.total - off.power.total < least:
-            best, least, share = turned, turned.power.total - off.power.total, amplitude
-    loss = installed.masses.blades * harmonic_drive(installed, per_rev, share, installed.beam.angular_speed).loss
+
+    def trimmed(share: float, phases: Sequence[float]) -> list[tuple[float, float, Solution]]:
+        trims = [(share, phase, solve(with_harmonic(design, made, share, phase), off)) for phase in phases]
+        return [trim for trim in trims if trim[-1].converged]
+
+    around = trimmed(1.0, [2.0 * math.pi * k / PHASES for k in range(PHASES)]) if made.amplitude else []
+    phases = np.array([phase for _, phase, _ in around])
+    changes = np.array([trim.power.total - off.power.total for *_, trim in around])
+    bowl = [one for amplitude, phase in _bowl(phases, changes) for one in trimmed(amplitude, [phase])]
+    share, _, best = min([(0.0, 0.0, off), *around, *bowl], key=lambda one: one[-1].power.total)
+    loss = installed.masses.blades * harmonic_loss(installed, per_rev, share, installed.beam.angular_speed)
     heavy = solve(with_actuator_mass(best.design, installed))
     return PhaseSweep(
         dynamic=made,
         share=share,
-        phases=np.array(phases),
-        power=np.array(changes),
+        phases=phases,
+        power=changes,
         still=still,
         off=off,
         best=best,
@@ -271,16 +266,15 @@ def tip_response(solution: Solution, per_rev: int) -> tuple[float, float]:
     return float(abs(wave)), float(np.angle(wave))
 
 
-def _bowl(phases: list[float], changes: list[float]) -> list[tuple[float, float]]:
+def _bowl(angle: Array, changes: Array) -> list[tuple[float, float]]:
     """Minimum of ΔP = g·u + ½ u·K u, u = a (cos φ, sin φ), within a ≤ 1: (amplitude, phase).
 
     Around full amplitude its first harmonic is the slope g; its mean and second harmonic are the curvature K.
     """
-    if len(phases) < 8:
+    if len(angle) < 8:
         return []
-    angle = np.array(phases)
     basis = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle), np.cos(2 * angle), np.sin(2 * angle)])
-    mean, gx, gy, cx, cy = np.linalg.lstsq(basis, np.array(changes), rcond=None)[0]
+    mean, gx, gy, cx, cy = np.linalg.lstsq(basis, changes, rcond=None)[0]
     curvature = np.array([[mean + cx, cy], [cy, mean - cx]]) * 2.0
     slope = np.array([gx, gy])
     if np.linalg.eigvalsh(curvature)[0] > 0.0:

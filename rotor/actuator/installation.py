@@ -1,5 +1,6 @@
 """An actuator installed on a blade: moment, twist along the span by segment, added mass, torsion frequency."""
 
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -7,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
-from rotor.actuator.section import Host, Placement, SectionSpec, active_section, section_spec, skin
+from rotor.actuator.section import Host, Placement, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
@@ -74,16 +75,13 @@ def mass_breakdown(
     return MassBreakdown(own, wiring * packages, 0.0, electronics * packages * blades, blades)
 
 
-def addition(
-    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, balance: bool = True
-) -> Addition:
+def addition(masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float) -> Addition:
     """Mass per length, torsional inertia about the balance axis, and stiffness added over the active span."""
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
     front, rear = placement.chord
-    plies = (masses.actuator + masses.wiring if balance else masses.actuator) / (high - low)
-    weight = (masses.balance if balance else 0.0) / (high - low)
+    plies, weight = (masses.actuator + masses.wiring) / (high - low), masses.balance / (high - low)
     arm = 0.5 * (front + rear) - axis
     spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
     return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness)
@@ -102,10 +100,8 @@ class InstalledActuator:
     """M_a [N m], of tubes the largest of the segments; 0 for a passive laminate."""
     twist_rate: float
     """θ'_a of the section, not rotating [rad/m]."""
-    skin_area: float
-    """Of one layer, both skins, one blade [m²]."""
     segment_areas: tuple[float, ...]
-    """By segment [m²]."""
+    """Of one layer on one blade, both skins, by segment [m²]."""
     masses: MassBreakdown
     added: Addition
     beam: TorsionBeam
@@ -121,9 +117,14 @@ class InstalledActuator:
     """First torsion [per rev]."""
 
     @property
+    def skin_area(self) -> float:
+        """Of one layer on one blade, both skins [m²]."""
+        return math.fsum(self.segment_areas)
+
+    @property
     def attainable(self) -> float:
         """Root to tip, all segments together [rad]."""
-        return float(np.abs(self.shapes[:, -1]).sum())
+        return float(self.segment_twists.sum())
 
     @property
     def segment_twists(self) -> Array:
@@ -161,7 +162,8 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)
     spec = section_spec(structure, host)
-    covered = _covered(spec, placement)
+    lines = (skin(spec, side, *placement.chord) for side in ("upper", "lower"))
+    covered = sum(float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines)  # Arc length under the plies [m].
     lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
     areas = covered * lengths
     masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()), float(lengths.sum()))
@@ -196,7 +198,6 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
         section_stiffness=stiffness,
         moment=moment,
         twist_rate=moment / stiffness,
-        skin_area=float(areas.sum()),
         segment_areas=tuple(float(area) for area in areas),
         masses=masses,
         added=added,
@@ -222,13 +223,6 @@ def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
     shape = x - x**3 / 3.0
     shape = shape - shape[0]
     return (actuator.attainable * shape / shape[-1])[None, :]
-
-
-def _covered(spec: SectionSpec, placement: Placement) -> float:
-    """Arc length of both skins under the plies [m]."""
-    return sum(
-        float(np.hypot(*np.diff(skin(spec, side, *placement.chord), axis=0).T).sum()) for side in ("upper", "lower")
-    )
 
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:

@@ -21,6 +21,9 @@ from rotor.dynamics.torsion import added_pull
 from rotor.trim.solution import Solution
 
 ELEMENTS = 60
+BENDING = np.array([[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]])
+TENSION = np.array([[36.0, 3.0, -36.0, 3.0], [3.0, 4.0, -3.0, -1.0], [-36.0, -3.0, 36.0, -3.0], [3.0, -1.0, -3.0, 4.0]])
+"""Stiffness of an element of unit length, of (w, w') at both ends; tension times 30."""
 
 
 def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Array, Array]:
@@ -37,31 +40,36 @@ def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Ar
 def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Array) -> Array:
     """EI w'' at r [m] over azimuth [N m], (stations, azimuths)."""
     rotor = solution.design.rotor
-    hinge = max(rotor.blade.flap_hinge * rotor.radius, structure.clamp)
-    nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
+    nodes = np.linspace(max(rotor.blade.flap_hinge * rotor.radius, structure.clamp), structure.radius, ELEMENTS + 1)
     radii, load = unbalanced_load(solution, structure)
-    at_nodes = interpolate_columns(nodes, radii, load, left=0.0)
-    deflection = _deflect(structure, rotor.angular_speed, nodes, at_nodes)
-    return _moment(structure, nodes, deflection, r)
+    at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0).T
+    return bend(structure, rotor.angular_speed, nodes, at_nodes, r)
 
 
-def bend(structure: BendingStructure, angular_speed: float, load: Array, r: Array, hinge: float) -> Array:
-    """EI w'' at r [m] under a steady load per length given at ELEMENTS + 1 even nodes from the hinge [N m]."""
-    nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
-    return _moment(structure, nodes, _deflect(structure, angular_speed, nodes, load[:, None]), r)[:, 0]
+def bend(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array) -> Array:
+    """EI w'' at r [m] under loads per length at even nodes from the hinge, (nodes, cases), (stations, cases) [N m].
+
+    From the curvature in the middle of each element, where cubic elements are best.
+    """
+    turn = _deflect(structure, angular_speed, nodes, load)[1::2]
+    middles = 0.5 * (nodes[1:] + nodes[:-1])
+    curvature = np.diff(turn, axis=0) / (nodes[1] - nodes[0])
+    return interpolate_rows(r, middles, (structure.at(middles, structure.flap_stiffness)[:, None] * curvature).T).T
 
 
 def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
-    """(w, w') at the nodes, (2 nodes, cases)."""
+    """(w, w') at even nodes, (2 nodes, cases)."""
     n = len(nodes)
     stiffness, force = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, load.shape[1]))
     middles = 0.5 * (nodes[1:] + nodes[:-1])
     bending = structure.at(middles, structure.flap_stiffness)
     pull = structure.centrifugal_force(middles, angular_speed)
+    h = nodes[1] - nodes[0]
+    unit = np.array([1.0, h, 1.0, h])
+    scale = np.outer(unit, unit)
     for k in range(n - 1):
-        h = nodes[k + 1] - nodes[k]
         place = slice(2 * k, 2 * k + 4)
-        stiffness[place, place] += bending[k] / h**3 * _bending(h) + pull[k] / (30.0 * h) * _tension(h)
+        stiffness[place, place] += scale * (bending[k] / h**3 * BENDING + pull[k] / (30.0 * h) * TENSION)
         mean = 0.5 * (load[k] + load[k + 1])
         force[place] += np.outer([h / 2.0, h**2 / 12.0, h / 2.0, -(h**2) / 12.0], mean)
     out = np.zeros_like(force)
@@ -69,44 +77,10 @@ def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, lo
     return out
 
 
-def _moment(structure: BendingStructure, nodes: Array, deflection: Array, r: Array) -> Array:
-    """From the curvature in the middle of each element, where cubic elements are best."""
-    h = nodes[1] - nodes[0]
-    turn = deflection[1::2]
-    curvature = (turn[1:] - turn[:-1]) / h
-    middles = 0.5 * (nodes[1:] + nodes[:-1])
-    moment = structure.at(middles, structure.flap_stiffness)[:, None] * curvature
-    return interpolate_columns(r, middles, moment)
-
-
-def interpolate_columns(x: Array, known: Array, values: Array, left: float | None = None) -> Array:
-    """np.interp for every column, (known, cases) → (x, cases); `left`: the value below the first."""
-    out = np.empty((len(x), values.shape[1]))
-    for k in range(values.shape[1]):
-        out[:, k] = np.interp(x, known, values[:, k], left=left)
-    return out
-
-
-def _bending(h: float) -> Array:
-    return np.array(
-        [
-            [12.0, 6.0 * h, -12.0, 6.0 * h],
-            [6.0 * h, 4.0 * h**2, -6.0 * h, 2.0 * h**2],
-            [-12.0, -6.0 * h, 12.0, -6.0 * h],
-            [6.0 * h, 2.0 * h**2, -6.0 * h, 4.0 * h**2],
-        ]
-    )
-
-
-def _tension(h: float) -> Array:
-    return np.array(
-        [
-            [36.0, 3.0 * h, -36.0, 3.0 * h],
-            [3.0 * h, 4.0 * h**2, -3.0 * h, -(h**2)],
-            [-36.0, -3.0 * h, 36.0, -3.0 * h],
-            [3.0 * h, -(h**2), -3.0 * h, 4.0 * h**2],
-        ]
-    )
+def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = None) -> Array:
+    """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first."""
+    found: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
+    return np.stack(found)
 
 
 HALF_THICKNESS = 0.0475

@@ -10,7 +10,7 @@ twist p within the concept, so only differences of v matter. A retrofit keeps it
 zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -18,7 +18,7 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.limits import interpolate_columns
+from rotor.actuator.limits import interpolate_rows
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
@@ -30,7 +30,6 @@ from rotor.trim.solve import solve
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
-REFERENCE = np.array([REFERENCE_RADIUS])
 FLATTER = 0.5
 """A second start: the first law flattened by this much."""
 
@@ -57,6 +56,10 @@ class ConditionPair:
     @property
     def shares(self) -> tuple[float, float]:
         return 1.0 - self.share, self.share
+
+    def mean(self, values: Iterable[float]) -> float:
+        """Of a value at either condition, by shares of time."""
+        return sum(share * value for share, value in zip(self.shares, values, strict=True))
 
     def designs(self, base: Design | None = None) -> tuple[Design, Design]:
         """The design at both conditions."""
@@ -107,16 +110,9 @@ def best_actuated(
     return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
-def best_swings(
-    design: Design,
-    installed: InstalledActuator,
-    bounds: Sequence[tuple[float, float]],
-    *,
-    derating: float = 1.0,
-) -> TwistOptimum:
-    """Least power at one condition of a blade that keeps its twist, each segment's swing within its bounds."""
-    task = _Task((design,), (1.0,), None, installed, derating, 1.0, tuple(bounds))
-    reached = task.descend(())
+def best_swings(design: Design, installed: InstalledActuator, bounds: Array, derating: float) -> TwistOptimum:
+    """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2)."""
+    reached = _Task((design,), (1.0,), None, installed, derating, bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
@@ -132,24 +128,27 @@ def _search(
     *,
     alone: bool = False,
 ) -> TwistOptimum:
-    keeps_twist = installed is not None and installed.host.kind == "retrofit"
-    jigs: list[Sequence[float]] = [()] if keeps_twist else list(starts)
-    if not keeps_twist and not alone and (installed is None or not starts):
-        first = nearest(concept, designs[0].twist)
-        jigs += [first, _flatter(concept, first)]
-    found: list[TwistOptimum] = []
-    for orientation in (1.0, -1.0) if keeps_twist else (1.0,):
-        task = _Task(designs, shares, None if keeps_twist else concept, installed, derating, orientation)
-        found += [reached for jig in jigs if (reached := task.descend(jig)) is not None]
+    if installed is not None and installed.host.kind == "retrofit":
+        low, high = 0.0, 1.0
+        if isinstance(installed.actuator, PiezoPly):
+            low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
+        either = [[ends] * 2 * len(installed.shapes) for ends in ((low, high), (-high, -low))]  # Direction of fibres.
+        tasks = [_Task(designs, shares, None, installed, derating, bounds) for bounds in either]
+        jigs: list[Sequence[float]] = [()]
+    else:
+        segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
+        bounds = [(0.0, 0.0)] * segments + [(-1.0, 1.0)] * segments
+        tasks, jigs = [_Task(designs, shares, concept, installed, derating, bounds)], list(starts)
+        if not alone and (installed is None or not starts):
+            first = nearest(concept, designs[0].twist)
+            flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
+            jigs += [first, flatter]
+    found = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
     if not found:
         raise RuntimeError(
             "No twist of this concept trims at these flight conditions: reduce the mass or the advance ratio."
         )
     return min(found, key=lambda reached: reached.power)
-
-
-def _flatter(concept: Concept, values: tuple[float, ...]) -> tuple[float, ...]:
-    return tuple(v * FLATTER if p.angular else v for v, p in zip(values, concept.parameters, strict=True))
 
 
 class _Task:
@@ -162,9 +161,9 @@ class _Task:
         concept: Concept | None,
         installed: InstalledActuator | None,
         derating: float,
-        orientation: float,
-        ends: tuple[tuple[float, float], ...] | None = None,
+        swings: Sequence[tuple[float, float]] | Array,
     ) -> None:
+        """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
         self.designs = tuple(installed.on(design) for design in designs) if installed else designs
         self.shares, self.concept = shares, concept
         self.trims: list[Solution | None] = [None] * len(designs)
@@ -172,30 +171,13 @@ class _Task:
         self.shapes = np.zeros((0, len(STATIONS)))
         if installed:
             self.shapes = derating * law_shapes(installed, designs[0])
-        swings = list(ends) if ends is not None else self._swing_bounds(installed, orientation)
-        self.bounds = self._jig_bounds() + swings
-        self.low = np.array([low for low, _ in self.bounds])
-        self.span = np.array([high - low for low, high in self.bounds])
-
-    def _jig_bounds(self) -> list[tuple[float, float]]:
-        return [(p.low, p.high) for p in self.concept.parameters] if self.concept else []
-
-    def _swing_bounds(self, installed: InstalledActuator | None, orientation: float) -> list[tuple[float, float]]:
-        """Bounds of v: from the first condition for a new blade, from zero volts for a retrofit, by fibre direction."""
-        if installed is None:
-            return []
-        if self.concept is not None:
-            return [(0.0, 0.0)] * self.segments + [(-1.0, 1.0)] * self.segments
-        low, high = (0.0, 1.0)
-        if isinstance(installed.actuator, PiezoPly):
-            low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
-        ends = (low, high) if orientation > 0.0 else (-high, -low)
-        return [ends] * (2 * self.segments)
+        bounds = [(p.low, p.high) for p in concept.parameters] if concept else []
+        self.low, high = np.array([*bounds, *swings]).T
+        self.span = high - self.low
 
     def descend(self, jig: Sequence[float]) -> TwistOptimum | None:
-        start = np.concatenate((jig, np.zeros(len(self.bounds) - len(jig))))
-        free = self.span > 0.0
-        x0 = np.zeros_like(start)
+        start = np.concatenate((jig, np.zeros(len(self.low) - len(jig))))
+        free, x0 = self.span > 0.0, np.zeros_like(start)
         x0[free] = np.clip((start[free] - self.low[free]) / self.span[free], 0.0, 1.0)
         first = self._power(x0)
         if first is None:
@@ -216,47 +198,44 @@ class _Task:
         if final is None or final[0] > unit:
             x, final = x0, self._power(x0)
         assert final is not None
-        values = (self.low + self.span * x).tolist()
-        own = len(jig)
-        swings = tuple(
-            tuple(values[own + k * self.segments : own + (k + 1) * self.segments]) for k in range(len(self.designs))
-        )
-        solutions = tuple(trim for trim in self.trims if trim is not None)
-        return TwistOptimum(tuple(values[:own]), swings if self.segments else (), solutions, final[0])
+        values, each = self._split(x)
+        swings = tuple(tuple(one) for one in each.tolist()) if self.segments else ()
+        return TwistOptimum(tuple(values), swings, tuple(one for one in self.trims if one is not None), final[0])
+
+    def _split(self, x: Array) -> tuple[list[float], Array]:
+        """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
+        values, swings = self.low + self.span * x, len(self.designs) * self.segments
+        own = len(values) - swings
+        return values[:own].tolist(), values[own:].reshape(len(self.designs), self.segments)
 
     def _power(self, x: Array) -> tuple[float, Array] | None:
         """Mean power and its gradient by x; None when a condition does not trim."""
-        values = (self.low + self.span * x).tolist()
-        own = len(values) - len(self.designs) * self.segments
-        jig = values[:own]
+        jig, swings = self._split(x)
         power, slope = 0.0, np.zeros_like(x)
+        by_jig, by_swings = slope[: len(jig)], slope[len(jig) :].reshape(swings.shape)
         for k, (design, share) in enumerate(zip(self.designs, self.shares, strict=True)):
             made = self.concept.apply(design, jig) if self.concept else design
-            begin = own + k * self.segments
-            swings = np.array(values[begin : begin + self.segments])
-            solution = solve(replace(made, twist=self._law(made.twist, swings)), self.trims[k])
+            if np.any(swings[k]):
+                made = replace(made, twist=twisted(made.twist, swings[k] @ self.shapes))
+            solution = solve(made, self.trims[k])
             if not solution.converged:
                 return None
             self.trims[k] = solution
             by_pitch = power_along(Adjoint(solution))
             power += share * solution.power.total
-            if self.concept and own:
-                slope[:own] += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))
+            if self.concept:
+                by_jig += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))
             if self.segments:
-                shapes = interpolate_columns(by_pitch.r, STATIONS, self.shapes.T).T
-                slope[begin : begin + self.segments] += share * by_pitch.along(shapes)
+                by_swings[k] = share * by_pitch.along(interpolate_rows(by_pitch.r, STATIONS, self.shapes))
         return power, slope * self.span
-
-    def _law(self, jig: TwistLaw, swings: Array) -> TwistLaw:
-        return twisted(jig, swings @ self.shapes) if self.segments and np.any(swings) else jig
 
 
 def law_shapes(installed: InstalledActuator, design: Design) -> Array:
     """What each segment's whole range adds to the design's twist law at STATIONS, zero at 0.75 R [rad], (segments,
     stations)."""
-    shapes = installed.shapes_in(design)
-    at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
-    return at - reference
+    places = np.append(STATIONS, REFERENCE_RADIUS)
+    shapes = interpolate_rows(places, installed.r, installed.shapes_in(design))
+    return shapes[:, :-1] - shapes[:, -1:]
 
 
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:
@@ -284,7 +263,7 @@ class Baseline:
     @property
     def ideal_power(self) -> float:
         """Mean power with free in-flight twist [W]."""
-        return sum(share * best.power for share, best in zip(self.pair.shares, self.best, strict=True))
+        return self.pair.mean(best.power for best in self.best)
 
     @property
     def ideal_saving(self) -> float:

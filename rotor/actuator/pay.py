@@ -20,12 +20,12 @@ from itertools import product
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, actuators
+from rotor.actuator.catalogue import ExtensionTwist, actuators
 from rotor.actuator.estimate import Estimate, estimate, host_blade
 from rotor.actuator.installation import InstalledActuator, heavier, install
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline
 from rotor.actuator.section import Host, default_placement
-from rotor.actuator.verdict import Verdict, judge
+from rotor.actuator.verdict import Verdict, judge, layers_text
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE
@@ -141,16 +141,14 @@ class _Flown:
 
     def __init__(self, base: Baseline) -> None:
         self.base, self.pair = base, base.pair
-        self.trims: list[Solution | None] = [None, None]
+        self.trims: tuple[Solution | None, ...] = (None, None)
 
     def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
         """With a mass on all blades together [kg]."""
-        total = 0.0
-        for k, (design, share, rate) in enumerate(zip(self.pair.designs(), self.pair.shares, rates, strict=True)):
-            made = self.base.concept.apply(design, [rate])
-            self.trims[k] = trim = solve(with_mass(made, mass), self.trims[k]).require()
-            total += share * trim.power.total
-        return total
+        made = [self.base.concept.apply(one, [rate]) for one, rate in zip(self.pair.designs(), rates, strict=True)]
+        trims = tuple(solve(with_mass(one, mass), near).require() for one, near in zip(made, self.trims, strict=True))
+        self.trims = trims
+        return self.pair.mean(trim.power.total for trim in trims)
 
     def best(self, swing: float, between: tuple[float, float]) -> tuple[float, float]:
         """The rate at the first condition of least power, and that power."""
@@ -221,11 +219,9 @@ class Candidate:
     @property
     def name(self) -> str:
         """Actuator, count, span and blade, for a reader."""
-        placement, host, actuator = self.installed.placement, self.installed.host, self.installed.actuator
-        low, high = placement.span
-        one, many = ("ply", "plies") if isinstance(actuator, PiezoPly) else ("tube", "tubes")
-        number = f"{placement.plies} {one if placement.plies == 1 else many}"
-        return f"{actuator.id.replace('_', ' ')}, {number}, {low:.2f}–{high:.2f} R, GJ × {host.stiffness:g}"
+        actuator, (low, high) = self.installed.actuator, self.installed.placement.span
+        words = f"{actuator.id.replace('_', ' ')}, {layers_text(self.installed)}"
+        return f"{words}, {low:.2f}–{high:.2f} R, GJ × {self.installed.host.stiffness:g}"
 
     @property
     def mass(self) -> float:

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -11,8 +10,6 @@ from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pay import BreakEven
 from rotor.actuator.section import (
-    Placement,
-    SectionSpec,
     passive_skin,
     passive_wall,
     section_spec,
@@ -22,7 +19,7 @@ from rotor.actuator.section import (
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data, uh60a_structure
-from rotor.line_chart import LineChart, Mark, Series
+from rotor.line_chart import LineChart, Series
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +51,8 @@ def section_picture(installed: InstalledActuator, *, exaggerate: float = 1.0) ->
     outline = np.concatenate([skin(spec, "upper", 0.0, 1.0)[::-1], skin(spec, "lower", 0.0, 1.0)[1:]])
     parts = [Part("outline", outline, "SC1095")]
     rear = float(data["spar_web_c"] if retrofit else data["box_end_c"])
-    wall = _wall(spec, installed) * exaggerate
+    plies_inside = not retrofit and isinstance(actuator, PiezoPly)
+    wall = exaggerate * (passive_skin(spec, actuator, placement) if plies_inside else passive_wall(spec))
     name = "titanium spar" if retrofit else "glass torsion box"
     role = "spar" if retrofit else "skin"
     for side in ("upper", "lower"):
@@ -97,13 +95,9 @@ class TwistCurve:
     """r/R, (stations,)."""
     twist: Array
     """[rad], (stations,)."""
-    limit: Array
-    """Largest either way, nominal [rad], (stations,)."""
-    derated: Array
-    """The same, derated by test."""
 
 
-def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float], stations: int = 61) -> TwistCurve:
+def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float]) -> TwistCurve:
     """The blade's twist with each segment at its voltage [V], zero volts being the jig twist.
 
     Voltages beyond the range raise ValueError. For a tube, "voltage" is the share of its torque, −1…1.
@@ -118,53 +112,19 @@ def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float],
     for voltage in voltages:
         if not low - 1e-9 <= voltage <= high + 1e-9:
             raise ValueError(f"voltage {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
-    r = np.linspace(float(installed.r[0]), 1.0, stations)
-    return TwistCurve(
-        r=r,
-        twist=installed.change(np.asarray(voltages, dtype=float) / unit, r),
-        limit=installed.limit(r),
-        derated=installed.limit(r, derated=True),
-    )
+    r = np.linspace(float(installed.r[0]), 1.0, 61)
+    return TwistCurve(r, installed.change(np.asarray(voltages, dtype=float) / unit, r))
 
 
-@dataclass(frozen=True, eq=False)
-class TwistComparison:
-    """Required and attainable change of twist for one verdict, as curves and bars."""
+def twist_comparison(verdict: Verdict, stations: int) -> tuple[Array, Array]:
+    """Change of twist from the root cut-out [rad], (stations,) evenly from there to the tip.
 
-    label: str
-    r: Array
-    required: Array
-    """Between the optima of both conditions, zero at the cut-out [rad]."""
-    attained: Array
-    """At the actuated optimum [rad]."""
-    limit: Array
-    derated: Array
-    segments: tuple[str, ...]
-    """Span of each, as text."""
-    required_segments: Array
-    """[rad]"""
-    available_segments: Array
-
-
-def twist_comparison(verdict: Verdict, stations: int = 61) -> TwistComparison:
-    """Chart data of one verdict."""
-    installed, base = verdict.installed, verdict.baseline
-    root = base.pair.design.rotor.blade.root_cutout
-    r = np.linspace(root, 1.0, stations)
+    Between the optima of both conditions, and at the actuated optimum.
+    """
+    r = np.linspace(verdict.baseline.pair.design.rotor.blade.root_cutout, 1.0, stations)
     first, second = (np.array(swings) for swings in verdict.optimum.swings)
-    made = verdict.derating * installed.change(second - first, r)
-    edges = (root, *installed.placement.divisions, 1.0)
-    return TwistComparison(
-        label=f"{installed.actuator.name}, {installed.host.label}, {base.concept.title.lower()}",
-        r=r,
-        required=base.change(r),
-        attained=made - made[0],
-        limit=installed.limit(r),
-        derated=installed.limit(r, derated=True),
-        segments=tuple(f"{low:.2f}…{high:.2f} R" for low, high in pairwise(edges)),
-        required_segments=verdict.required_segments,
-        available_segments=installed.segment_twists,
-    )
+    made = verdict.derating * verdict.installed.change(second - first, r)
+    return verdict.baseline.change(r), made - made[0]
 
 
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
@@ -172,36 +132,18 @@ def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
     return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
 
 
-def _wall(spec: SectionSpec, installed: InstalledActuator) -> float:
-    placement: Placement = installed.placement
-    if installed.host.kind == "retrofit" or not isinstance(installed.actuator, PiezoPly):
-        return passive_wall(spec)
-    return passive_skin(spec, installed.actuator, placement)
-
-
-def break_even_charts(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> tuple[LineChart, LineChart]:
-    """Mass that just pays over twist, and drive power that just pays over mass.
+def break_even_chart(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> LineChart:
+    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves.
 
     actuator: name, linear twist that saves as much [rad] and mass of all blades [kg] of the one beside the line.
     """
-    half, twists, largest = 0.5 * even.ideal_saving, even.twists.tolist(), float(even.twists[-1])
-    degrees = tuple(np.degrees(twists).tolist())
-    driven = tuple(even.mass_allowed(twist, half) for twist in twists)
+    half, degrees = 0.5 * even.ideal_saving, tuple(np.degrees(even.twists).tolist())
+    driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
     lines = [
         Series("no drive power", degrees, tuple(even.masses.tolist()), "line", 1),
         Series(f"{half:.0f} W of drive", degrees, driven, "dashed", 1),
     ]
-    masses = tuple(np.linspace(0.0, float(even.masses[-1]), 21).tolist())
-
-    def watts(twist: float, mark: Mark) -> Series:
-        left = tuple(max(even.net(twist, mass), 0.0) for mass in masses)
-        return Series(f"{math.degrees(twist):.1f}° of twist", masses, left, mark, 1)
-
-    powers = (watts(largest, "line"), watts(0.5 * largest, "dashed"))
     if actuator is not None:
         name, twist, mass = actuator
         lines.append(Series(name, (math.degrees(twist),), (mass,), "points", 2))
-    return (
-        LineChart("Pays below the line", "range of linear twist [°]", "mass of all blades [kg]", tuple(lines)),
-        LineChart("Pays below the line", "mass of all blades [kg]", "drive power [W]", powers),
-    )
+    return LineChart("Pays below the line", "range of linear twist [°]", "mass of all blades [kg]", tuple(lines))

@@ -161,7 +161,7 @@ def _panels(spec: SectionSpec, wall: float, placement: Placement | None, active:
     retrofit = spec.host.kind == "retrofit"
     web = float(data["spar_web_c"])
     end = 1.0 if retrofit else float(data["box_end_c"])
-    front_skin = _spar(wall) if retrofit else _glass(wall)
+    front_skin = (Layer(titanium(), wall, 0.0),) if retrofit else _glass(wall)
     rear_skin = _glass(1e-3 * float(data["aft_skin_mm"])) if retrofit else front_skin
     edges = {0.0, end, *((web,) if retrofit else ()), *(placement.chord if placement else ())}
     cuts = sorted(edge for edge in edges if edge <= end)
@@ -178,10 +178,6 @@ def _panels(spec: SectionSpec, wall: float, placement: Placement | None, active:
         panels.append(Panel(web_line(spec, web), front_skin, (1, -2)))
     panels.append(Panel(web_line(spec, end), rear_skin, (2,) if retrofit else (1,)))
     return tuple(panels)
-
-
-def _spar(thickness: float) -> tuple[Layer, ...]:
-    return (Layer(titanium(), thickness, 0.0),)
 
 
 def _glass(thickness: float) -> tuple[Layer, ...]:

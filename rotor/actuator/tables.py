@@ -7,12 +7,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.actuator.catalogue import STEPS, ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.catalogue import STEPS, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import ENOUGH, BreakEven, Candidate
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
-from rotor.optimisation.concepts import Concept, find_concept
+from rotor.optimisation.concepts import find_concept
 from rotor.terminal import wrapped
 
 NONE = "–"
@@ -57,15 +57,8 @@ def table_5_1() -> ActuatorTable:
     )  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for actuator in actuators().values():
-        grade = ", ".join(
-            f"{len(keys)} {word}"
-            for keys, word in (
-                (actuator.provenance.recalled, "recalled"),
-                (actuator.provenance.assumed, "assumed"),
-            )
-            if keys
-        )
-        grade = grade or "sourced"
+        graded = (actuator.provenance.recalled, "recalled"), (actuator.provenance.assumed, "assumed")
+        grade = ", ".join(f"{len(keys)} {word}" for keys, word in graded if keys) or "sourced"
         ready = f"{actuator.provenance.readiness} of {len(STEPS)}"
         if isinstance(actuator, PiezoPly):
             low, high = actuator.voltage_range
@@ -80,8 +73,12 @@ def table_5_1() -> ActuatorTable:
                 "{:.0f}…{:.0f}".format(*actuator.temperature_range), ready, grade,
             ))  # fmt: skip
         else:
-            heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range) if isinstance(actuator, TorqueTube) else NONE
-            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, ready, grade))
+            if isinstance(actuator, TorqueTube):
+                mode = f"heat, {actuator.torque:.0f} N·m"
+                heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range)
+            else:
+                mode, heat = f"rotor speed, {math.degrees(actuator.twist):.2f}°", NONE
+            rows.append((actuator.id, mode, *[NONE] * 11, heat, ready, grade))
     steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
     tests = "; ".join(f"{one.id} {one.provenance.tested}" for one in actuators().values())
     notes = (
@@ -93,50 +90,20 @@ def table_5_1() -> ActuatorTable:
     return ActuatorTable("Table 5.1  Actuator properties", columns, tuple(rows), notes)
 
 
-def _mode(actuator: TorqueTube | ExtensionTwist) -> str:
-    if isinstance(actuator, TorqueTube):
-        return f"heat, {actuator.torque:.0f} N·m"
-    return f"rotor speed, {math.degrees(actuator.twist):.2f}°"
-
-
 def table_5_2(
     pair: ConditionPair,
     *,
-    actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
-    concept_names: Sequence[str] = COMPARED_CONCEPTS,
     placement: Placement | None = None,
     host: Host | None = None,
     derated: bool = False,
 ) -> ActuatorTable:
-    """Actuators and concepts compared for one pair of flight conditions."""
-    verdicts = compare(
-        pair,
-        [find_concept(name) for name in concept_names],
-        actuator_ids=actuator_ids,
-        placement=placement,
-        host=host,
-        derated=derated,
-    )
-    return verdict_table(verdicts)
-
-
-def compare(
-    pair: ConditionPair,
-    concepts: Sequence[Concept],
-    *,
-    actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
-    placement: Placement | None = None,
-    host: Host | None = None,
-    derated: bool = False,
-) -> list[Verdict]:
-    """Verdicts for every actuator and concept, best net saving first."""
-    known = actuators()
+    """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
     verdicts = [
-        judge(known[id], pair, concept, placement or default_placement(), host, derated=derated)
-        for id in actuator_ids
-        for concept in concepts
+        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host, derated=derated)
+        for id in COMPARED_ACTUATORS
+        for name in COMPARED_CONCEPTS
     ]
-    return sorted(verdicts, key=lambda verdict: -verdict.net_saving)
+    return verdict_table(sorted(verdicts, key=lambda verdict: -verdict.net_saving))
 
 
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
@@ -216,13 +183,8 @@ def builds_table(builds: Sequence[Candidate]) -> ActuatorTable:
             f"{math.degrees(one.installed.attainable):.1f}",
             f"{100.0 * abs(one.estimate.swing):.0f}",
             f"{one.mass:.0f}",
-            *(
-                kilowatts(part)
-                for part in (
-                    one.estimate.gross, -one.estimate.stiffness_cost, -one.estimate.mass_cost,
-                    -one.estimate.drive_cost, one.estimate.net,
-                )
-            ),
+            kilowatts(one.estimate.gross), kilowatts(-one.estimate.stiffness_cost),
+            kilowatts(-one.estimate.mass_cost), kilowatts(-one.estimate.drive_cost), kilowatts(one.estimate.net),
             f"{100.0 * one.earned:.0f}",
         )
         for one in builds

@@ -7,9 +7,17 @@ from typing import Literal
 
 import numpy as np
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, find_actuator, holding_caveats
+from rotor.actuator.catalogue import (
+    Actuator,
+    ExtensionTwist,
+    PiezoPly,
+    TorqueTube,
+    engines_of,
+    find_actuator,
+    fuel_caveats,
+    holding_caveats,
+)
 from rotor.actuator.electrical import Drive, drive
-from rotor.actuator.fuel import engines_of, fuel_caveats
 from rotor.actuator.installation import InstalledActuator, install, segment_voltages, with_actuator_mass
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
@@ -22,8 +30,6 @@ from rotor.trim.solve import solve
 
 NOTHING = 1e-6
 """Least twist used as a divisor [rad]."""
-
-
 Against = Literal["best-fixed", "as-built"]
 """The blade that savings are counted from."""
 
@@ -98,12 +104,12 @@ class Verdict:
     @property
     def reference_power(self) -> float:
         """Of the blade that savings are counted from [W]."""
-        return self._mean(self.reference_powers)
+        return self.baseline.pair.mean(self.reference_powers)
 
     @property
     def net_power(self) -> float:
         """With the actuator's mass on board and its drive [W]."""
-        return self._mean(self.loaded_powers) + self.drive.hold_power
+        return self.baseline.pair.mean(self.loaded_powers) + self.drive.hold_power
 
     @property
     def gross_saving(self) -> float:
@@ -123,7 +129,7 @@ class Verdict:
     @property
     def mass_cost(self) -> float:
         """Power that carrying the actuator costs [W]."""
-        return self._mean(self.loaded_powers) - self.optimum.power
+        return self.baseline.pair.mean(self.loaded_powers) - self.optimum.power
 
     @property
     def drive_cost(self) -> float:
@@ -149,13 +155,10 @@ class Verdict:
         engines = engines_of(self.baseline.pair.design.aircraft)
         if engines is None:
             return None
-        hold = self.drive.hold_power
         pairs = zip(self.reference_powers, self.loaded_powers, strict=True)
-        saved = [engines.flow(before) - engines.flow(after + hold) for before, after in pairs]
-        return self._mean((saved[0], saved[1]))
-
-    def _mean(self, values: tuple[float, float]) -> float:
-        return sum(share * value for share, value in zip(self.baseline.pair.shares, values, strict=True))
+        return self.baseline.pair.mean(
+            engines.flow(before) - engines.flow(after + self.drive.hold_power) for before, after in pairs
+        )
 
     @property
     def broken(self) -> tuple[Limit, ...]:
@@ -239,27 +242,22 @@ def judge(
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     share = counted if counted is not None else installed.derating if derated else 1.0
-    fixed = base.fixed
-    powers: dict[Against, tuple[float, float]] = {"best-fixed": _totals(fixed.solutions)}
+    resting, reference_powers = base.fixed, _totals(base.fixed.solutions)
     if host.kind == "retrofit" or against == "as-built":
-        powers["as-built"] = _totals([solve(design).require() for design in pair.designs()])
-    resting = fixed
-    if host.kind == "retrofit":
-        resting = TwistOptimum((), (), (), _mean(pair, powers["as-built"]))
-    bare = resting.power
-    free = [best.power for best in base.best]
+        built = _totals([solve(design).require() for design in pair.designs()])
+        if host.kind == "retrofit":
+            resting = TwistOptimum((), (), (), pair.mean(built))
+        if against == "as-built":
+            reference_powers = built
+    bare_power, free = resting.power, [best.power for best in base.best]
     if pair.design.elastic:
-        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[fixed.values])
-    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[resting.values])
-    if pair.design.elastic:
+        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[base.fixed.values])
         free = [
             best_twist(installed.on(design), base.concept, [best.values], alone=True).power
             for design, best in zip(pair.designs(), base.best, strict=True)
         ]
-    free = [min(power, own.power.total) for power, own in zip(free, reached.solutions, strict=True)]
+    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[resting.values])
     required = base.segment_changes(divisions)
-    swing = tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
-    driven = drive(installed, swing)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists * share, NOTHING))
     return Verdict(
@@ -270,11 +268,11 @@ def judge(
         required_segments=required,
         optimum=reached,
         resting=resting,
-        reference_powers=powers[against],
-        bare_power=bare,
-        free_power=_mean(pair, free),
+        reference_powers=reference_powers,
+        bare_power=bare_power,
+        free_power=pair.mean(min(best, own.power.total) for best, own in zip(free, reached.solutions, strict=True)),
         loaded_powers=_totals(heavy),
-        drive=driven,
+        drive=drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator), *fuel_caveats(aircraft)),
     )
@@ -283,10 +281,6 @@ def judge(
 def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:
     first, second = (solution.power.total for solution in solutions)
     return first, second
-
-
-def _mean(pair: ConditionPair, powers: Sequence[float]) -> float:
-    return sum(share * power for share, power in zip(pair.shares, powers, strict=True))
 
 
 SMALL = 1.0
@@ -300,15 +294,17 @@ def verdict_sentence(verdict: Verdict) -> str:
     gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
     text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
     if verdict.net_saving < SMALL:
-        return f"{text}: not with this {_noun(verdict)}."
-    if verdict.pays:
-        return f"{text}: {kw(verdict.net_saving)} saved."
-    return f"{text}: {kw(verdict.net_saving)} saved, but it cannot be built ({_broken(verdict)})."
+        noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
+        return f"{text}: not with this {noun}."
+    but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
+    return f"{text}: {kw(verdict.net_saving)} saved{but}."
 
 
 def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
-    sentences = [_reach(verdict), _savings(verdict), *_fuel(verdict)]
+    sentences, saved = [_reach(verdict), _savings(verdict)], verdict.fuel_saving
+    if saved is not None:
+        sentences.append(f"Net {abs(3600.0 * saved):.1f} kg of fuel an hour {'less' if saved >= 0.0 else 'more'}.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")
     return " ".join(sentences)
@@ -317,16 +313,6 @@ def verdict_details(verdict: Verdict) -> str:
 def reference(verdict: Verdict) -> str:
     """The blade that all savings of a verdict count from."""
     return "the blade as built" if verdict.against == "as-built" else "the best fixed blade"
-
-
-def _noun(verdict: Verdict) -> str:
-    match verdict.installed.actuator:
-        case PiezoPly():
-            return "ply"
-        case TorqueTube():
-            return "tube"
-        case ExtensionTwist():
-            return "laminate"
 
 
 def _broken(verdict: Verdict) -> str:
@@ -361,14 +347,6 @@ def _savings(verdict: Verdict) -> str:
     return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {_change(verdict.ideal_saving)}."
 
 
-def _fuel(verdict: Verdict) -> list[str]:
-    saved = verdict.fuel_saving
-    if saved is None:
-        return []
-    word = "less" if saved >= 0.0 else "more"
-    return [f"Net {abs(3600.0 * saved):.1f} kg of fuel an hour {word}."]
-
-
 def _change(saving: float) -> str:
     if abs(saving) < SMALL:
         return "saves nothing"
@@ -377,13 +355,16 @@ def _change(saving: float) -> str:
 
 def count(verdict: Verdict) -> str:
     """Number of plies or tubes as text; "passive" for a laminate."""
-    actuator, placement = verdict.installed.actuator, verdict.installed.placement
-    if isinstance(actuator, ExtensionTwist):
+    several = isinstance(verdict.installed.actuator, TorqueTube) and verdict.installed.placement.divisions
+    return layers_text(verdict.installed) + (" a segment" if several else "")
+
+
+def layers_text(installed: InstalledActuator) -> str:
+    """Number of plies, or of tubes side by side; "passive" for a laminate."""
+    if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
-    if isinstance(actuator, PiezoPly):
-        return f"{placement.plies} {'ply' if placement.plies == 1 else 'plies'}"
-    each = " a segment" if placement.divisions else ""
-    return f"{placement.plies} {'tube' if placement.plies == 1 else 'tubes'}{each}"
+    one, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
+    return f"{installed.placement.plies} {one if installed.placement.plies == 1 else more}"
 
 
 def flight(advance_ratio: float) -> str:

@@ -13,7 +13,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
-from rotor.actuator.pictures import break_even_charts
+from rotor.actuator.pictures import break_even_chart
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
@@ -258,7 +258,7 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
             one = first.candidates[0]
             worth = first.even.twist_for(one.estimate.gross - one.estimate.stiffness_cost)
             best = (one.installed.actuator.name, worth, one.mass)
-        write_whole(args.plot, draw(break_even_charts(first.even, best)[0]))
+        write_whole(args.plot, draw(break_even_chart(first.even, best)))
     if args.json:
         records = [pay_record(search) for search in searches]
         print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))

@@ -20,8 +20,6 @@ from rotor.trim.solution import Solution
 
 FEASIBLE = 1e-3
 """Accepted violation of a limit: a thousandth of a degree, or of a per cent of the disk."""
-
-
 _KEPT_SOLUTIONS = 64
 """Solutions kept as starts for trims."""
 
@@ -173,7 +171,8 @@ class Evaluator:
         self.records.append(record)
         if record.feasible and (self.best is None or record.cost < self.best.cost):
             self.best = record
-        self._report(record, values)
+        if self._watch is not None:
+            self._watch(self._progress(record, values))
         return record
 
     def _trim(self, design: Design) -> TrimmedBlade:
@@ -190,22 +189,19 @@ class Evaluator:
         if self._stop is not None and self._stop():
             raise SearchStopped
 
-    def _report(self, record: Evaluation, values: tuple[float, ...]) -> None:
-        if self._watch is None:
-            return
-        self._watch(
-            Progress(
-                phase=self.phase,
-                start=self.start,
-                starts=self.starts,
-                evaluation=self.count,
-                parameters=values,
-                twist=self.concept.twist(values).spec(),
-                power=record.power,
-                feasible=record.feasible,
-                best_parameters=None if self.best is None else self.values(self.best.x),
-                best_power=None if self.best is None else self.best.power,
-                elapsed=self.elapsed,
-                best_index=None if self.best is None else self.best.blade.measured.index,
-            )
+    def _progress(self, record: Evaluation, values: tuple[float, ...]) -> Progress:
+        best = self.best
+        return Progress(
+            phase=self.phase,
+            start=self.start,
+            starts=self.starts,
+            evaluation=self.count,
+            parameters=values,
+            twist=self.concept.twist(values).spec(),
+            power=record.power,
+            feasible=record.feasible,
+            best_parameters=None if best is None else self.values(best.x),
+            best_power=None if best is None else best.power,
+            elapsed=self.elapsed,
+            best_index=None if best is None else best.blade.measured.index,
         )

@@ -33,6 +33,8 @@ RADIAL_SHAPES = 7
 """Chebyshev polynomials over the span."""
 PANELS, AZIMUTHS = 24, 48
 """With 32 × 96 the bound is less than 1 % lower up to µ 0.3 (tested)."""
+LIFT_SLOPE = 5.9
+"""dC_l/dα of the linear blade [1/rad]."""
 REVERSE_FLOW_BLEND = 0.05
 """U_T over which the linear blade's lift fades out into the reverse-flow region."""
 
@@ -118,26 +120,17 @@ def least_induced_power(
     return _evaluate(lines, circulation @ amounts, amounts)
 
 
-@dataclass(frozen=True)
-class LinearBlade:
-    """A blade with a straight lift curve and no drag."""
-
-    chord: float = 0.5273 / 8.1778
-    """c/R (thesis tables 3.1, 3.2)."""
-    lift_slope: float = 5.9
-    """dC_l/dα [1/rad]."""
-
-
 def least_twisted_power(
-    lines: LinesInWake, thrust: float, blade: LinearBlade, twist: Array, shapes: Array | None = None
+    lines: LinesInWake, thrust: float, chord: float, twist: Array, shapes: Array | None = None
 ) -> InducedPower:
     """The least induced power over steady twist: `twist` (panels,) [rad] plus free amounts of `shapes` (n, panels).
 
-    Without shapes: the power of that twist. Collective and cyclic trim thrust and moments; amounts are [θ0, θ1c, θ1s,
-    shapes …] in radians. Γ = ½ c a s (U_T θ − U_P), s = U_T/0.05 within 0 … 1, U_P = µ_z + λ_i + µ_x β0 cos ψ.
+    Chord c/R, a straight lift curve and no drag. Without shapes: the power of that twist. Collective and cyclic trim
+    thrust and moments; amounts are [θ0, θ1c, θ1s, shapes …] in radians.
+    Γ = ½ c a s (U_T θ − U_P), s = U_T/0.05 within 0 … 1, U_P = µ_z + λ_i + µ_x β0 cos ψ.
     """
     line, course, u_t = lines.line, lines.course, lines.u_t
-    gain = 0.5 * blade.lift_slope * blade.chord * np.clip(u_t / REVERSE_FLOW_BLEND, 0.0, 1.0)
+    gain = 0.5 * LIFT_SLOPE * chord * np.clip(u_t / REVERSE_FLOW_BLEND, 0.0, 1.0)
     cos, sin, ones = np.cos(line.psi), np.sin(line.psi), np.ones_like(line.psi)
     controls = [np.outer(np.ones_like(line.r), column) for column in (ones, cos, sin)]
     controls += [np.outer(shape, ones) for shape in (shapes if shapes is not None else ())]
@@ -254,7 +247,7 @@ def find_bound(design: Design) -> Bound:
     lines = LinesInWake(bound_line(rotor.blades, rotor.blade.root_cutout), problem.course)
     line, momentum = lines.line, ct * problem.expected.lambda0
     r = line.r
-    blade = LinearBlade(chord=rotor.reference_chord / rotor.radius)
+    chord = rotor.reference_chord / rotor.radius
     across = (2.0 * r - 1.0 - line.root) / (1.0 - line.root)
     shapes = chebvander(across, TWIST_SHAPES).T[1:].astype(float)
     straight = r - 0.75
@@ -262,9 +255,9 @@ def find_bound(design: Design) -> Bound:
     def factor(found: InducedPower) -> float:
         return found.coefficient / momentum
 
-    linear = least_twisted_power(lines, ct, blade, 0.0 * r, straight[None])
+    linear = least_twisted_power(lines, ct, chord, 0.0 * r, straight[None])
     try:
-        limited = factor(least_induced_power(lines, ct, chord=blade.chord, cl_range=LIFT_LIMIT))
+        limited = factor(least_induced_power(lines, ct, chord=chord, cl_range=LIFT_LIMIT))
     except ValueError:  # None carries this thrust, or the form is indefinite, which it can be at µ 0.4.
         limited = math.inf
     return Bound(
@@ -273,7 +266,7 @@ def find_bound(design: Design) -> Bound:
         lambda0=problem.expected.lambda0,
         any_circulation=factor(least_induced_power(lines, ct)),
         lift_limited=limited,
-        steady_twist=factor(least_twisted_power(lines, ct, blade, 0.0 * r, shapes)),
+        steady_twist=factor(least_twisted_power(lines, ct, chord, 0.0 * r, shapes)),
         linear_twist=factor(linear),
         linear_rate=float(linear.amounts[3]),
     )

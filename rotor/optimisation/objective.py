@@ -134,16 +134,6 @@ class Measured:
         return self.solutions[-1].message
 
 
-def _power(quantity: Quantity) -> PowerKind:
-    """The power beside an objective; the total where that is none."""
-    return "induced" if quantity == "induced" else "total"
-
-
-def power_of(solution: Solution, quantity: Quantity) -> float:
-    """[W]; the total where the objective is no power."""
-    return solution.power.induced if quantity == "induced" else solution.power.total
-
-
 def check_index(design: Design, objective: Objective, limits: Limits) -> None:
     """Raise ValueError, with one sentence, where the index is asked for and a condition has none."""
     if objective.quantity != "vibration" and limits.index is None:
@@ -173,6 +163,7 @@ def measure(
     """
     limits = limits or Limits()
     vibration, indexed = objective.quantity == "vibration", limits.index is not None
+    kind: PowerKind = "induced" if objective.quantity == "induced" else "total"
     solutions, stalled, indices = list[Solution](), list[tuple[float, Array]](), list[tuple[float, Array]]()
     power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
@@ -181,7 +172,7 @@ def measure(
         solutions.append(solution)
         if not solution.converged:
             return Measured(None, tuple(solutions))
-        power += share * power_of(solution, objective.quantity)
+        power += share * getattr(solution.power, kind)
         if not gradient:
             index += share * hub_index(Adjoint(solution)) if vibration or indexed else 0.0
             continue
@@ -189,7 +180,7 @@ def measure(
         if vibration or indexed:
             indices.append(index_along(adjoint))
             index += share * indices[-1][0]
-        own = indices[-1][1] if vibration else power_along(adjoint, _power(objective.quantity)).by_element
+        own = indices[-1][1] if vibration else power_along(adjoint, kind).by_element
         slopes.append(share * own)
         if limits.stalled is not None:
             area, slope = stalled_share(adjoint)

@@ -10,8 +10,9 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.queues import Queue
+from multiprocessing.synchronize import Event
 from queue import Empty
-from typing import Any, Protocol
+from typing import Any
 
 from rotor.blas_threads import keep_one_blas_thread
 
@@ -85,15 +86,11 @@ class Workers:
         return self._stop is not None and self._stop()
 
 
-class _Flag(Protocol):
-    def is_set(self) -> bool: ...
-
-
-_stop_event: _Flag | None = None
+_stop_event: Event | None = None
 _items: "Queue[Any] | None" = None
 
 
-def _join(stop_event: _Flag, items: "Queue[Any]") -> None:
+def _join(stop_event: Event, items: "Queue[Any]") -> None:
     """Initialise a new process: stop event, queue for items, Ctrl-C left to the parent."""
     global _stop_event, _items
     signal.signal(signal.SIGINT, signal.SIG_IGN)

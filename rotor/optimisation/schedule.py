@@ -154,12 +154,8 @@ def run_plan(
                 workers.run([(_work_fixed, (plan, some, dict(cells))) for some in concepts])
         except WorkerLost as lost:
             message = str(lost)
-    order = {concept.name: k for k, concept in enumerate(plan.concepts)}
-    last = len(plan.conditions)
-    in_order = sorted(
-        cells.values(), key=lambda one: (last if one.condition is None else one.condition, order[one.concept])
-    )
-    return Schedule(plan, tuple(in_order), message)
+    order = ((condition, concept.name) for condition in (*conditions, None) for concept in plan.concepts)
+    return Schedule(plan, tuple(cells[place] for place in order if place in cells), message)
 
 
 _Known = dict[tuple[int | None, str], Cell]
@@ -174,66 +170,64 @@ def _work_chunk(
     searches before these are run again: a plan that is resumed then gives the same numbers.
     """
     for condition in conditions:
-        trimmed, missing = TrimmedBlades(), [c for c in plan.concepts if (condition, c.name) not in known]
-        for concept in plan.concepts[: plan.concepts.index(missing[-1]) + 1] if missing else ():
+
+        def guesses(concept: Concept, condition: int = condition) -> list[tuple[float, ...]]:
             neighbour = known.get((condition - 1, concept.name)) if condition - 1 in conditions else None
-            guesses = _guesses(plan, condition, concept, known, neighbour)
-            search = Search(
-                design=plan.design_at(condition),
-                concept=concept,
-                objective=Objective(plan.quantity, (plan.conditions[condition],)),
-                limits=plan.limits,
-                # The neighbour's minimum need not be the best here, so other starting points are added.
-                starts=max(plan.starts, len(guesses) + 1),
-                seed=plan.seed,
-                guesses=guesses,
-                band=False,
-            )
-            optimum = run_search(search, stop=stop, trimmed=trimmed)
-            if optimum.status is SearchStatus.STOPPED:
-                return
-            if concept in missing:
-                cell = Cell(condition, concept.name, optimum)
-                known[condition, concept.name] = cell
-                yield cell
+            return _guesses(plan, condition, concept, known, neighbour)
+
+        yield from _searches(plan, condition, plan.concepts, known, guesses, stop)
 
 
 def _work_fixed(
     plan: Plan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
 ) -> Iterator[Cell]:
     """The best fixed blades of some concepts, each started from the mean of its optima."""
-    objective, trimmed = Objective(plan.quantity, plan.conditions), TrimmedBlades()
-    missing = [concept for concept in concepts if (None, concept.name) not in known]
+
+    def mean(concept: Concept) -> list[tuple[float, ...]]:
+        shares = Objective(plan.quantity, plan.conditions).shares
+        bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(shares)]
+        found = [(share, cell.optimum.best) for share, cell in bests if cell and cell.optimum.best]
+        total, count = sum(share for share, _ in found), len(concept.parameters)
+        middle = (sum(share * best.parameters[k] for share, best in found) / (total or 1.0) for k in range(count))
+        return [tuple(middle)] if found else []
+
+    yield from _searches(plan, None, concepts, known, mean, stop)
+
+
+def _searches(
+    plan: Plan,
+    condition: int | None,
+    concepts: tuple[Concept, ...],
+    known: _Known,
+    guesses_of: Callable[[Concept], list[tuple[float, ...]]],
+    stop: Callable[[], bool] | None,
+) -> Iterator[Cell]:
+    """The missing cells of a condition, or of the fixed blade; they are added to those known."""
+    trimmed, missing = TrimmedBlades(), [one for one in concepts if (condition, one.name) not in known]
     for concept in concepts[: concepts.index(missing[-1]) + 1] if missing else ():
-        bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(objective.shares)]
-        found = [
-            (share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None
-        ]
-        total = sum(share for share, _ in found)
-        middle = tuple(
-            sum(share * best.parameters[k] for share, best in found) / (total or 1.0)
-            for k in range(len(concept.parameters))
-        )
+        guesses = guesses_of(concept)
         search = Search(
-            design=plan.design,
+            design=plan.design_at(condition),
             concept=concept,
-            objective=objective,
+            objective=Objective(plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],)),
             limits=plan.limits,
-            starts=1,
+            # The neighbour's minimum need not be the best at a condition, so other starting points are added.
+            starts=1 if condition is None else max(plan.starts, len(guesses) + 1),
             seed=plan.seed,
-            guesses=(middle,) if found else (),
+            guesses=tuple(guesses),
             band=False,
         )
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
         if concept in missing:
-            yield Cell(None, concept.name, optimum)
+            known[condition, concept.name] = cell = Cell(condition, concept.name, optimum)
+            yield cell
 
 
 def _guesses(
     plan: Plan, condition: int, concept: Concept, known: _Known, neighbour: Cell | None
-) -> tuple[tuple[float, ...], ...]:
+) -> list[tuple[float, ...]]:
     """The neighbour's optimum, and the best of the simpler concepts at this condition."""
     guesses: list[tuple[float, ...]] = []
     if neighbour is not None and neighbour.optimum.best is not None:
@@ -244,7 +238,7 @@ def _guesses(
     if simpler:
         _, design = min(simpler, key=lambda one: one[0])
         guesses.append(nearest(concept, design.twist))
-    return tuple(guesses)
+    return guesses
 
 
 FORMAT = "rotor-explorer schedule"

@@ -18,13 +18,7 @@ from rotor.blas_threads import one_blas_thread
 from rotor.design.aircraft import number
 from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
-from rotor.optimisation.descent import (
-    BAND,
-    TOLERANCE,
-    Model,
-    descend,
-    measure_band,
-)
+from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_band
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
@@ -96,9 +90,9 @@ def run_search(
     try:
         run.baseline = evaluate.baseline()
         if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
-            return run.refused(
-                "The air drives the rotor at this rate of descent, so total power is below zero and a saving says "
-                "nothing: descend more slowly, or use the objective induced."
+            return run.result(
+                refusal="The air drives the rotor at this rate of descent, so total power is below zero and a saving "
+                "says nothing: descend more slowly, or use the objective induced."
             )
         evaluate.phase = "search"
         for k, x in enumerate(_starts(search, evaluate)):
@@ -111,7 +105,7 @@ def run_search(
             run.band = measure_band(evaluate, run.best)
     except SearchStopped:
         return run.result(stopped=True)
-    return run.result(stopped=False)
+    return run.result()
 
 
 class _Run:
@@ -202,16 +196,8 @@ class _Run:
         known = self.evaluate.best
         return known.x if known is not None else np.full(len(self.evaluate.span), 0.5)
 
-    def refused(self, message: str) -> Optimum:
-        """A search that is not made."""
-        search, evaluate = self.search, self.evaluate
-        return Optimum(
-            SearchStatus.NOT_CONVERGED, message, search.concept.name, search.design, None, (), (), self.baseline.power,
-            evaluate.count, evaluate.starts, search.seed, evaluate.elapsed,
-        )  # fmt: skip
-
-    def result(self, *, stopped: bool) -> Optimum:
-        """What has been found so far."""
+    def result(self, *, stopped: bool = False, refusal: str = "") -> Optimum:
+        """What has been found so far. refusal: why the search is not made."""
         search, evaluate = self.search, self.evaluate
         groups = sorted(self.groups, key=lambda group: group[0].cost)
         minima = tuple(_minimum(evaluate, lead, members) for lead, members in groups)
@@ -219,7 +205,9 @@ class _Run:
         seen = evaluate.best
         if seen is not None and (best is None or seen.cost < groups[0][0].cost * (1.0 - 1e-7)):
             best = _minimum(evaluate, seen, ())
-        if stopped:
+        if refusal:
+            status, message = SearchStatus.NOT_CONVERGED, refusal
+        elif stopped:
             status = SearchStatus.STOPPED
             message = f"Stopped after {evaluate.count} evaluations; the best design so far is kept."
             if self.groups and evaluate.phase == "band":
@@ -233,10 +221,8 @@ class _Run:
                 else "No starting point has a trim: reduce the mass, the altitude or the speed."
             )
         elif not minima:
-            status, message = (
-                SearchStatus.NOT_CONVERGED,
-                "No descent converged to a minimum; the best point found is returned.",
-            )
+            status = SearchStatus.NOT_CONVERGED
+            message = "No descent converged to a minimum; the best point found is returned."
         else:
             status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)

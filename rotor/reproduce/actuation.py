@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
-from rotor.actuator.electrical import strain_curve
+from rotor.actuator.electrical import electric_field, free_strain
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
@@ -51,10 +51,11 @@ def figure_5_5() -> Report:
     known = [one for one in actuators().values() if isinstance(one, PiezoPly)]
     # Variants for heat or cut into strips strain as their own kind does.
     for one in (one for one in known if one.id not in ("MFC_P1_HT", "PZT5H_strips")):
-        found = strain_curve(one, 2)
-        curves.append(curve(found.label, KV_MM * found.field, PPM * found.along))
-        rows.append((one.id, *one.voltage_range, *PPM * found.along, *PPM * found.across))
-        numbers[one.id] = float(np.ptp(found.along))
+        field, (along, across) = electric_field(one, one.voltage_range), free_strain(one, one.voltage_range)
+        label = f"{one.name} ({'d33' if one.electrodes == 'interdigitated' else 'd31'})"
+        curves.append(curve(label, KV_MM * field, PPM * along))
+        rows.append((one.id, *one.voltage_range, *PPM * along, *PPM * across))
+        numbers[one.id] = float(np.ptp(along))
     return card(
         "5.5",
         "Free strain along the fibres over the whole voltage range, against the field: interdigitated (d33) and "

@@ -20,8 +20,14 @@ from rotor.arrays import Array
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.stand import STAND_KEYS
-from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
-from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
+from rotor.optimisation.concepts import (
+    CONCEPTS,
+    THREE_SEGMENT_FREE,
+    TWO_AIRFOILS,
+    TWO_SEGMENT_FREE,
+    Concept,
+    find_concept,
+)
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.series import HUB_COLUMNS, POWERS
 

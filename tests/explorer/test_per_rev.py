@@ -38,7 +38,7 @@ from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import pinned_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
-from rotor.actuator.programmes import programmes
+from rotor.actuator import programmes
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design

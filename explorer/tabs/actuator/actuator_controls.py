@@ -117,8 +117,7 @@ def reach_plot(
     none = np.full(_STATIONS, np.nan)
     required, used = none, none
     if verdict is not None:
-        curves = twist_comparison(verdict, _STATIONS)
-        required, used = curves.required, curves.attained
+        required, used = twist_comparison(verdict, _STATIONS)
         if required[np.argmax(np.abs(required))] < 0.0:
             limit = -limit
     series = tuple(np.degrees(values) for values in (limit, inputs.share * limit, required, used, now))

@@ -24,7 +24,7 @@ from rotor.optimisation import (
     find_concept,
     hover_and_cruise,
 )
-from rotor.optimisation.concepts.catalogue import AIRFOIL_BREAKS, DIVISION
+from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
 from rotor.optimisation.search import STARTS
 
 

@@ -92,22 +92,17 @@ def test_stalled_share_is_close_to_the_counted_area():
         assert_allclose(share, solution.stalled_area, atol=apart)
 
 
-MISSION = "# a day\nmu,mass_kg,altitude_m,hours\n0,9000,0,0.5   # hover\n\n0.2,,1500,2\n0.3\n"
+MISSION = "# a day\nmu,mass_kg,altitude_m,hours,climb_m_s\n0,9000,0,0.5   # hover\n\n0.2,,1500,2,-3\n0.3\n"
 
 
 def test_mission_file(tmp_path: Path):
     path = tmp_path / "mission.csv"
     path.write_text(MISSION)
-    first, second, third = read_mission(path, make_design(mass_kg=8000.0, altitude_m=200.0))
+    first, second, third = legs = read_mission(path, make_design(mass_kg=8000.0, altitude_m=200.0, climb_m_s=1.0))
+    assert [leg.flight.climb_speed for leg in legs] == [1.0, -3.0, 1.0]
     assert (first.flight.advance_ratio, first.flight.mass, first.hours) == (0.0, 9000.0, 0.5)
     assert (second.flight.mass, second.flight.altitude, second.hours) == (8000.0, 1500.0, 2.0)
     assert (third.flight.advance_ratio, third.flight.altitude, third.hours) == (0.3, 200.0, 1.0)
-
-
-def test_a_leg_of_a_mission_may_climb(tmp_path: Path):
-    path = tmp_path / "mission.csv"
-    path.write_text("mu,climb_m_s,hours\n0.15,5,0.1\n0.2,,1\n0.15,-3,0.2\n")
-    assert [leg.flight.climb_speed for leg in read_mission(path, make_design(climb_m_s=1.0))] == [5.0, 1.0, -3.0]
 
 
 @pytest.mark.parametrize(
@@ -132,10 +127,6 @@ def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
     with pytest.raises(ValueError, match=words) as caught:
         read_mission(path, make_design())
     assert "\n" not in str(caught.value)
-
-
-def test_a_mission_cannot_climb_with_equations_of_level_flight(tmp_path: Path):
-    path = tmp_path / "mission.csv"
     path.write_text("mu,climb_m_s\n0.2,5\n")
     with pytest.raises(ValueError, match=r"line 2: rate of climb 5 m/s: .* use the preset flight"):
         read_mission(path, make_design(preset="thesis"))

@@ -1,4 +1,4 @@
-"""Twist concepts: named parameters, the law they make, its derivatives; restricted and added concepts."""
+"""What a twist concept is: named parameters, the law they make, its derivatives; restricted and added concepts."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -116,15 +116,14 @@ class Concept(Protocol):
         ...
 
 
-def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float, ...]:
+def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
     """The values within bounds whose law is nearest to another one, in the mean square along the blade.
 
     Uniform pitch does not count: it is absorbed by collective.
     """
-    r = np.linspace(root, 1.0, 60)
+    r = np.linspace(0.13, 1.0, 60)
     wanted = law(r) - law(r).mean()
-    low = np.array([parameter.low for parameter in concept.parameters])
-    high = np.array([parameter.high for parameter in concept.parameters])
+    low, high = np.array([(parameter.low, parameter.high) for parameter in concept.parameters]).T
     span = high - low
 
     def gap(x: Array) -> Array:
@@ -156,13 +155,11 @@ class Restricted:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        held = dict(self.fixed)
-        return tuple(parameter for parameter in self.base.parameters if parameter.name not in held)
+        return tuple(self.base.parameters[k] for k in self._free)
 
     @property
     def handles(self) -> tuple[Handle, ...]:
-        held = dict(self.fixed)
-        return tuple(handle for handle in self.base.handles if handle.parameter not in held)
+        return tuple(self.base.handles[k] for k in self._free)
 
     @property
     def rate_rows(self) -> tuple[tuple[float, ...], ...]:
@@ -172,15 +169,15 @@ class Restricted:
         return self.base.twist(self._full(values))
 
     def slopes(self, values: Values, r: Array) -> Array:
-        return self.base.slopes(self._full(values), r)[list(self._free)]
+        return self.base.slopes(self._full(values), r)[self._free]
 
     def apply(self, design: Design, values: Values) -> Design:
         return self.base.apply(design, self._full(values))
 
     @property
-    def _free(self) -> tuple[int, ...]:
+    def _free(self) -> list[int]:
         held = dict(self.fixed)
-        return tuple(k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held)
+        return [k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held]
 
     def _full(self, values: Values) -> list[float]:
         held, free = dict(self.fixed), iter(values)
@@ -250,17 +247,9 @@ def restrict(
             raise ValueError(f"concept {name} has no parameter {key!r}: it has {', '.join(known)}")
         low, high = known[key].low, known[key].high
         if not low <= value <= high:
-            shown = known[key].shown
-            raise ValueError(
-                f"{key} {shown(value):g} of concept {name} is outside {shown(low):g}…{shown(high):g}: "
-                "choose a value inside"
-            )
+            value, low, high = map(known[key].shown, (value, low, high))
+            raise ValueError(f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside")
     if len(fixed) >= len(known):
         raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
-    return Restricted(
-        concept,
-        tuple(fixed.items()),
-        name,
-        title or concept.title,
-        explanation or concept.explanation,
-    )
+    words = title or concept.title, explanation or concept.explanation
+    return Restricted(concept, tuple(fixed.items()), name, *words)

@@ -1,4 +1,4 @@
-"""The twist concepts by name.
+"""The twist concepts by name: families of blades with a few named degrees of freedom (thesis chapter 4).
 
 Families with one smooth curve (thesis §4.1.1, §4.1.2, free form) and with straight segments (§4.1.3–4.1.5).
 """
@@ -21,7 +21,13 @@ from rotor.design.twist import (
     TwistLaw,
     spline_basis,
 )
-from rotor.optimisation.concepts.concept import Concept, Handle, Parameter, Values, restrict
+from rotor.optimisation.concept import Concept as Concept
+from rotor.optimisation.concept import Handle as Handle
+from rotor.optimisation.concept import Parameter as Parameter
+from rotor.optimisation.concept import Values as Values
+from rotor.optimisation.concept import nearest as nearest
+from rotor.optimisation.concept import on_top as on_top
+from rotor.optimisation.concept import restrict as restrict
 from rotor.user_input import did_you_mean
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
@@ -108,9 +114,9 @@ class FreeFormConcept:
 
     @property
     def handles(self) -> tuple[Handle, ...]:
-        reach = {k: (self.knots[max(k - 1, 0)], self.knots[min(k + 1, len(self.knots) - 1)]) for k in self._free}
+        steps = (0.0, *np.diff(self.knots).tolist(), 0.0)
         return tuple(
-            Handle(parameter.name, "lift", self.knots[k], max(self.knots[k] - reach[k][0], reach[k][1] - self.knots[k]))
+            Handle(parameter.name, "lift", self.knots[k], max(steps[k : k + 2]))
             for parameter, k in zip(self.parameters, self._free, strict=True)
         )
 
@@ -202,8 +208,6 @@ class SegmentsConcept:
         return replace(design, twist=law, rotor=rotor)
 
 
-DIVISIONS = (0.4, 0.5, 0.6, 0.7)
-"""The divisions of the document's two-segment blades (thesis §4.1.3)."""
 DIVISION = 0.5
 AIRFOIL_BREAKS = (0.4814, 0.8385)
 """Middles of the UH-60A's blends from SC1095 to SC1094 R8 and back, r/R (assets/uh60a.toml)."""
@@ -285,13 +289,15 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
         raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
     if division is None:
         return CONCEPTS[name]
-    if name in ("two-segment", "two-segment-two-airfoils") and len(division) == 1:
-        if name == "two-segment":
-            return _two_segment(division[0])
-        return restrict(TWO_AIRFOILS, {"division": division[0]})
-    if name == "three-segment" and len(division) == 2:
-        return _three_segment(division[0], division[1])
-    given = "1 division" if len(division) == 1 else f"{len(division)} divisions"
+    match name, *division:
+        case "two-segment", place:
+            return _two_segment(place)
+        case "two-segment-two-airfoils", place:
+            return restrict(TWO_AIRFOILS, {"division": place})
+        case "three-segment", inner, outer:
+            return _three_segment(inner, outer)
+        case _:
+            given = "1 division" if len(division) == 1 else f"{len(division)} divisions"
     raise ValueError(
         f"concept {name} cannot take {given}: give one with two-segment and "
         "two-segment-two-airfoils, two with three-segment, none with the others"
