@@ -7,8 +7,7 @@ import pytest
 from scipy.special import kv
 
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import Line
-from rotor.aero.lifting_line.shed import lattice_lag, shed_correction, theodorsen
+from rotor.aero.lifting_line.influence import Line, lattice_lag, shed_correction, theodorsen
 
 LINE = Line(4, 0.15, 24, 24)
 COURSE = WakeCourse(0.3, 0.02, 0.01, 0.0, 0.0, 0.0, (1e-4, 0.0))
