@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.losses import loss_factor
-from rotor.aero.problem import Problem, build_problem, skin_friction, swirl_of
+from rotor.aero.problem import Problem, build_problem, skin_friction
 from rotor.aero.section import FR, FX, UP, UR, UT, section
 from rotor.aero.switches import no_effect, with_switches
 from rotor.arrays import Array
@@ -64,14 +64,6 @@ def test_swirl_is_what_the_torque_gives_the_air():
     error = 3.0 * inflow**2 / disk.r**2 + 0.01  # What the closed form leaves out, twice λ²/r² and the drag of U_P.
     assert (np.abs(turned / (disk.r * lifting) - 1.0) < error)[middle].all()
     assert (error[middle] < 0.12).all()
-
-
-def test_swirl_slope_and_limit():
-    r = np.array([0.05, 0.2, 0.9])
-    swirl, slope = swirl_of(r, 0.004)
-    assert_allclose(swirl_of(r, 1e-9)[0], 1e-9 / r, rtol=1e-5)
-    assert (swirl < r).all()
-    assert_allclose(slope, (swirl_of(r, 0.004 + 1e-8)[0] - swirl_of(r, 0.004 - 1e-8)[0]) / 2e-8, rtol=1e-6)
 
 
 def test_swirl_costs_hover_about_one_per_cent_and_cruise_hardly_anything():
@@ -141,12 +133,3 @@ def test_the_document_has_none_of_them():
         assert on.power == off.power
         for name in BEYOND_DOCUMENT:
             assert no_effect(design, name) == "the document does not have it"
-
-
-def test_friction_reaches_the_torque_and_the_drag_of_the_rotor():
-    """With it P_shaft still is the sum of the parts, and F_x exceeds that of the section data."""
-    design = make_design(mu=0.35)
-    solution = solve(design).require()
-    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
-    problem = build_problem(design)
-    assert 0.006 < problem.friction < 0.007  # Re 6 million at 0.75 R.

@@ -37,15 +37,6 @@ def test_error_against_order_agrees_with_published_values() -> None:
         assert_allclose([short[order].cd_rms, longer[order].cd_rms], [cd_short, cd_long], rtol=0.03, atol=1e-5)
 
 
-def test_errors_decrease_with_order_to_knees_at_ten_and_twelve() -> None:
-    study = fit_error_study(thesis_polar(), (-10.0, 20.0))
-    cl, cd = np.array([e.cl_rms for e in study]), np.array([e.cd_rms for e in study])
-    assert np.all(np.diff(cl) <= 1e-12)  # least squares on nested bases
-    assert np.all(np.diff(cd) <= 1e-12)
-    assert cl[9] < 0.55 * cl[7], "order 8 to 10 halves the error"
-    assert cl[10] > 0.98 * cl[9], "order 11 gains nothing"
-
-
 def test_fit_recovers_a_known_polynomial() -> None:
     polar = thesis_polar()
     alpha = np.deg2rad(polar.alpha_deg)
@@ -69,14 +60,6 @@ def test_constant_and_flagged_outside_the_fit() -> None:
     assert abs(cl).max() < 1.6
 
 
-def test_slopes_agree_with_central_differences() -> None:
-    section = polynomial_section()
-    x, h = np.deg2rad(np.linspace(-9.0, 14.0, 47)), 1e-5
-    for k in range(2):
-        difference = (section(x + h)[k] - section(x - h)[k]) / (2 * h)
-        assert_allclose(section.slopes(x)[k], difference, atol=2e-4)  # h^2/6 times a third derivative of order 1e6
-
-
 def test_table_follows_the_polynomial_within_the_fit() -> None:
     section, table = polynomial_section(), polynomial_table()
     x = np.linspace(*section.fit_range, 5001)
@@ -89,13 +72,6 @@ def test_table_follows_the_polynomial_within_the_fit() -> None:
     assert_allclose(table(outside, 0.3).cl, section(outside)[0], atol=1e-12)
     assert_allclose(table(outside, 0.3).cl_alpha, 0.0, atol=1e-12)
     assert table.fit_range == section.fit_range
-
-
-def test_the_table_does_not_depend_on_mach() -> None:
-    table = polynomial_table()
-    at = table(np.deg2rad([[0.0], [8.0], [170.0]]), np.linspace(0.0, 1.0, 7))
-    assert_allclose(at.cl, at.cl[:, :1] * np.ones(7), atol=0)
-    assert_allclose(at.cd_mach, 0.0, atol=0)
 
 
 @pytest.mark.parametrize("pitch_deg", [-12.0, -4.0, 3.0, 9.0, 25.0])
@@ -120,13 +96,6 @@ def test_reverse_flow_lift_has_the_wrong_sign_as_documented() -> None:
     angle, sign = document_angle(np.deg2rad(np.array([175.0, -175.0, 30.0])))
     assert_allclose(np.rad2deg(angle), [-5.0, 5.0, 30.0], atol=1e-12)
     assert sign.tolist() == [-1.0, -1.0, 1.0]
-
-
-def test_table_is_continuous_at_half_a_turn() -> None:
-    table = polynomial_table()
-    ends = table(np.array([np.pi - 1e-9, -np.pi + 1e-9]), 0.3)
-    assert_allclose(ends.cl[0], ends.cl[1], atol=1e-7)
-    assert_allclose(ends.cl_alpha[0], ends.cl_alpha[1], atol=1e-5)
 
 
 def test_an_order_too_high_for_the_data_is_refused() -> None:
