@@ -13,9 +13,7 @@ from rotor.aero.display import as_asked, resampling
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
 from rotor.design.design import Design
-from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
@@ -60,19 +58,6 @@ class TestElements:
         fine = solve(replace(design, models=replace(design.models, elements=320))).require()
         assert_allclose(few.power.total, fine.power.total, rtol=4e-3)
         assert_allclose(few.controls.collective, fine.controls.collective, atol=math.radians(0.1))
-
-    @pytest.mark.parametrize("mu", [0.0, 0.25])
-    def test_the_gradient_by_twist_is_the_slope_of_power(self, mu: float):
-        def power(twist_deg: float) -> Solution:
-            return solve(replace(heavy(mu=mu), twist=LinearTwist(math.radians(twist_deg)))).require()
-
-        gradient = power_gradient(power(-10.0))
-        slope = (power(-9.9).power.total - power(-10.1).power.total) / (0.2 * DEGREE)
-        assert_allclose(gradient.along((gradient.r - 0.75)[None])[0], slope, rtol=2e-3)
-        even = power_gradient(solve(replace(heavy("pitt-peters", mu), twist=LinearTwist(-10.0 * DEGREE))))
-        at = np.linspace(0.4, 0.8, 10)  # Another section begins further out.
-        known = np.interp(at, even.r, even.density)
-        assert_allclose(np.interp(at, gradient.r, gradient.density), known, atol=0.06 * np.abs(known).max())
 
 
 @pytest.mark.parametrize("source", [24, 25])
@@ -135,14 +120,6 @@ class TestSums:
         disk = few.linear.problem.disk
         assert_allclose(few.ct, (disk.dr @ few.linear.elements.fz).mean(), rtol=1e-14)
         assert_allclose((few.disk.dr @ few.disk.dct).mean(), few.ct, rtol=1e-4)
-
-    def test_elastic_twist_and_pitch_links(self, few: Solution, many: Solution):
-        assert few.elastic is not None
-        assert many.elastic is not None
-        assert_allclose(few.elastic.tip, many.elastic.tip, atol=math.radians(0.05))
-        largest = np.ptp(many.elastic.pitch_link_load)
-        assert_allclose(few.elastic.pitch_link_load, many.elastic.pitch_link_load, atol=0.03 * largest)
-        assert_allclose(few.elastic.control_power, many.elastic.control_power, rtol=0.05)
 
 
 class TestAreas:

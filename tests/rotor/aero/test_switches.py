@@ -23,12 +23,10 @@ from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_of
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
 from rotor.design.design import BEYOND_DOCUMENT, Design
-from rotor.design.twist import TableTwist
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.study.series import PARTS, waterfall, waterfall_steps
-from rotor.trim.adjoint import power_gradient
 from rotor.trim.newton import SolverOptions
 from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
@@ -83,28 +81,6 @@ def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
         assert solve(with_switches(small(mu, preset), off)).converged, name(off)
 
 
-@pytest.mark.parametrize("mu", [0.0, 0.3])
-@pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), tuple(SWITCHES)], ids=name)
-def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: float):
-    """dP/dθ(r) with the lifting line, along one change of pitch that no twist law has."""
-    design = with_switches(small(mu), off)
-    r = build_problem(design).disk.r
-    base, way = design.twist(r), np.random.default_rng(3).standard_normal(len(r))
-    ends = (0.0, *r, 1.0)
-
-    def power(amount: float) -> float:
-        angles = base + amount * way
-        table = TableTwist(ends, (angles[0], *angles, angles[-1]))
-        # A table is moved to be zero at 0.75 R: the collective takes that, and the power does not change.
-        return solve(replace(design, twist=table), centre, TIGHT).require().power.total
-
-    centre = solve(design, options=TIGHT).require()
-    step = 2e-6
-    measured = (power(step) - power(-step)) / (2.0 * step)
-    exact = power_gradient(centre).by_element
-    assert_allclose(exact @ way, measured, rtol=0.0, atol=2e-6 * float(np.linalg.norm(exact) * np.linalg.norm(way)))
-
-
 class TestReverseFlow:
     @pytest.mark.parametrize("mu", [0.0, 0.05, 0.13])
     def test_changes_nothing_while_the_circle_is_inside_the_cut_out(self, mu: float):
@@ -152,18 +128,6 @@ class TestCompressibility:
             assert_allclose(disk.cd[i], at.cd, rtol=1e-9)
         assert not disk.cd_mach.any()
         assert disk.mach.max() > 0.85  # The Mach number itself stays what it is.
-
-    def test_held_table_is_flat_and_smooth(self):
-        table = load_installed("sc1094r8").table
-        alpha = np.linspace(-math.pi, math.pi, 101)
-        for mach in (0.0, 0.3, 0.33, 0.95):
-            held = table.held_at(mach)
-            for other in (0.0, 0.47, 0.99):
-                got, want = held(alpha, other), table(alpha, mach)
-                assert_allclose(got.cl, want.cl, atol=1e-12)
-                assert_allclose(got.cd_alpha, want.cd_alpha, atol=1e-10)
-                assert not got.cl_mach.any()
-                assert_allclose(held.stall_alpha(other), table.stall_alpha(mach), atol=1e-12)
 
     def test_the_section_of_a_user_counts_for_compressibility(self):
         deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")

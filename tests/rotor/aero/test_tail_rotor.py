@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 
 from rotor.files.make_design import make_design
 from rotor.trim.power import tail_rotor_power
+from rotor.trim.solve import solve
 
 TAIL = make_design().tail_rotor or pytest.fail("The UH-60A has a tail rotor.")
 
@@ -34,3 +35,8 @@ def test_slope_is_exact(speed: float, torque: float):
         tail_rotor_power(TAIL, torque + 1.0, speed, 1.1)[0] - tail_rotor_power(TAIL, torque - 1.0, speed, 1.1)[0]
     ) / 2.0
     assert_allclose(slope, difference, rtol=1e-6)
+
+
+def test_the_thesis_adds_five_per_cent():
+    power = solve(make_design(preset="thesis", mu=0.15)).require().power
+    assert_allclose(power.tail, 0.05 * power.main_rotor, rtol=1e-14)
