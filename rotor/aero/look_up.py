@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
+from rotor.airfoil.section_table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
 from rotor.compiled import compiled
 
 _PI = math.pi

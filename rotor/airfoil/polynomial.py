@@ -15,9 +15,8 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-from rotor.airfoil.bicubic import ALPHA_STEP, N_ALPHA, N_MACH, stack_coefficients
 from rotor.airfoil.polars import Polar, read_polars
-from rotor.airfoil.section_table import SectionTable, make_table
+from rotor.airfoil.section_table import ALPHA_STEP, N_ALPHA, N_MACH, SectionTable, make_table
 from rotor.arrays import Array
 from rotor.assets import asset_path
 
@@ -193,9 +192,9 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
     # Moved slightly inward: at a shared edge a cell outside the fit has zero slope and one inside the full slope.
     probe = angle + np.array([1e-9, -1e-9])
     (cl, cd), (cl_slope, cd_slope) = section(angle), section.slopes(probe)
-    out = np.zeros((2, N_ALPHA, N_MACH, 4, 4))
-    out[0, :, :, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
-    out[1, :, :, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
+    out = np.zeros((N_ALPHA, N_MACH, 2, 4, 4))
+    out[:, :, 0, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
+    out[:, :, 1, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
     polar = thesis_polar(reading)
     low, high = reading.range_deg
     transition = "Ncrit 9" if reading.transition == "free" else "tripped at 5 % chord"
@@ -203,4 +202,4 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
         f"polynomials of order {LIFT_ORDER} and {DRAG_ORDER} over {low:g}..{high:g} deg on own XFOIL polar: SC1095, "
         f"M {polar.mach:g}, Re {polar.reynolds / 1e6:.2f}e6, {transition}"
     )
-    return make_table(reading.name, source, stack_coefficients(out[0], out[1]), 1.0, section.fit_range)
+    return make_table(reading.name, source, out, 1.0, section.fit_range)

@@ -9,7 +9,7 @@ A structure is made once for each combination of trim, blade and wake. `finish` 
 """
 
 from collections.abc import Collection, Hashable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
@@ -119,39 +119,29 @@ def _kind_of(name: Hashable) -> Hashable:
     return cast(tuple[Hashable, ...], name)[0] if isinstance(name, tuple) else name
 
 
-@dataclass(eq=False)
 class Structure:
     """Atoms, columns, measures and equations, and once finished all places in the matrices."""
 
-    pairs: tuple[tuple[int, int], ...]
-    """Force and channel of each row of the section's partial derivatives."""
-    channels: int
-    forces: int
-    name: Hashable = None
-    """The same for structures with the same atoms and equations."""
-    numbers: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    """Atoms by name."""
-    states: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    derived: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    roots: tuple[int, ...] = ()
-    """States that derived atoms follow."""
-    shapes: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
-    """By channel."""
-    weights: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
-    """By force."""
-    columns: list[tuple[int, int, int, int, int, float]] = field(
-        default_factory=list[tuple[int, int, int, int, int, float]]
-    )
-    measures: dict[tuple[int, int, int], int] = field(default_factory=dict[tuple[int, int, int], int])
-    terms: list[tuple[int, int, int, int, float]] = field(default_factory=list[tuple[int, int, int, int, float]])
-    equations: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    free: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    """The atoms solved for, (equations,)."""
-    waves: int = 1
+    def __init__(
+        self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None
+    ) -> None:  # fmt: skip
+        """pairs: force and channel of each row of the section's partial derivatives.
 
-    def __post_init__(self) -> None:
-        self.shapes = [{} for _ in range(self.channels)]
-        self.weights = [{} for _ in range(self.forces)]
+        name: the same for structures with the same atoms and equations.
+        """
+        self.pairs, self.channels, self.forces, self.name = pairs, channels, forces, name
+        self.numbers, self.states, self.derived = (dict[Hashable, int]() for _ in range(3))  # Atoms by name.
+        self.roots: tuple[int, ...] = ()
+        """States that derived atoms follow."""
+        self.shapes, self.weights = ([dict[Shape, int]() for _ in range(count)] for count in (channels, forces))
+        """By channel, and by force."""
+        self.columns = list[tuple[int, int, int, int, int, float]]()
+        self.measures = dict[tuple[int, int, int], int]()
+        self.terms = list[tuple[int, int, int, int, float]]()
+        self.equations = dict[Hashable, int]()
+        self.free = np.zeros(0, dtype=np.int64)
+        """The atoms solved for, (equations,)."""
+        self.waves = 1
 
     def number(self, name: Hashable) -> int:
         """The atom of a number that the design gives."""

@@ -2,10 +2,10 @@
 
     λ_i = A Γ,    Γ = (π/N_b) U_T F_z*/max(U_T², 0.01),  0 in reverse flow       (Kutta and Joukowski)
 
-F_z* is F_z with lift and drag held beyond the angle of the largest lift (`bicubic.held_beyond_peak`). If circulation
-fell with the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ
-is over ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the
-blade as built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
+F_z* is F_z with lift and drag held beyond the angle of the largest lift (`held_beyond_peak`). If circulation fell with
+the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ is over
+ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the blade as
+built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
 """
 
 import math

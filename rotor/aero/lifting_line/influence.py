@@ -255,7 +255,7 @@ def influence(line: Line, course: WakeCourse) -> Array:
     def fill(position: int) -> None:
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])
-        found = _seen(line, wake, targets, at, at, np.arange(blades), own)
+        found = _seen(line, wake, targets, at, at, np.repeat(np.arange(blades), n), own)
         out[:, at] = found.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
 
     # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
@@ -271,7 +271,7 @@ def mean_influence(line: Line, course: WakeCourse) -> Array:
     at = line.azimuths // line.blades * np.arange(line.blades)
     wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
     order = np.arange(line.blades)
-    return _seen(line, wake, targets, at, order, order[:1], own_core(line, course)).sum(axis=1).T
+    return _seen(line, wake, targets, at, order, np.zeros(line.panels, np.int64), own_core(line, course)).sum(axis=1).T
 
 
 def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
@@ -280,15 +280,10 @@ def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> 
     points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
     each position of the rotor until a blade takes the place of the one before; their mean is the mean over time.
     """
-    m, targets = line.azimuths, np.concatenate([points, normals], axis=1).T.astype(np.float32)
-    wake, core = build_wake(line, course, line.psi), np.full(len(points), LEAST_CORE**4, dtype=np.float32)
-    out = np.empty((m // line.blades, len(points), line.panels * m))
-    for position in range(len(out)):
-        rows = np.zeros((wake.rows[-1], m, len(points)), dtype=np.float32)
-        for place in position + m // line.blades * np.arange(line.blades):
-            _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, int(place), rows)
-        out[position] = _by_panels(line, wake, rows).reshape(-1, len(points)).T / (4.0 * math.pi)
-    return out
+    step, targets = line.azimuths // line.blades, np.concatenate([points, normals], axis=1).T.astype(np.float32)
+    wake, off, places = build_wake(line, course, line.psi), np.full(len(points), -1), step * np.arange(line.blades)
+    found = (_seen(line, wake, targets, k + places, k + places, off, np.zeros(0)) for k in range(step))
+    return np.stack([own.reshape(-1, len(points)).T for own in found]).astype(np.float64)
 
 
 def _seen(
@@ -296,12 +291,13 @@ def _seen(
 ) -> Singles:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
-    The blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
+    The blades stand at `azimuths`, their wakes are those at `places` of `wake`. seen: the blade on which each target
+    lies, panel by panel, or −1, (targets,); own: c⁴ of that blade's young trailers, (panels,).
     """
-    n, bound = line.panels, slice(wake.rows[2], wake.rows[3])
+    bound = slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
-        core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), np.repeat(seen == b, n)
+        core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
         core[on_it] = own[: on_it.sum()]
         before = rows[bound][:, :, on_it]
         _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)

@@ -9,12 +9,6 @@ from rotor.aero import losses
 from rotor.aero.losses import HUB_FACTOR, end_factor, loss_factor, mean_loss_factor, prandtl
 
 
-def test_prandtl_limits():
-    factor, _ = prandtl(np.array([1e-12, 50.0]))
-    assert_allclose(factor[0], 2.0 / math.pi * math.sqrt(2e-12), rtol=1e-4)  # arccos(1 − f) → √(2f)
-    assert_allclose(factor[1], 1.0, rtol=1e-15)
-
-
 def test_tip_factor_by_hand():
     """Four blades, r = 0.95, λ = 0.05: f = ½·4·0.05/0.05 = 2, F = (2/π) arccos(e⁻²) = 0.913578."""
     factor, _ = loss_factor(0.95, 0.05, 4, 0.13, hub=False)

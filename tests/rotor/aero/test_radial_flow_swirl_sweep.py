@@ -66,12 +66,21 @@ def test_swirl_is_what_the_torque_gives_the_air():
     assert (error[middle] < 0.12).all()
 
 
-def test_swirl_costs_hover_about_one_per_cent_and_cruise_hardly_anything():
-    """Swirl is about 1 % of hover power at helicopter disk loadings (Johnson 1980, §2-3) and fades with λ0 λ."""
-    for mu, low, high in ((0.0, 0.003, 0.012), (0.3, -0.001, 0.002)):
-        design = make_design(mu=mu)
-        with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, ("swirl",))))
-        assert low < with_it / without - 1.0 < high
+@pytest.mark.parametrize(
+    ("effect", "mu", "low", "high"),
+    [
+        ("swirl", 0.0, 0.003, 0.012), ("swirl", 0.3, -0.001, 0.002),
+        ("swept_tip", 0.0, -3e-3, 1e-3), ("swept_tip", 0.3, -0.04, -0.01),
+    ],
+)  # fmt: skip
+def test_what_an_effect_costs(effect: str, mu: float, low: float, high: float):
+    """Swirl is about 1 % of hover power at helicopter disk loadings (Johnson 1980, §2-3) and fades with λ0 λ.
+
+    Sweep saves where the advancing tip is past drag divergence.
+    """
+    design = make_design(mu=mu)
+    with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, (effect,))))
+    assert low < with_it / without - 1.0 < high
 
 
 def test_a_swept_tip_sees_the_flow_normal_to_its_quarter_chord():
@@ -93,13 +102,6 @@ def test_sweep_begins_smoothly_over_one_chord():
     half = 0.5 * 0.5273 / 8.1788
     sweep = np.degrees(blade.sweep([0.9286 - half, 0.9286, 0.9286 + half, 1.0], radius))
     assert_allclose(sweep, [0.0, 10.0, 20.0, 20.0], atol=1e-9)
-
-
-def test_sweep_saves_power_where_the_advancing_tip_is_past_drag_divergence():
-    for mu, least, most in ((0.0, -1e-3, 3e-3), (0.3, 0.01, 0.04)):
-        design = make_design(mu=mu)
-        swept, straight = (solve(d).require().power.total for d in (design, with_switches(design, ("swept_tip",))))
-        assert least < 1.0 - swept / straight < most
 
 
 def test_download_is_the_stated_part_in_hover_and_fades_with_the_skew_of_the_wake():

@@ -5,7 +5,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.airfoil.polynomial import (
-    document_angle,
     fit_error_study,
     fit_polynomials,
     polynomial_section,
@@ -17,12 +16,8 @@ from rotor.airfoil.polynomial import (
 # order, cl over -10..15 deg, cl over -10..20, cd over -10..15, cd over -10..20.
 SURVEY = (
     (2, 0.0780, 0.1513, 0.00854, 0.02117),
-    (4, 0.0297, 0.0769, 0.00396, 0.00996),
-    (6, 0.0052, 0.0370, 0.00167, 0.00567),
-    (8, 0.0040, 0.0301, 0.00061, 0.00469),
     (10, 0.0026, 0.0151, 0.00060, 0.00265),
     (12, 0.0022, 0.0114, 0.00044, 0.00233),
-    (14, 0.0014, 0.0069, 0.00032, 0.00142),
     (16, 0.0014, 0.0040, 0.00019, 0.00113),
 )
 
@@ -88,14 +83,6 @@ def test_reverse_flow_is_that_of_the_document(pitch_deg: float, u_p: float) -> N
     at = table(theta - phi2, 0.2)
     assert_allclose(at.cl * np.cos(phi2) - at.cd * np.sin(phi2), vertical, atol=1e-4)  # the table's own error
     assert_allclose(at.cl * np.sin(phi2) + at.cd * np.cos(phi2), inplane, atol=1e-4)
-
-
-def test_reverse_flow_lift_has_the_wrong_sign_as_documented() -> None:
-    # NACA 0012 measures -0.54 at 175 deg (TN 3361); the document's treatment gives the opposite sign.
-    assert polynomial_table()(np.deg2rad(175.0), 0.2).cl > 0.3
-    angle, sign = document_angle(np.deg2rad(np.array([175.0, -175.0, 30.0])))
-    assert_allclose(np.rad2deg(angle), [-5.0, 5.0, 30.0], atol=1e-12)
-    assert sign.tolist() == [-1.0, -1.0, 1.0]
 
 
 def test_an_order_too_high_for_the_data_is_refused() -> None:

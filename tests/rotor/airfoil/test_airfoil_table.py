@@ -9,9 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH, bicubic_coefficients, held_beyond_peak
 from rotor.airfoil.c81 import C81Block, read_c81
-from rotor.airfoil.section_table import SectionTable, table_from_deck
+from rotor.airfoil.section_table import (
+    ALPHA_STEP,
+    MACH_STEP,
+    N_ALPHA,
+    N_MACH,
+    SectionTable,
+    bicubic_coefficients,
+    held_beyond_peak,
+)
 from rotor.airfoil.sections import TABLE_NAMES, load_section
 from rotor.assets import asset_path
 
@@ -61,15 +68,6 @@ def test_values_are_constant_and_smooth_outside_the_mach_range(name: str) -> Non
         assert_allclose(held.cl, table(alpha, edge).cl, rtol=0, atol=0)
         assert_allclose(held.cd_mach, 0.0, rtol=0, atol=0)
         assert_allclose(table(alpha, edge).cd_mach, 0.0, rtol=0, atol=1e-9)
-
-
-def test_values_are_constant_beyond_the_last_mach_of_the_data() -> None:
-    deck = read_c81(asset_path("airfoils/sc1095.c81"))
-    shorter = [C81Block(b.mach[:-2], b.alpha_deg, b.values[:, :-2]) for b in (deck.cl, deck.cd, deck.cm)]
-    table = table_from_deck("short", "test", type(deck)("short", *shorter))
-    assert table.mach_limit == 0.9
-    assert_allclose(table(0.05, 0.97).cd, table(0.05, 0.9).cd, rtol=0, atol=0)
-    assert_allclose(table.coefficients[:, 18:, :, :, 1:], 0.0, rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("name", TABLE_NAMES)
