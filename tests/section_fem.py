@@ -39,7 +39,7 @@ class Stiffness:
         return float(np.linalg.solve(self.matrix, self.actuation)[3])
 
 
-def closed_wall(line: np.ndarray, layers: list[list[Layer]], columns: int = 1) -> tuple[MeshQuad, list, np.ndarray]:
+def closed_wall(line: np.ndarray, layers: list[list[Layer]]) -> tuple[MeshQuad, list, np.ndarray]:
     """A closed line thickened about itself. `layers[k]`: of the wall from point k on, from inside to outside.
 
     Every stretch must have layers of the same thicknesses. Returns mesh, layer and tangent of each element.
@@ -50,18 +50,15 @@ def closed_wall(line: np.ndarray, layers: list[list[Layer]], columns: int = 1) -
     half = normals[0] + normals[1]
     mitre = 2.0 * half / (half**2).sum(axis=1)[:, None]  # Outward: the line runs counter-clockwise.
     thicknesses = [layer.thickness for layer in layers[0]]
-    total = sum(thicknesses)
-    heights = np.concatenate(
-        [np.linspace(0.0, t, columns + 1)[(k > 0) :] + sum(thicknesses[:k]) for k, t in enumerate(thicknesses)]
-    )
+    heights = np.concatenate([[0.0], np.cumsum(thicknesses)])
     rows = len(heights)
-    points = np.concatenate([line + mitre * (height - 0.5 * total) for height in heights])
+    points = np.concatenate([line + mitre * (height - 0.5 * heights[-1]) for height in heights])
     quads, owners, tangents = [], [], []
     for row in range(rows - 1):
         for k in range(n):
             a, b = row * n + k, row * n + (k + 1) % n
             quads.append((a, a + n, b + n, b))
-            owners.append(layers[k][row // columns])
+            owners.append(layers[k][row])
             tangents.append(ahead[k] / np.hypot(*ahead[k]))
     return MeshQuad(points.T, np.array(quads).T), owners, np.array(tangents)
 
@@ -134,10 +131,8 @@ def _solve(matrix: Any, load: Any, fixed: Any) -> Any:
 def _in_space(layer: Layer, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (6, 6) and free strain (6,) of a layer in section axes; transversely isotropic about its fibres."""
     m = layer.material
-    nu23 = min(m.nu12 * 1.2, 0.4)
-    g23 = m.e2 / (2.0 * (1.0 + nu23)) if m.e1 != m.e2 else m.g12
-    if m.e1 == m.e2:
-        nu23 = m.nu12
+    nu23 = m.nu12 if m.e1 == m.e2 else min(m.nu12 * 1.2, 0.4)
+    g23 = m.g12 if m.e1 == m.e2 else m.e2 / (2.0 * (1.0 + nu23))
     compliance = np.zeros((6, 6))
     compliance[0, 0] = 1.0 / m.e1
     compliance[1, 1] = compliance[2, 2] = 1.0 / m.e2

@@ -51,22 +51,25 @@ class BentData(NamedTuple):
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 
-@_compile
-def _turn(c: Any, slope: int, out: Any) -> None:
-    """Velocities in axes of the section, in place of those in axes of the hub."""
-    for i in range(c.shape[1]):
-        for j in range(c.shape[2]):
-            t, p, r, w, v = c[UT, i, j], c[UP, i, j], c[UR, i, j], c[slope, i, j], c[slope + 1, i, j]
-            out[UT, i, j] = t + v * r
-            out[UP, i, j] = p + w * r - w * v * t
-            out[UR, i, j] = r - v * t - w * p
-
-
 def turned(c: Array, first: int) -> Array:
     """The channels of a section, the first ones of all, in its own axes; those of its slopes begin at `first`."""
     out = c[:first].copy()
-    _turn(c, first, out)
+    t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
+    out[UT], out[UP], out[UR] = t + v * r, p + w * r - w * v * t, r - v * t - w * p
     return out
+
+
+@_compile
+def _back(z: Any, x: Any, r: Any, w: Any, v: Any) -> Any:
+    """F_z, F_x and F_r in axes of the hub, from those in axes of the section."""
+    return z + w * r, x + w * v * z - v * r, r + v * x - w * z
+
+
+@_compile
+def _by_hub(by_t: Any, by_p: Any, by_r: Any, t: Any, p: Any, r: Any, w: Any, v: Any) -> Any:
+    """Slopes by U_T, U_P, U_R, w' and v', from those by the velocities in axes of the section."""
+    by_w, by_v = by_p * (r - v * t) - by_r * p, by_t * r - by_p * w * t - by_r * t
+    return by_t - w * v * by_p - v * by_r, by_p - w * by_r, v * by_t + w * by_p + by_r, by_w, by_v
 
 
 @_compile
@@ -80,10 +83,7 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
             w, v, kw, kv, b = (
                 c[first, i, j], c[first + 1, i, j], c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
             )  # fmt: skip
-            z, x, r = f[FZ, i, j], f[FX, i, j], f[FR, i, j]
-            out[FX, i, j] = x + w * v * z - v * r
-            out[FZ, i, j] = z + w * r
-            out[FR, i, j] = r + v * x - w * z
+            out[FZ, i, j], out[FX, i, j], out[FR, i, j] = _back(f[FZ, i, j], f[FX, i, j], f[FR, i, j], w, v)
             sine, cosine = of_double_angle(c[TH, i, j])
             out[M, i, j] -= coupling[i] * ((kw * kw - kv * kv) * sine + 2.0 * kw * kv * cosine)
             out[forces, i, j] = share[i] * (w * w + v * v)
@@ -105,22 +105,19 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data:
         t, p, r, w, v = c[UT, i], c[UP, i], c[UR, i], c[first, i], c[first + 1, i]
         stiff, row = coupling[i], made[M, channels + 1] + 1
         for o in range(forces):
+            own = full[o]
             for k in range(channels):
                 for j in range(len(t)):
-                    full[o, k, j] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
+                    own[k, j] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
             for j in range(len(t)):
-                by_t, by_p, by_r = full[o, UT, j], full[o, UP, j], full[o, UR, j]
-                full[o, UT, j] = by_t - w[j] * v[j] * by_p - v[j] * by_r
-                full[o, UP, j] = by_p - w[j] * by_r
-                full[o, UR, j] = v[j] * by_t + w[j] * by_p + by_r
-                full[o, channels, j] = by_p * (r[j] - v[j] * t[j]) - by_r * p[j]
-                full[o, channels + 1, j] = by_t * r[j] - by_p * w[j] * t[j] - by_r * t[j]
+                own[UT, j], own[UP, j], own[UR, j], own[channels, j], own[channels + 1, j] = _by_hub(
+                    own[UT, j], own[UP, j], own[UR, j], t[j], p[j], r[j], w[j], v[j]
+                )
         for k in range(channels + 2):
             for j in range(len(t)):
-                z, x, along = full[FZ, k, j], full[FX, k, j], full[FR, k, j]
-                full[FX, k, j] = x + w[j] * v[j] * z - v[j] * along
-                full[FZ, k, j] = z + w[j] * along
-                full[FR, k, j] = along + v[j] * x - w[j] * z
+                full[FZ, k, j], full[FX, k, j], full[FR, k, j] = _back(
+                    full[FZ, k, j], full[FX, k, j], full[FR, k, j], w[j], v[j]
+                )
         for j in range(len(t)):
             full[FX, channels, j] += v[j] * f[FZ, i, j]
             full[FX, channels + 1, j] += w[j] * f[FZ, i, j] - f[FR, i, j]
@@ -199,15 +196,12 @@ class _BentSection:
         own = self._inner.memory(turned(c, first), data.section)
         t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
         left = np.concatenate([own.left, np.zeros((5, *own.left.shape[1:]))])
-        z, x, along = own.left[FZ], own.left[FX], own.left[FR]
-        left[FX], left[FZ], left[FR] = x + w * v * z - v * along, z + w * along, along + v * x - w * z
+        left[FZ], left[FX], left[FR] = _back.py_func(own.left[FZ], own.left[FX], own.left[FR], w, v)
         right = np.concatenate([own.right, np.zeros((len(own.right), 5, *t.shape))], axis=1)
-        by_t, by_p, by_r = (own.right[:, channel] for channel in (UT, UP, UR))
-        right[:, UT] = by_t - w * v * by_p - v * by_r
-        right[:, UP] = by_p - w * by_r
-        right[:, UR] = v * by_t + w * by_p + by_r
-        right[:, first] = by_p * (r - v * t) - by_r * p
-        right[:, first + 1] = by_t * r - by_p * w * t - by_r * t
+        by_air = (own.right[:, channel] for channel in (UT, UP, UR))
+        right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
+            *by_air, t, p, r, w, v
+        )
         return Memory(left, own.kernel, right)
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.bicubic import MACH_STEP, N_MACH, held_beyond_peak
+from rotor.airfoil.section_table import MACH_STEP, N_MACH, held_beyond_peak
 from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
@@ -39,7 +39,7 @@ class Disk:
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Those of the circulation of a lifting line, `bicubic.held_beyond_peak`; no sections where there is none."""
+    """Those of the circulation of a lifting line, `section_table.held_beyond_peak`; no sections where there is none."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array

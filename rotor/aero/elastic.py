@@ -25,9 +25,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.airfoil.bicubic import N_ALPHA, N_MACH, bicubic_coefficients, mach_nodes
 from rotor.airfoil.c81 import C81Block
-from rotor.airfoil.section_table import SectionTable
+from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.blade import Rotor

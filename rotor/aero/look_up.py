@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
+from rotor.airfoil.section_table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
 from rotor.compiled import compiled
 
 _PI = math.pi
@@ -60,16 +60,6 @@ def surface(a: Any, u: float, v: float) -> tuple[float, float, float]:
 
 
 @_compile
-def height(a: Any, u: float, v: float) -> float:
-    """The same without slopes."""
-    c0 = ((a[3, 0] * u + a[2, 0]) * u + a[1, 0]) * u + a[0, 0]
-    c1 = ((a[3, 1] * u + a[2, 1]) * u + a[1, 1]) * u + a[0, 1]
-    c2 = ((a[3, 2] * u + a[2, 2]) * u + a[1, 2]) * u + a[0, 2]
-    c3 = ((a[3, 3] * u + a[2, 3]) * u + a[1, 3]) * u + a[0, 3]
-    return ((c3 * v + c2) * v + c1) * v + c0
-
-
-@_compile
 def _blend(out: Any, row: int, j: int, share: float, value: float) -> None:
     out[row, j] = value if share == 1.0 else out[row, j] + share * (value - out[row, j])
 
@@ -82,13 +72,9 @@ def look_up(tables: Any, which: int, cells: Any, places: Any, share: float, slop
     of places is ∂place/∂M. share: of this section, 1 for the first of two. Slopes only where they are asked for.
     """
     for k in range(tables.shape[3]):
-        if slopes:
-            for j in range(places.shape[1]):
-                value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
-                _blend(out, 3 * k, j, share, value)
+        for j in range(places.shape[1]):
+            value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
+            _blend(out, 3 * k, j, share, value)
+            if slopes:
                 _blend(out, 3 * k + 1, j, share, by_u * INVERSE_ALPHA)
                 _blend(out, 3 * k + 2, j, share, by_v * places[2, j])
-        else:
-            for j in range(places.shape[1]):
-                value = height(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
-                _blend(out, 3 * k, j, share, value)

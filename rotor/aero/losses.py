@@ -81,23 +81,12 @@ def end_factor(spacing: float, inflow: float) -> Any:
 
 
 @_compile
-def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any, fall: Any, root: Any, own: Any) -> None:
-    """Multiply one row of factors, with their slopes by λ, by `end_factor`; fall, root, own: memory to work in.
-
-    In several loops, because the compiler makes vector code of each but none of one for all.
-    """
+def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any) -> None:
+    """Multiply one row of factors, with their slopes by λ, by `end_factor`."""
     for j in range(len(inflow)):
-        fall[j] = _fall(min(spacing / max(abs(inflow[j]), _SMALLEST_INFLOW), _LARGEST))
-    for j in range(len(inflow)):
-        root[j] = math.sqrt(fall[j] * (2.0 - fall[j]))
-    for j in range(len(inflow)):
-        own[j] = 2.0 / math.pi * arctangent(root[j], 1.0 - fall[j])
-    for j in range(len(inflow)):
-        signed = inflow[j] if abs(inflow[j]) >= _SMALLEST_INFLOW else _SMALLEST_INFLOW
-        f = spacing / abs(signed)
-        own_slope = -2.0 / math.pi * (1.0 - fall[j]) / root[j] * f / signed if f < _LARGEST else 0.0
-        slope[j] = slope[j] * own[j] + factor[j] * own_slope
-        factor[j] = factor[j] * own[j]
+        own, own_slope = end_factor(spacing, inflow[j])
+        slope[j] = slope[j] * own + factor[j] * own_slope
+        factor[j] *= own
 
 
 @_compile
@@ -109,13 +98,13 @@ def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[int, float],
     """
     (blades, root_cutout), (n, m) = blade, inflow.shape
     out = np.zeros((2 + len(slopes), n))
-    factor, slope, fall, root, own = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    factor, slope = np.empty(m), np.empty(m)
     for i in range(n):
         factor[:], slope[:] = 1.0, 0.0
         if tip:
-            _multiply_end(0.5 * blades * (1.0 - r[i]), inflow[i], factor, slope, fall, root, own)
+            _multiply_end(0.5 * blades * (1.0 - r[i]), inflow[i], factor, slope)
         if hub:
-            _multiply_end(0.5 * HUB_FACTOR * (r[i] - root_cutout), inflow[i], factor, slope, fall, root, own)
+            _multiply_end(0.5 * HUB_FACTOR * (r[i] - root_cutout), inflow[i], factor, slope)
         out[0, i], out[1, i] = factor.sum(), slope.sum()
         for k in range(len(slopes)):
             for j in range(m):

@@ -4,49 +4,28 @@ Coefficients are of ρA(ΩR)² and ρA(ΩR)³ (eqs. 2.11, 2.12); inflow ratios a
 """
 
 import math
-
-import numpy as np
-from numpy.typing import ArrayLike
-
-from rotor.arrays import Array
-
-WAKE_CONTRACTION = 0.5
-"""A∞/A of the hovering ideal rotor, eq. (2.8)."""
+from dataclasses import dataclass
 
 
-def hover_induced_velocity(thrust: float, density: float, area: float) -> float:
-    """v_h = √(T/2ρA) [m/s], eq. (2.9); thrust [N], density [kg/m³], area [m²]."""
-    return math.sqrt(thrust / (2.0 * density * area))
+@dataclass(frozen=True)
+class Wake:
+    """Flow through the disk; all over ΩR."""
 
+    mu_x: float
+    """Advance ratio in the disk plane, µ cos α."""
+    mu_z: float
+    """Advance ratio through the disk, µ sin α, positive down."""
+    lambda0: float
+    """Mean induced inflow of momentum theory."""
 
-def ideal_power(thrust: float, density: float, area: float) -> float:
-    """P = T v_h [W] of the ideal hovering rotor, eq. (2.10)."""
-    return thrust * hover_induced_velocity(thrust, density, area)
+    @property
+    def axial(self) -> float:
+        return self.mu_z + self.lambda0
 
-
-def thrust_coefficient(thrust: float, density: float, area: float, tip_speed: float) -> float:
-    """C_T = T/(ρA V_tip²), eq. (2.11)."""
-    return thrust / (density * area * tip_speed**2)
-
-
-def power_coefficient(power: float, density: float, area: float, tip_speed: float) -> float:
-    """C_P = P/(ρA V_tip³), eq. (2.12)."""
-    return power / (density * area * tip_speed**3)
-
-
-def annulus_thrust(r: ArrayLike, inflow: ArrayLike, climb: float = 0.0) -> Array:
-    """dC_T/dr = 4λ(λ − λ_c) r of an annulus, eqs. (2.22)–(2.24)."""
-    inflow = np.asarray(inflow, dtype=float)
-    return 4.0 * inflow * (inflow - climb) * np.asarray(r, dtype=float)
-
-
-def annulus_power(r: ArrayLike, inflow: ArrayLike, climb: float = 0.0) -> Array:
-    """dC_P/dr = 4λ²(λ − λ_c) r of an annulus, eq. (2.25): induced and climb power.
-
-    Eqs. (2.26) and (2.27) print the integrals of these two with (λ − λ_c)²; the exponent is a misprint, as
-    (2.24), (2.25) and a uniform inflow show: C_T = 2λ², not 2λ³.
-    """
-    return np.asarray(inflow, dtype=float) * annulus_thrust(r, inflow, climb)
+    @property
+    def speed(self) -> float:
+        """With which a wake leaves."""
+        return math.hypot(self.mu_x, self.axial)
 
 
 def axial_inflow(ct: float, climb: float) -> float:
@@ -109,8 +88,3 @@ def glauert_inflow(ct: float, mu_x: float, mu_z: float) -> tuple[float, float]:
     speed = math.hypot(mu_x, axial + inflow)
     slope = speed + inflow * (axial + inflow) / speed if speed > 0.0 else math.inf
     return sign * inflow, 0.5 / slope
-
-
-def skew_angle(mu_x: float, mu_z: float, lambda0: float) -> float:
-    """χ = arctan(µ_x/(µ_z + λ0)) [rad], eq. (2.31): 0 in hover, towards π/2 at speed."""
-    return math.atan2(mu_x, mu_z + lambda0)

@@ -86,8 +86,8 @@ NO_MOMENT = *(np.zeros(0),) * 3, np.zeros((0,) * 6), np.zeros(0)
 """The last five of `SectionData` for a rigid blade."""
 
 # Contraction (fused multiply-add) is the only deviation from strict IEEE arithmetic. The loops below run along one row
-# of azimuths, each writes one array and has no branches: so the compiler makes vector code of them, and four elements
-# take about as long as one. Only the look-up goes from element to element.
+# of azimuths and have no branches: so the compiler makes vector code of them, and four elements take about as long as
+# one. Only the look-up goes from element to element.
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 _inline = compiled(error_model="numpy", fastmath={"contract"}, inline="always")
 
@@ -151,7 +151,6 @@ def _speeds(t: Any, p: Any, half_solidity: float, w: Any) -> None:
     """U and ½σU of one row."""
     for j in range(w.shape[1]):
         w[_U, j] = math.sqrt(t[j] * t[j] + p[j] * p[j] + _TINY)
-    for j in range(w.shape[1]):
         w[_K, j] = half_solidity * w[_U, j]
 
 
@@ -238,7 +237,6 @@ def _along_blade(t: Any, r: Any, rub: float, w: Any, fx: Any, fr: Any) -> None:
     """F_r of one row, and friction of the flow along the blade in F_x; rub: ½σ c_f."""
     for j in range(len(fx)):
         w[_ONE, j] = rub * math.sqrt(t[j] * t[j] + r[j] * r[j] + _TINY)
-    for j in range(len(fx)):
         fx[j] += (w[_ONE, j] - rub * abs(t[j])) * t[j]
     _times(w[_ONE], r, fr)
 
@@ -249,7 +247,6 @@ def _moment(c: Any, i: int, data: Any, found: Any, w: Any, f: Any) -> None:
     gain, damping, lag, inertia = data.moment_gain[i], data.damping[i], data.lag[i], data.inertia[i]
     for j in range(w.shape[1]):
         f[M, i, j] = gain * w[_U, j] * w[_U, j] * found[6, j] - damping * w[_U, j] * c[RATE, i, j]
-    for j in range(w.shape[1]):
         f[M, i, j] -= lag * f[FZ, i, j] + 0.5 * inertia * of_double_angle(c[TH, i, j])[0]
 
 
@@ -268,17 +265,11 @@ def _force_slopes(c: Any, i: int, data: Any, mach: Any, found: Any, w: Any, f: A
         _times(c[LOSS, i], found[2], lift_m)
     for j in range(m):
         w[_T_OVER, j] = t[j] / (w[_U, j] * w[_U, j])
-    for j in range(m):
         w[_P_OVER, j] = p[j] / (w[_U, j] * w[_U, j])
-    for j in range(m):
         w[_BACK, j] = -w[_T_OVER, j]
-    for j in range(m):
         w[_BY_T, j] = square / mach[j] * (t[j] * cos - r[j] * sin)
-    for j in range(m):
         w[_BY_R, j] = -sin * w[_BY_T, j]
-    for j in range(m):
         w[_BY_T, j] *= cos
-    for j in range(m):
         w[_BY_P, j] = square / mach[j] * p[j]
     _resolve(t, p, w, lift_a, found[4], d[_Z + TH, i], d[_X + TH, i])
     _resolve(t, p, w, lift_m, found[5], w[_ONE], w[_TWO])  # By the Mach number.
@@ -289,7 +280,6 @@ def _force_slopes(c: Any, i: int, data: Any, mach: Any, found: Any, w: Any, f: A
     if data.lossy:
         for j in range(m):
             d[_Z + LOSS, i, j] = w[_K, j] * found[0, j] * t[j]
-        for j in range(m):
             d[_X + LOSS, i, j] = w[_K, j] * found[0, j] * p[j]
 
 
@@ -304,7 +294,6 @@ def _by_velocities(
     by_alpha = d[TH, i]
     for j in range(w.shape[1]):
         d[UT, i, j] = w[_T_OVER, j] * f[j] + w[_P_OVER, j] * by_alpha[j] + with_t[j] + by_mach[j] * w[_BY_T, j]
-    for j in range(w.shape[1]):
         d[UP, i, j] = w[_P_OVER, j] * f[j] + w[_BACK, j] * by_alpha[j] + sign * with_p[j] + by_mach[j] * w[_BY_P, j]
     _times(by_mach, w[_BY_R], d[UR, i])
 
@@ -315,13 +304,9 @@ def _along_blade_slopes(t: Any, r: Any, rub: float, w: Any, i: int, d: Any) -> N
     m = w.shape[1]
     for j in range(m):
         w[_ONE, j] = math.sqrt(t[j] * t[j] + r[j] * r[j] + _TINY)  # V
-    for j in range(m):
         d[_X + UT, i, j] += rub * (w[_ONE, j] + t[j] * t[j] / w[_ONE, j] - 2.0 * abs(t[j]))
-    for j in range(m):
         d[_R, i, j] = rub * t[j] * r[j] / w[_ONE, j]
-    for j in range(m):
         d[_X + UR, i, j] += d[_R, i, j]
-    for j in range(m):
         d[_R + 1, i, j] = rub * (w[_ONE, j] + r[j] * r[j] / w[_ONE, j])
 
 
@@ -334,16 +319,12 @@ def _moment_slopes(c: Any, i: int, data: Any, found: Any, w: Any, d: Any) -> Non
             found[k, j] *= gain * w[_U, j] * w[_U, j]
     for j in range(m):
         d[_N + TH, i, j] = found[7, j]
-    for j in range(m):
         w[_ONE, j] = 2.0 * found[6, j] - damping * c[RATE, i, j] * w[_U, j]
-    for j in range(m):
         w[_TWO, j] = 0.0
     _by_velocities(w, w[_ONE], found[8], w[_TWO], w[_TWO], 1.0, i, d[_N:_R])
     for j in range(m):
         d[_N + TH, i, j] -= inertia * of_double_angle(c[TH, i, j])[1]
-    for j in range(m):
         d[_N + RATE, i, j] = -damping * w[_U, j]
-    for j in range(m):
         d[_N + LOSS, i, j] = 0.0
     if lag != 0.0:
         for channel in range(5 if data.lossy else 4):

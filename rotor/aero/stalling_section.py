@@ -132,23 +132,14 @@ def _memory(c: Array, data: StallingData, forces: int) -> Memory:
     return Memory(left, kernel, right)
 
 
-class _StallingSection:
-    """The section of an inflow model with dynamic stall."""
-
-    def __init__(self, inner: SectionInterface) -> None:
-        self._inner = inner
-
-    def __call__(self, c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        """As `section.section`: partial derivatives are those at what is added."""
-        return self._inner.section(c, data.section._replace(added=added_to(c, data)[0]), slopes, flow)
-
-    def memory(self, c: Array, data: StallingData) -> Memory:
-        """See `SectionInterface`."""
-        return _memory(c, data, self._inner.forces)
-
-
 @lru_cache(maxsize=8)
 def stalling(inner: SectionInterface) -> SectionInterface:
-    """The interface of a section with dynamic stall."""
-    own = _StallingSection(inner)
-    return SectionInterface(own, inner.pairs, inner.channels, inner.forces, None, own.memory)
+    """The interface of a section with dynamic stall; partial derivatives are those at what is added."""
+
+    def section(c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+        return inner.section(c, data.section._replace(added=added_to(c, data)[0]), slopes, flow)
+
+    def memory(c: Array, data: StallingData) -> Memory:
+        return _memory(c, data, inner.forces)
+
+    return SectionInterface(section, inner.pairs, inner.channels, inner.forces, None, memory)

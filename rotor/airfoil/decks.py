@@ -15,7 +15,7 @@ sharp trailing edge behaves similarly there: at 90° like a flat plate, and in r
 edge. The fit is within 0.039 (cl) and 0.014 (cd) rms of the measurements; it is not independent evidence of them.
 
 Decks of other codes have their own knots, and some end at stall. Values between knots follow PCHIP curves, as in
-`bicubic`; missing angles are filled by the closed form.
+`section_table`; missing angles are filled by the closed form.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,9 +24,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from rotor.airfoil.bicubic import MACH_STEP, N_MACH
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.polars import Polar
+from rotor.airfoil.section_table import MACH_STEP, N_MACH
 from rotor.arrays import Array
 
 BLEND_START_DEG = 16.0  # |alpha| below which only the polar is used.

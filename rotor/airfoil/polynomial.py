@@ -12,12 +12,11 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.polynomial import chebyshev
+from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-from rotor.airfoil.bicubic import ALPHA_STEP, N_ALPHA, N_MACH, stack_coefficients
 from rotor.airfoil.polars import Polar, read_polars
-from rotor.airfoil.section_table import SectionTable, make_table
+from rotor.airfoil.section_table import ALPHA_STEP, N_ALPHA, N_MACH, SectionTable, make_table
 from rotor.arrays import Array
 from rotor.assets import asset_path
 
@@ -63,24 +62,13 @@ def parse_reading(name: str) -> PolynomialReading:
     return reading
 
 
-def _series_at(t: Array, series: Array) -> Array:
-    return np.asarray(chebyshev.chebval(t, series), dtype=np.float64)
-
-
 @dataclass(frozen=True, eq=False)
 class PolynomialSection:
-    """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], constant outside.
-
-    `cl_series`, `cd_series` are coefficients in t = (2 alpha - a - b) / (b - a), [a, b] = `fit_range`.
-    """
+    """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], constant outside."""
 
     fit_range: tuple[float, float]
-    cl_series: Array
-    cd_series: Array
-
-    def _scaled(self, alpha: Array) -> Array:
-        a, b = self.fit_range
-        return (2.0 * np.clip(alpha, a, b) - a - b) / (b - a)
+    cl_series: Chebyshev
+    cd_series: Chebyshev
 
     def outside(self, alpha: ArrayLike) -> NDArray[np.bool_]:
         """True where `alpha` [rad] lies outside the fit, where the end value is used."""
@@ -89,15 +77,14 @@ class PolynomialSection:
 
     def __call__(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(cl, cd) at `alpha` [rad] without any treatment of reverse flow."""
-        t = self._scaled(np.asarray(alpha, dtype=np.float64))
-        return _series_at(t, self.cl_series), _series_at(t, self.cd_series)
+        held = np.clip(alpha, *self.fit_range)
+        return np.asarray(self.cl_series(held)), np.asarray(self.cd_series(held))
 
     def slopes(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(dcl, dcd)/dalpha [1/rad], zero outside the fit; at its ends, the slope from inside."""
-        a = np.asarray(alpha, dtype=np.float64)
-        t, scale = self._scaled(a), np.where(self.outside(a), 0.0, 2.0 / (self.fit_range[1] - self.fit_range[0]))
-        cl, cd = (np.asarray(chebyshev.chebder(s), dtype=np.float64) for s in (self.cl_series, self.cd_series))
-        return _series_at(t, cl) * scale, _series_at(t, cd) * scale
+        a, outside = np.asarray(alpha, dtype=np.float64), self.outside(alpha)
+        cl, cd = (np.where(outside, 0.0, one.deriv()(a)) for one in (self.cl_series, self.cd_series))
+        return cl, cd
 
 
 def thesis_polar(reading: PolynomialReading = PolynomialReading()) -> Polar:
@@ -121,10 +108,6 @@ def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[Array, Array,
     return np.deg2rad(polar.alpha_deg[keep]), polar.cl[keep], polar.cd[keep]
 
 
-def _least_squares(t: Array, values: Array, order: int) -> Array:
-    return np.asarray(np.linalg.lstsq(chebyshev.chebvander(t, order), values)[0], dtype=np.float64)
-
-
 def fit_polynomials(
     polar: Polar,
     lift_order: int = LIFT_ORDER,
@@ -138,9 +121,9 @@ def fit_polynomials(
             f"{alpha.size} points in {range_deg[0]:g}..{range_deg[1]:g} deg cannot carry order "
             f"{max(lift_order, drag_order)}: widen the range or lower the order"
         )
-    a, b = np.deg2rad(range_deg[0]), np.deg2rad(range_deg[1])
-    t = (2.0 * alpha - a - b) / (b - a)
-    return PolynomialSection((float(a), float(b)), _least_squares(t, cl, lift_order), _least_squares(t, cd, drag_order))
+    ends = float(np.deg2rad(range_deg[0])), float(np.deg2rad(range_deg[1]))
+    lift, drag = (Chebyshev.fit(alpha, y, order, ends) for y, order in ((cl, lift_order), (cd, drag_order)))
+    return PolynomialSection(ends, lift, drag)
 
 
 @dataclass(frozen=True)
@@ -209,9 +192,9 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
     # Moved slightly inward: at a shared edge a cell outside the fit has zero slope and one inside the full slope.
     probe = angle + np.array([1e-9, -1e-9])
     (cl, cd), (cl_slope, cd_slope) = section(angle), section.slopes(probe)
-    out = np.zeros((2, N_ALPHA, N_MACH, 4, 4))
-    out[0, :, :, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
-    out[1, :, :, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
+    out = np.zeros((N_ALPHA, N_MACH, 2, 4, 4))
+    out[:, :, 0, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
+    out[:, :, 1, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
     polar = thesis_polar(reading)
     low, high = reading.range_deg
     transition = "Ncrit 9" if reading.transition == "free" else "tripped at 5 % chord"
@@ -219,4 +202,4 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
         f"polynomials of order {LIFT_ORDER} and {DRAG_ORDER} over {low:g}..{high:g} deg on own XFOIL polar: SC1095, "
         f"M {polar.mach:g}, Re {polar.reynolds / 1e6:.2f}e6, {transition}"
     )
-    return make_table(reading.name, source, stack_coefficients(out[0], out[1]), 1.0, section.fit_range)
+    return make_table(reading.name, source, out, 1.0, section.fit_range)

@@ -1,26 +1,28 @@
 """Section coefficients at run time: a smooth table over angle of attack and Mach number.
 
-C1 everywhere, periodic in alpha, with exact derivatives for Newton's method and the adjoint. The stall angle is the
-first angle outward from zero lift at which the lift slope has fallen to a quarter of its attached value: at high Mach
-the lift reaches a plateau without a maximum. On curves with a peak this is 0.3 to 1.5 deg before it.
+Bicubic Hermite cells on one uniform grid that all sections share. The slopes at the deck's knots are monotone (PCHIP),
+and every knot is a node of the grid, so the piecewise cubics keep their shape on it: C1 everywhere, periodic in alpha,
+without overshoot, through every deck value, with exact derivatives for Newton's method and the adjoint.
+
+The stall angle is the first angle outward from zero lift at which the lift slope has fallen to a quarter of its
+attached value: at high Mach the lift reaches a plateau without a maximum. On curves with a peak this is 0.3 to 1.5 deg
+before it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from rotor.airfoil.bicubic import (
-    ALPHA_STEP,
-    MACH_STEP,
-    N_ALPHA,
-    N_MACH,
-    bicubic_coefficients,
-    mach_nodes,
-    stack_coefficients,
-)
-from rotor.airfoil.c81 import C81Deck
+from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.arrays import Array
+
+N_ALPHA = 720
+N_MACH = 20
+ALPHA_STEP = np.pi / 360.0  # rad, half a degree
+MACH_STEP = 0.05
 
 SLOPE_FRACTION = 0.25
 _LEAST_SLOPE = 0.5
@@ -28,6 +30,95 @@ _LEAST_SLOPE = 0.5
 _ZERO_LIFT = np.deg2rad(6.0)
 """Largest step of Newton's method; zero lift itself is searched within twice this angle."""
 SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, where flow is attached, to 30 deg.
+
+
+# Monomial coefficients of a cubic on [0, 1] from (value, value, slope, slope) at its ends.
+_HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=np.float64)
+
+
+def mach_nodes() -> Array:
+    """The grid's Mach numbers, shape (N_MACH + 1,)."""
+    return np.arange(N_MACH + 1) / N_MACH
+
+
+def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
+    """Values and alpha-slopes (per cell) at the uniform alpha nodes, shape (N_ALPHA + 1, Machs)."""
+    knots, values = block.alpha_deg, block.values
+    if abs(knots[0] + 180.0) > 1e-9 or abs(knots[-1] - 180.0) > 1e-9 or np.any(np.abs(values[0] - values[-1]) > 1e-9):
+        raise ValueError("the angles must run from -180 to 180 deg with equal ends: add the missing angles")
+    if np.any(np.abs(knots * 2.0 - np.round(knots * 2.0)) > 1e-9):
+        raise ValueError("an angle is no multiple of 0.5 deg: move it, the run-time grid has half-degree steps")
+    # Two knots of the next turn on each side make the slopes at +-180 deg periodic.
+    longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
+    curve = scipy.interpolate.PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
+    nodes = np.arange(N_ALPHA + 1) * 0.5 - 180.0
+    slope: Callable[[Array], Array] = curve.derivative()
+    return np.asarray(curve(nodes)), np.asarray(slope(nodes)) * 0.5
+
+
+def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
+    """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), constant outside."""
+    nodes = mach_nodes()
+    inside = np.clip(nodes, mach[0], mach[-1])
+    own = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach))
+    own[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
+    own[:, 0] = 0.0
+    curve = scipy.interpolate.CubicHermiteSpline(mach, values, own, axis=1)
+    slope: Callable[[Array], Array] = curve.derivative()
+    flat = (nodes > mach[0]) & (nodes < mach[-1])
+    return np.asarray(curve(inside)), np.asarray(slope(inside)) * MACH_STEP * flat
+
+
+def bicubic_coefficients(block: C81Block) -> Array:
+    """Cell polynomials (N_ALPHA, N_MACH, 4, 4) of the C1 surface through the deck values of `block`.
+
+    Raises ValueError when a knot is not on the uniform grid, or when the angles do not cover the full circle.
+    """
+    steps = block.mach / MACH_STEP
+    if np.any(np.abs(steps - np.round(steps)) > 1e-9) or block.mach[-1] > 1.0 + 1e-9:
+        raise ValueError("a Mach number is no multiple of 0.05 within 0..1: move it to the run-time grid")
+    f, f_u = _nodes_along_alpha(block)
+    f, f_v = _along_mach(block.mach, f)
+    f_u, f_uv = _along_mach(block.mach, f_u)
+    return _cells(f, f_u, f_v, f_uv)
+
+
+def _cells(f: Array, f_u: Array, f_v: Array, f_uv: Array) -> Array:
+    """Cell polynomials of the surface with these values and slopes per cell at its nodes, (α nodes, Mach nodes, …)."""
+    corners = np.empty((N_ALPHA, N_MACH, *f.shape[2:], 4, 4))
+    for row, (of_value, of_slope) in enumerate(((f, f_v), (f, f_v), (f_u, f_uv), (f_u, f_uv))):
+        upper = row % 2  # Rows: values at i, at i + 1, slopes at i, at i + 1; columns the same along Mach.
+        rows = slice(upper, upper + N_ALPHA)
+        corners[..., row, 0], corners[..., row, 1] = of_value[rows, :-1], of_value[rows, 1:]
+        corners[..., row, 2], corners[..., row, 3] = of_slope[rows, :-1], of_slope[rows, 1:]
+    return np.matmul(np.matmul(_HERMITE, corners), _HERMITE.T)
+
+
+def held_beyond_peak(coefficients: Array) -> Array:
+    """Lift and drag that keep, beyond the largest lift, what they have there; in the layout of `SectionTable`.
+
+    From 0 outwards on both sides they go on only where lift exceeds all before (below 0: falls below it). So lift never
+    falls as the angle grows, and up to its first peak nothing changes.
+    """
+    last = coefficients[:, -1]  # Its end is where the Mach number is 1.
+    at_end = np.stack([last.sum(axis=-1), last @ np.arange(4.0)], axis=-1)
+    nodes = np.concatenate([coefficients[..., :2], at_end[:, None]], axis=1)[:, :, :, :2]
+    nodes = np.concatenate([nodes, nodes[:1]])  # Values and slopes, (α, Mach number, coefficient, by α, by Mach).
+    lift, zero = nodes[:, :, 0, 0, 0], N_ALPHA // 2
+    place = np.empty(lift.shape, dtype=np.int64)
+    place[zero:] = zero + _last_record(lift[zero:])
+    place[zero::-1] = zero - _last_record(-lift[zero::-1])
+    held = np.take_along_axis(nodes, place[:, :, None, None, None], axis=0)
+    own = place == np.arange(N_ALPHA + 1)[:, None]
+    held[~(own & np.roll(own, 1, axis=0) & np.roll(own, -1, axis=0)), :, 1] = 0.0  # Level from end to end.
+    return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
+
+
+def _last_record(values: Array) -> NDArray[np.int64]:
+    """For every row, the last one up to it that exceeds all before, column by column."""
+    best = np.maximum.accumulate(values, axis=0)
+    new = np.concatenate([np.full((1, values.shape[1]), True), values[1:] > best[:-1]])
+    return np.maximum.accumulate(np.where(new, np.arange(len(values))[:, None], 0), axis=0)
 
 
 def first_quarter_slope(slope: Array, attached: Array) -> Array:
@@ -91,10 +182,8 @@ class SectionTable:
         """Coefficients at `alpha` [rad, any turn] and `mach` (held outside 0..mach_limit), broadcast together."""
         i, j, u, v, inside = self._cells(alpha, mach)
         cell = self.coefficients[i, j]  # (..., 2, 4, 4)
-        us = np.stack((np.ones_like(u), u, u * u, u * u * u), axis=-1)
-        vs = np.stack((np.ones_like(v), v, v * v, v * v * v), axis=-1)
-        du = np.stack((np.zeros_like(u), np.ones_like(u), 2.0 * u, 3.0 * u * u), axis=-1) / ALPHA_STEP
-        dv = np.stack((np.zeros_like(v), np.ones_like(v), 2.0 * v, 3.0 * v * v), axis=-1) / MACH_STEP
+        us, vs = _powers(u), _powers(v)
+        du, dv = _slopes_of_powers(u) / ALPHA_STEP, _slopes_of_powers(v) / MACH_STEP
         along = np.einsum("...kab,...b->...ka", cell, vs)
         value = np.einsum("...ka,...a->...k", along, us)
         by_alpha = np.einsum("...ka,...a->...k", along, du)
@@ -108,9 +197,7 @@ class SectionTable:
         if self.moment_coefficients is None:
             return None
         i, j, u, v, _ = self._cells(alpha, mach)
-        us = np.stack((np.ones_like(u), u, u * u, u * u * u), axis=-1)
-        vs = np.stack((np.ones_like(v), v, v * v, v * v * v), axis=-1)
-        return np.asarray(np.einsum("...ab,...a,...b->...", self.moment_coefficients[i, j], us, vs))
+        return np.asarray(np.einsum("...ab,...a,...b->...", self.moment_coefficients[i, j], _powers(u), _powers(v)))
 
     def _cells(
         self, alpha: ArrayLike, mach: ArrayLike
@@ -128,22 +215,21 @@ class SectionTable:
         """The coefficients of one Mach number (0 to below 1) at every Mach number: zero Mach slope, no Mach limit."""
         place = min(mach, self.mach_limit) / MACH_STEP
         j = min(int(place), N_MACH - 1)
-        along = self.coefficients[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 2, 4)
-        flat = np.zeros_like(self.coefficients)
-        flat[..., 0] = along[:, None]
+
+        def flat(cells: Array) -> Array:
+            out = np.zeros_like(cells)
+            out[..., 0] = (cells[:, j] @ (place - j) ** np.arange(4))[:, None]
+            return out
+
         moment = self.moment_coefficients
-        if moment is not None:
-            along_moment = moment[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 4)
-            moment = np.zeros_like(moment)
-            moment[..., 0] = along_moment[:, None]
         negative, positive = (np.full(N_MACH + 1, float(angle)) for angle in self.stall_alpha(mach))
         return replace(
             self,
-            coefficients=flat,
+            coefficients=flat(self.coefficients),
             mach_limit=np.inf,
             alpha_stall_negative=negative,
             alpha_stall_positive=positive,
-            moment_coefficients=moment,
+            moment_coefficients=None if moment is None else flat(moment),
         )
 
     def stall_alpha(self, mach: ArrayLike) -> tuple[Array, Array]:
@@ -179,6 +265,15 @@ class SectionTable:
         return np.where(over.any(axis=-1), mach[first], self.mach_limit)
 
 
+def _powers(x: Array) -> Array:
+    """1, x, x², x³ along a new last axis."""
+    return np.stack((np.ones_like(x), x, x * x, x * x * x), axis=-1)
+
+
+def _slopes_of_powers(x: Array) -> Array:
+    return np.stack((np.zeros_like(x), np.ones_like(x), 2.0 * x, 3.0 * x * x), axis=-1)
+
+
 def make_table(
     name: str, source: str, coefficients: Array, mach_limit: float, fit_range: tuple[float, float] | None = None
 ) -> SectionTable:
@@ -210,7 +305,7 @@ def _check_lift(table: SectionTable) -> None:
 
 def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
     """The run-time table of `deck`; constant beyond the lower of its two last Machs (lift, drag)."""
-    coefficients = stack_coefficients(bicubic_coefficients(deck.cl), bicubic_coefficients(deck.cd))
+    coefficients = np.stack([bicubic_coefficients(block) for block in (deck.cl, deck.cd)], axis=2)
     table = make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))
     _check_lift(table)
     try:

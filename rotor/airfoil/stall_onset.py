@@ -15,9 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotor.airfoil.bicubic import N_MACH, bicubic_coefficients, mach_nodes
 from rotor.airfoil.c81 import C81Block
-from rotor.airfoil.section_table import SectionTable
+from rotor.airfoil.section_table import N_MACH, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.arrays import Array
 
 LEAST_SEPARATION = 0.02

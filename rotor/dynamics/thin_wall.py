@@ -71,9 +71,7 @@ def rotated_stiffness(material: Material, angle: float) -> Array:
 
 def free_strain_in_wall_axes(layer: Layer) -> Array:
     """(ε_x, ε_s, γ_xs) of the free sheet: ε_x = Λ1c² + Λ2s², ε_s = Λ1s² + Λ2c², γ = 2sc(Λ1 − Λ2) [-]."""
-    c, s = math.cos(layer.angle), math.sin(layer.angle)
-    along, across = layer.free_strain
-    return np.array([along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * s * c * (along - across)])
+    return strain_rotation(-layer.angle) @ np.array([*layer.free_strain, 0.0])
 
 
 def blocked_shear_flow(layer: Layer) -> float:
@@ -146,43 +144,37 @@ class WallSection:
 class SectionResponse:
     """Deformation of a section under loads or actuation."""
 
-    twist_rate: float
-    """θ' [rad/m]."""
     extension: float
     """ε_x at y = z = 0 [-]."""
     curvature_y: float
     """Change of ε_x with y [1/m]."""
     curvature_z: float
     """Change of ε_x with z [1/m]."""
-    cell_flows: tuple[float, ...]
-    """q of each cell [N/m]."""
+    twist_rate: float
+    """θ' [rad/m]."""
 
 
 def build_section(panels: tuple[Panel, ...]) -> WallSection:
     """A section of straight wall elements, with the areas of its cells."""
-    walls: list[Wall] = [wall_of(panel.layers) for panel in panels]
+    walls = [wall_of(panel.layers) for panel in panels]
     cells = max(abs(cell) for panel in panels for cell in panel.cells)
-    parts: list[tuple[Array, Array, Array, Array, Wall]] = []
-    for panel, wall in zip(panels, walls, strict=True):
-        step = np.diff(panel.points, axis=0)
-        middle = 0.5 * (panel.points[1:] + panel.points[:-1])
-        side = np.zeros((len(step), cells))
+    counts = [len(panel.points) - 1 for panel in panels]
+    step = np.concatenate([np.diff(panel.points, axis=0) for panel in panels])
+    middle = np.concatenate([0.5 * (panel.points[1:] + panel.points[:-1]) for panel in panels])
+    side = np.zeros((len(panels), cells))
+    for k, panel in enumerate(panels):
         for cell in panel.cells:
-            side[:, abs(cell) - 1] = np.sign(cell)
-        parts.append((middle, np.hypot(*step.T), side, middle[:, 0] * step[:, 1] - middle[:, 1] * step[:, 0], wall))
-    counts = [len(part[0]) for part in parts]
-    middles = np.concatenate([part[0] for part in parts])
-    membership = np.concatenate([part[2] for part in parts])
-    swept = np.concatenate([part[3] for part in parts])
+            side[k, abs(cell) - 1] = np.sign(cell)
+    membership = np.repeat(side, counts, axis=0)
     return WallSection(
-        y=middles[:, 0],
-        z=middles[:, 1],
-        length=np.concatenate([part[1] for part in parts]),
-        stiffness=np.repeat(np.stack([wall.stiffness for wall in walls]), counts, axis=0),
-        actuation=np.repeat(np.stack([wall.actuation for wall in walls]), counts, axis=0),
+        y=middle[:, 0],
+        z=middle[:, 1],
+        length=np.hypot(*step.T),
+        stiffness=np.repeat([wall.stiffness for wall in walls], counts, axis=0),
+        actuation=np.repeat([wall.actuation for wall in walls], counts, axis=0),
         mass=np.repeat([wall.mass for wall in walls], counts),
         membership=membership,
-        areas=0.5 * (membership.T @ swept),
+        areas=0.5 * (membership.T @ (middle[:, 0] * step[:, 1] - middle[:, 1] * step[:, 0])),
     )
 
 
@@ -217,13 +209,7 @@ def respond(
     scale = np.sqrt(np.abs(np.diagonal(matrix)))
     scale[3] = np.abs(2.0 * section.areas).max() / scale[4:].max()
     unknowns = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
-    return SectionResponse(
-        twist_rate=float(unknowns[3]),
-        extension=float(unknowns[0]),
-        curvature_y=float(unknowns[1]),
-        curvature_z=float(unknowns[2]),
-        cell_flows=tuple(float(flow) for flow in unknowns[4:]),
-    )
+    return SectionResponse(*unknowns[:4].tolist())
 
 
 def torsional_stiffness(section: WallSection) -> float:
@@ -240,13 +226,7 @@ def _extension_at_centre(section: WallSection) -> float:
     """ε_x per newton at the tension centre, where a force causes no bending: the least over all points."""
     base = respond(section, force=1.0)
     by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
-    compliance = np.array(
-        [
-            [base.extension, by_y.extension, by_z.extension],
-            [base.curvature_y, by_y.curvature_y, by_z.curvature_y],
-            [base.curvature_z, by_y.curvature_z, by_z.curvature_z],
-        ]
-    )
+    compliance = np.array([[own.extension, own.curvature_y, own.curvature_z] for own in (base, by_y, by_z)]).T
     return float(compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0]))
 
 

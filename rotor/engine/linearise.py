@@ -24,8 +24,8 @@ from scipy.sparse import csr_matrix
 
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
-from rotor.engine.memory import Memory, on_forces
-from rotor.engine.terms import Shape, Structure, Terms, summed
+from rotor.engine.memory import Memory
+from rotor.engine.terms import NOTHING, Shape, Structure, Terms, summed
 from rotor.engine.waves import WaveGrid
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
@@ -192,18 +192,15 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
         phi = phi.copy()
         for (channel, name), values in live.items():
             phi[structure.first_row[channel] + structure.shapes[channel][name]] = values
-    channels = np.empty((structure.channels, phi.shape[1], grid.waves.azimuths))
-    _channels(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, grid.steady, channels)
+    channels = np.repeat(grid.steady[:, :, None], grid.waves.azimuths, axis=2)
+    _add_along_blade(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, channels)
     for channel, added in grid.varying.items():
         channels[channel] += added
     nodes = system.nodes
     if nodes is not None:
         channels[nodes.channel] += nodes.field(y).reshape(channels.shape[1:])
     forces, found, s = system.section(channels, grid.data, slopes, flow)
-    along = np.zeros((len(shapes.psi), grid.waves.azimuths))
-    _along_blade(shapes.psi, structure.first_weight, forces, along)
-    q = np.empty(1 + len(structure.measures))
-    q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places]
+    q = np.concatenate([[1.0], _means(system, grid, forces)])
     residual = structure.residual.value(z, q)
     if nodes is not None:
         missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
@@ -225,36 +222,37 @@ def _add_times(factor: float, one: Any, out: Any) -> None:
 
 
 @_compile
-def _add_product(one: Any, other: Any, out: Any) -> None:
-    for j in range(len(out)):
-        out[j] += one[j] * other[j]
+def _add_along_blade(along: Any, first: Any, around: Any, out: Any) -> None:
+    """Add to fields functions along the blade, (rows, elements), times functions of azimuth, (rows, azimuths).
 
-
-@_compile
-def _channels(phi: Any, first: Any, around: Any, steady: Any, out: Any) -> None:
-    """Φᵀ times functions of azimuth, (shapes, azimuths), channel by channel."""
+    first: the first row of each field, and the end.
+    """
     for k in range(out.shape[0]):
         for i in range(out.shape[1]):
-            for j in range(out.shape[2]):
-                out[k, i, j] = steady[k, i]
             for row in range(first[k], first[k + 1]):
-                _add_times(phi[row, i], around[row], out[k, i])
+                _add_times(along[row, i], around[row], out[k, i])
 
 
 @_compile
-def _along_blade(psi: Any, first: Any, forces: Any, out: Any) -> None:
-    """Σ along the blade of every weight times its force, (weights, azimuths)."""
-    for o in range(len(first) - 1):
-        for row in range(first[o], first[o + 1]):
-            for i in range(psi.shape[1]):
-                _add_times(psi[row, i], forces[o, i], out[row])
+def _add_around(along: Any, first: Any, fields: Any, out: Any) -> None:
+    """The transposed operator: add to functions of azimuth the sums along the blade of fields."""
+    for k in range(fields.shape[0]):
+        for row in range(first[k], first[k + 1]):
+            for i in range(fields.shape[1]):
+                _add_times(along[row, i], fields[k, i], out[row])
+
+
+def _means(system: System, grid: Grid, forces: Array) -> Array:
+    """The measures of forces but the first, (measures − 1,)."""
+    along = np.zeros((len(system.shapes.psi), grid.waves.azimuths))
+    _add_around(system.shapes.psi, system.structure.first_weight, forces, along)
+    return (along @ grid.waves.mean).ravel()[system.structure.measure_places]
 
 
 def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
     """What some shapes add to a channel, (elements, azimuths)."""
     structure = point.system.structure
-    own = [structure.shapes[channel][name] for name in names]
-    rows = structure.first_row[channel] + np.array(own, dtype=np.int64)
+    rows = structure.rows_of(channel, names)
     return point.phi[rows].T @ (_coefficients(structure, point.z)[rows] @ point.grid.waves.at)
 
 
@@ -269,9 +267,7 @@ def _between(
         pairs = np.empty(((end - first) * (last - own), n))
         for i in range(first, end):
             for k in range(own, last):
-                row = (i - first) * (last - own) + k - own
-                for e in range(n):
-                    pairs[row, e] = psi[i, e] * phi[k, e]
+                pairs[(i - first) * (last - own) + k - own] = psi[i] * phi[k]
         around = products[:waves].T
         if len(pairs) > n:  # The order of the two products that takes less.
             found = np.dot(pairs, np.dot(slopes[slope], around))
@@ -283,32 +279,24 @@ def _between(
             out[places[0, e], places[1, e]] = one
 
 
-def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
+def jacobian(point: Point, further: Terms = NOTHING) -> tuple[Array, Array]:
     """∂R by the states solved for, (equations, equations), and that of further measures; `point` has slopes."""
-    structure, z, q = point.system.structure, point.z, point.q
-    first = structure.first_state
-    by_z = _measure_slopes(point)
-    nodes = point.system.nodes
-    on_q, total = structure.residual.slopes(z, q, first)
-    summing = structure.residual.summing
-    total[summing] += _sparse_times(on_q[summing], by_z)
-    added, further_q = np.zeros((0, total.shape[1])), np.zeros((0, len(q)))
-    if further is not None:
-        further_q, on_z = further.slopes(z, q, first)
-        added = on_z + further_q @ by_z
-    own, other = _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
+    structure, nodes, size = point.system.structure, point.system.nodes, len(point.system.structure.equations)
+    terms = structure.residual.stacked(further)
+    on_q, on_z = terms.slopes(point.z, point.q, structure.first_state)
+    on_z[terms.summing] += _sparse_times(on_q[terms.summing], _measure_slopes(point))
+    by_states = _by_free(structure, on_z, point.by_roots)
     if nodes is None:
-        return own, other
-    on_channel = _sparse_times(np.concatenate([on_q, further_q]), _measures_by_channel(point, nodes.channel))
-    through = on_channel @ nodes.matrix
+        return by_states[:size], by_states[size:]
+    through = _sparse_times(on_q, _measures_by_channel(point, nodes.channel)) @ nodes.matrix
     by_channel = _force_slope(point, nodes.force, nodes.channel).ravel()
-    size, points = len(own), len(by_channel)
-    full = np.empty((size + points, size + points))
-    full[:size, :size], full[:size, size:] = own, through[:size]
-    full[size:, :size] = -_field_slopes(point, nodes.force)
+    end = size + len(by_channel)
+    full = np.empty((end, end))
+    full[:size, :size], full[:size, size:] = by_states[:size], through[:size]
+    full[size:, :size] = -_ownslopes(point, nodes.force)
     np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
-    full[range(size, size + points), range(size, size + points)] += 1.0
-    return full, np.concatenate([other, through[size:]], axis=1)
+    full[range(size, end), range(size, end)] += 1.0
+    return full, np.concatenate([by_states[size:], through[size:]], axis=1)
 
 
 _MANY_ENTRIES = 20_000
@@ -326,55 +314,46 @@ def response(point: Point, fields: Mapping[int, Array], given: Array) -> tuple[A
     fields: by channel, (elements, azimuths). given: what the same does to R directly, (equations without nodes,).
     Returns (equations,) and (measures,), the first of which is that of 1.
     """
-    structure, psi, waves, nodes = point.system.structure, point.system.shapes.psi, point.grid.waves, point.system.nodes
+    structure, nodes = point.system.structure, point.system.nodes
     forces = np.zeros_like(point.forces)
     for slope, (force, channel) in zip(point.slopes, structure.pairs, strict=True):
         if channel in fields:
             forces[force] += slope * fields[channel]
     if point.memory is not None:
         forces += point.memory.times(fields)
-    along, q = np.zeros((len(psi), waves.azimuths)), np.zeros(len(point.q))
-    _along_blade(psi, structure.first_weight, forces, along)
-    q[1:] = (along @ waves.mean).ravel()[structure.measure_places]
+    q = np.concatenate([[0.0], _means(point.system, point.grid, forces)])
     residual = given + structure.residual.slopes(point.z, point.q, structure.first_state)[0] @ q
     return residual if nodes is None else np.concatenate([residual, -forces[nodes.force].ravel()]), q
 
 
 def _force_slope(point: Point, force: int, channel: int) -> Array:
     """∂f/∂c of one force by one channel, (elements, azimuths); 0 where the force has none."""
-    pairs = point.system.structure.pairs
-    return (
-        point.slopes[pairs.index((force, channel))] if (force, channel) in pairs else np.zeros(point.forces.shape[1:])
-    )
+    pairs, pair = point.system.structure.pairs, (force, channel)
+    return point.slopes[pairs.index(pair)] if pair in pairs else np.zeros(point.forces.shape[1:])
 
 
 def _measures_by_channel(point: Point, channel: int) -> Array:
     """∂ of the measures by a channel at every point, (measures, points)."""
     structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
-    row, wave = np.divmod(structure.measure_places, structure.waves)
-    force = np.searchsorted(structure.first_weight, row, side="right") - 1
-    out = np.zeros((1 + len(row), psi.shape[1], waves.azimuths))
-    for k in np.unique(force).tolist():
-        own = force == k
-        weights = psi[row[own]][:, :, None] * waves.mean.T[wave[own]][:, None, :]
-        out[1 + np.flatnonzero(own)] = weights * _force_slope(point, k, channel)
+    force, row, wave = structure.measure_keys.T
+    weights = psi[structure.first_weight[force] + row][:, :, None]
+    slopes = np.stack([_force_slope(point, k, channel) for k in range(structure.forces)])
+    out = np.zeros((1 + len(row), *slopes.shape[1:]))
+    out[1:] = weights * waves.mean.T[wave][:, None] * slopes[force]
     if point.memory is not None:
-        out[1:] += psi[row][:, :, None] * point.memory.by_channel(point.remembered, channel)[force, wave]
+        out[1:] += weights * point.memory.by_channel(point.remembered, channel)[force, wave]
     return out.reshape(len(out), -1)
 
 
-def _field_slopes(point: Point, force: int) -> Array:
+def _ownslopes(point: Point, force: int) -> Array:
     """∂ of a force at every point by the states solved for, (points, states)."""
     structure, waves = point.system.structure, point.grid.waves
-    by_atom, order = structure.by_atom
-    _, i, j, factor = structure.column_arrays
-    by_atom.data = np.concatenate([factor * point.z[j], factor * point.z[i]])[order]
-    size = int(structure.first_row[-1]) * structure.waves
-    spread = np.zeros((by_atom.shape[0], size))
-    spread[:, structure.coefficient_places] = by_atom.toarray()
-    by_free = _by_free(structure, np.ascontiguousarray(spread.T), point.by_roots).T
-    around = by_free.reshape(-1, int(structure.first_row[-1]), structure.waves) @ waves.at  # (free, shapes, azimuths)
-    out = np.zeros((len(by_free), point.channels.shape[1], waves.azimuths))
+    by_atom, shapes = _coefficient_slopes(point), len(point.phi)
+    spread = np.zeros((shapes * structure.waves, by_atom.shape[0]))
+    spread[structure.coefficient_places] = by_atom.toarray().T
+    by_free = _by_free(structure, spread, point.by_roots).T
+    around = by_free.reshape(-1, shapes, structure.waves) @ waves.at  # (free, shapes, azimuths)
+    out = np.zeros((len(by_free), *point.channels.shape[1:]))
     for channel in range(structure.channels):
         first, end = structure.first_row[channel : channel + 2]
         if end > first and (force, channel) in structure.pairs:
@@ -383,20 +362,24 @@ def _field_slopes(point: Point, force: int) -> Array:
     return out.reshape(len(out), -1).T
 
 
+def _coefficient_slopes(point: Point) -> csr_matrix:
+    """∂ of the wave coefficients that columns have, (states and derived atoms, coefficients)."""
+    by_atom, order = point.system.structure.by_atom
+    _, i, j, factor = point.system.structure.column_arrays
+    by_atom.data = np.concatenate([factor * point.z[j], factor * point.z[i]])[order]
+    return by_atom
+
+
 def _measure_slopes(point: Point) -> Array:
     """∂ of the measures by states and derived atoms, (measures, atoms)."""
-    system, structure, grid, z = point.system, point.system.structure, point.grid, point.z
-    by_atom, order = structure.by_atom
-    between, blocks = np.zeros((by_atom.shape[1], len(point.q))), structure.blocks
+    structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
+    between, blocks = np.zeros((len(structure.coefficient_places), len(point.q))), structure.blocks
     _between(
-        point.slopes, point.phi, system.shapes.psi, grid.waves.mean_of_products, blocks.arrays, blocks.places,
-        blocks.factors, between,
-    )  # fmt: skip
+        point.slopes, point.phi, psi, waves.mean_of_products, blocks.arrays, blocks.places, blocks.factors, between
+    )
     if point.memory is not None:
-        point.memory.add_between(point.remembered, structure, point.phi, system.shapes.psi, grid.waves, between)
-    _, i, j, factor = structure.column_arrays
-    by_atom.data = np.concatenate([factor * z[j], factor * z[i]])[order]
-    return np.ascontiguousarray((by_atom @ between).T)
+        point.memory.add_between(point.remembered, structure, point.phi, psi, waves, between)
+    return np.ascontiguousarray((_coefficient_slopes(point) @ between).T)
 
 
 def _by_free(structure: Structure, total: Array, by_roots: Array) -> Array:
@@ -425,36 +408,12 @@ class Measure:
 
 
 @_compile
-def _through_section(
-    point: Any, around: Any, forces: Any, channels: Any, out: Any, by_element: Any, kept: int, field: Any
-) -> None:  # fmt: skip
-    """From functions of azimuth by weights, (weights, azimuths), to such by shapes, (shapes, azimuths): Φ Dᵀ Ψᵀ.
-
-    point: (Φ, Ψ, first shapes, first weights, D, rows of D by (force, channel)). forces, channels: what is added there,
-    (…, elements, azimuths), or without elements. by_element: slopes by channel, summed over the azimuths. field: those
-    of the channel `kept` at every point, or without elements.
-    """
-    phi, psi, first, first_weight, slopes, rows = point
-    m = around.shape[1]
-    force, by_channel = np.zeros((len(first_weight) - 1, m)), np.zeros((len(first) - 1, m))
-    for i in range(phi.shape[1]):
-        force[:], by_channel[:] = 0.0, 0.0
-        for o in range(len(force)):
-            for row in range(first_weight[o], first_weight[o + 1]):
-                _add_times(psi[row, i], around[row], force[o])
-        if forces.shape[1] > 0:
-            force += forces[:, i]
-        if channels.shape[1] > 0:
-            by_channel += channels[:, i]
-        for k in range(len(rows)):
-            _add_product(slopes[rows[k, 0], i], force[rows[k, 1]], by_channel[rows[k, 2]])
-        if field.shape[0] > 0:
-            for j in range(m):
-                field[i, j] = by_channel[kept, j]
-        for c in range(len(by_channel)):
-            by_element[c, i] = by_channel[c].sum()
-            for row in range(first[c], first[c + 1]):
-                _add_times(phi[row, i], by_channel[c], out[row])
+def _add_by_channels(slopes: Any, rows: Any, forces: Any, out: Any) -> None:
+    """Add Dᵀ times fields of the forces to fields of the channels; rows: see `Structure.slope_rows`."""
+    for slope, force, channel in rows:
+        for i in range(out.shape[1]):
+            for j in range(out.shape[2]):
+                out[channel, i, j] += slopes[slope, i, j] * forces[force, i, j]
 
 
 def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[Array, Array]:
@@ -462,51 +421,36 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
 
     (equations,), and (channels, elements): summed over the azimuths. `point` has slopes.
     """
-    structure, grid, z, q, shapes = point.system.structure, point.grid, point.z, point.q, point.system.shapes
-    measure = measure or Measure()
-    equations, nodes = len(structure.equations), point.system.nodes
-    v, on_nodes = v[:equations], v[equations:]
+    structure, waves, z, q, psi = point.system.structure, point.grid.waves, point.z, point.q, point.system.shapes.psi
+    measure, nodes, first = measure or Measure(), point.system.nodes, structure.first_state
+    v, on_nodes = np.split(v, [len(structure.equations)])
     on_q, on_z = structure.residual.transposed(v, z, q)
     if measure.terms is not None:
         more_q, more_z = measure.terms.transposed(np.ones(measure.terms.rows), z, q)
         on_q, on_z = on_q + more_q, on_z + more_z
-    spread = np.zeros(structure.first_weight[-1] * structure.waves)
-    spread[structure.measure_places] = on_q[1:]
-    around = spread.reshape(-1, structure.waves) @ grid.waves.mean.T
-    along, by_element = np.zeros((len(shapes.phi), grid.waves.azimuths)), np.empty(point.channels.shape[:2])
-    by_force, shape = dict(measure.forces), point.forces.shape[1:]
+    spread = np.zeros((len(psi), structure.waves))
+    spread.ravel()[structure.measure_places] = on_q[1:]
+    forces = np.zeros_like(point.forces)
+    _add_along_blade(psi, structure.first_weight, spread @ waves.mean.T, forces)
+    for force, own in measure.forces.items():
+        forces[force] += own
     if nodes is not None:
-        by_force[nodes.force] = by_force.get(nodes.force, 0.0) - on_nodes.reshape(shape)
-    rows = structure.slope_rows(tuple(by_force), () if nodes is None else (nodes.channel,))
-    arrays = point.phi, shapes.psi, structure.first_row, structure.first_weight, point.slopes, rows
-    forces, channels = _stack(by_force, point.forces.shape), _stack(measure.channels, point.channels.shape)
-    if point.memory is not None:
-        whole = on_forces(shapes.psi, structure.first_weight, around)
-        whole += forces if by_force else 0.0
-        remembered = point.memory.transposed(whole)
-        channels = remembered if not measure.channels else channels + remembered
-    field = np.empty(shape if nodes is not None else (0, shape[1]))
-    kept = 0 if nodes is None else nodes.channel
-    _through_section(arrays, around, forces, channels, along, by_element, kept, field)
+        forces[nodes.force] -= on_nodes.reshape(forces.shape[1:])
+    channels = np.zeros_like(point.channels) if point.memory is None else point.memory.transposed(forces)
+    for channel, own in measure.channels.items():
+        channels[channel] += own
+    used = {*measure.forces, *(() if nodes is None else (nodes.force,))}
+    _add_by_channels(
+        point.slopes, structure.slope_rows(used, () if nodes is None else (nodes.channel,)), forces, channels
+    )
+    around = np.zeros((len(point.phi), waves.azimuths))
+    _add_around(point.phi, structure.first_row, channels, around)
     for channel, names, own in measure.parts:
-        places = [structure.shapes[channel][name] for name in names]
-        rows = structure.first_row[channel] + np.array(places, dtype=np.int64)
-        along[rows] += point.phi[rows] @ own
-    place, i, j, factor = structure.column_arrays
-    value = factor * (along @ grid.waves.at.T).ravel()[place]
-    on_z = on_z + summed(i, value * z[j], len(z)) + summed(j, value * z[i], len(z))
-    by_free = _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0]
+        rows = structure.rows_of(channel, names)
+        around[rows] += point.phi[rows] @ own
+    on_z[first:] += _coefficient_slopes(point) @ (around @ waves.at.T).ravel()[structure.coefficient_places]
+    by_free = _by_free(structure, on_z[None, first:], point.by_roots)[0]
     if nodes is not None:
-        if measure.nodes is not None:
-            field += measure.nodes
-        by_nodes = on_nodes + nodes.transposed(field.ravel())
-        by_free = np.concatenate([by_free, by_nodes])
-    return by_free, by_element
-
-
-def _stack(fields: Mapping[int, Array], shape: tuple[int, ...]) -> Array:
-    """The fields in one array, without elements where there are none."""
-    out = np.zeros(shape if fields else (shape[0], 0, shape[2]))
-    for k, own in fields.items():
-        out[k] += own
-    return out
+        on_field = channels[nodes.channel] + (0.0 if measure.nodes is None else measure.nodes)
+        by_free = np.concatenate([by_free, on_nodes + nodes.transposed(on_field.ravel())])
+    return by_free, channels.sum(axis=2)

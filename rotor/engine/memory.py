@@ -10,11 +10,10 @@ it in pairs, so products of measures and columns are formed at all azimuths of a
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array
 from rotor.engine.terms import Structure
 from rotor.engine.waves import WaveGrid
 
@@ -85,11 +84,3 @@ class Memory:
                 found = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
                 own, shape = weight[measures] - first, (row[columns] - begin)[:, None]
                 out[np.ix_(columns, 1 + measures)] += found[own, shape, other[measures], wave[columns][:, None]]
-
-
-def on_forces(psi: Array, first: Integers, around: Array) -> Array:
-    """Weights on the forces of functions of azimuth by weights, (forces, elements, azimuths).
-
-    psi: (weights, elements). first: the first weight of each force. around: (weights, azimuths).
-    """
-    return np.array([psi[a:b].T @ around[a:b] for a, b in pairwise(first.tolist())])

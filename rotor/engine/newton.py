@@ -15,6 +15,7 @@ Near stall the residual has to rise on the way to a trim.
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
@@ -70,17 +71,10 @@ class Factors:
     def usable(self) -> bool:
         return bool(np.isfinite(self.weight).all())
 
-    def solve(self, right: Array) -> Array:
-        """J⁻¹ b"""
-        return self._solve(right, 1)
-
-    def solve_transposed(self, right: Array) -> Array:
-        """J⁻ᵀ b"""
-        return self._solve(right, 0)
-
-    def _solve(self, right: Array, trans: int) -> Array:
+    def solve(self, right: Array, *, transposed: bool = False) -> Array:
+        """J⁻¹ b or J⁻ᵀ b."""
         solver = dgetrs if self.lu.dtype == np.float64 else sgetrs
-        return np.asarray(solver(self.lu, self.pivots, right, trans=trans)[0], dtype=np.float64)
+        return np.asarray(solver(self.lu, self.pivots, right, trans=int(not transposed))[0], dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -123,7 +117,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
     shape = len(right), len(right)
     found, unfinished = gmres(
         LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-9, restart=20, maxiter=2,
-        M=LinearOperator(shape, matvec=near.solve_transposed, dtype=np.float64),
+        M=LinearOperator(shape, matvec=partial(near.solve, transposed=True), dtype=np.float64),
     )  # fmt: skip
     return None if unfinished else found
 

@@ -8,8 +8,8 @@
 A structure is made once for each combination of trim, blade and wake. `finish` works out all places in the matrices.
 """
 
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Hashable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
@@ -83,12 +83,22 @@ class Terms:
         """The equations with measures other than 1."""
         return np.unique(self.row[self.measure > 0])
 
+    def stacked(self, other: "Terms") -> "Terms":
+        """Its rows, then those of another."""
+        pairs = ((getattr(self, name), getattr(other, name)) for name in ("measure", "first", "second", "factor"))
+        row = np.concatenate([self.row, other.row + self.rows])
+        return Terms(row, *(np.concatenate(pair) for pair in pairs), rows=self.rows + other.rows)
+
     def transposed(self, v: Array, z: Array, q: Array) -> tuple[Array, Array]:
         """`slopes` times weights on the rows from the left, (rows,) → (measures,), (atoms,)."""
         weights = self.factor * v[self.row]
         first, second, own = z[self.first], z[self.second], q[self.measure]
         by_z = summed(self.first, weights * second * own, len(z)) + summed(self.second, weights * first * own, len(z))
         return summed(self.measure, weights * first * second, len(q)), by_z
+
+
+NOTHING = Terms.of((), 0)
+"""No rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,39 +119,29 @@ def _kind_of(name: Hashable) -> Hashable:
     return cast(tuple[Hashable, ...], name)[0] if isinstance(name, tuple) else name
 
 
-@dataclass(eq=False)
 class Structure:
     """Atoms, columns, measures and equations, and once finished all places in the matrices."""
 
-    pairs: tuple[tuple[int, int], ...]
-    """Force and channel of each row of the section's partial derivatives."""
-    channels: int
-    forces: int
-    name: Hashable = None
-    """The same for structures with the same atoms and equations."""
-    numbers: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    """Atoms by name."""
-    states: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    derived: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    roots: tuple[int, ...] = ()
-    """States that derived atoms follow."""
-    shapes: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
-    """By channel."""
-    weights: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
-    """By force."""
-    columns: list[tuple[int, int, int, int, int, float]] = field(
-        default_factory=list[tuple[int, int, int, int, int, float]]
-    )
-    measures: dict[tuple[int, int, int], int] = field(default_factory=dict[tuple[int, int, int], int])
-    terms: list[tuple[int, int, int, int, float]] = field(default_factory=list[tuple[int, int, int, int, float]])
-    equations: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
-    free: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    """The atoms solved for, (equations,)."""
-    waves: int = 1
+    def __init__(
+        self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None
+    ) -> None:  # fmt: skip
+        """pairs: force and channel of each row of the section's partial derivatives.
 
-    def __post_init__(self) -> None:
-        self.shapes = [{} for _ in range(self.channels)]
-        self.weights = [{} for _ in range(self.forces)]
+        name: the same for structures with the same atoms and equations.
+        """
+        self.pairs, self.channels, self.forces, self.name = pairs, channels, forces, name
+        self.numbers, self.states, self.derived = (dict[Hashable, int]() for _ in range(3))  # Atoms by name.
+        self.roots: tuple[int, ...] = ()
+        """States that derived atoms follow."""
+        self.shapes, self.weights = ([dict[Shape, int]() for _ in range(count)] for count in (channels, forces))
+        """By channel, and by force."""
+        self.columns = list[tuple[int, int, int, int, int, float]]()
+        self.measures = dict[tuple[int, int, int], int]()
+        self.terms = list[tuple[int, int, int, int, float]]()
+        self.equations = dict[Hashable, int]()
+        self.free = np.zeros(0, dtype=np.int64)
+        """The atoms solved for, (equations,)."""
+        self.waves = 1
 
     def number(self, name: Hashable) -> int:
         """The atom of a number that the design gives."""
@@ -217,27 +217,21 @@ class Structure:
 
     def equations_of(self, kind: Hashable) -> Integers:
         """The equations of a kind."""
-        return self._by_kind(0, kind)
+        return np.flatnonzero([name == kind for name in self.kinds[0]])
 
     def states_of(self, kind: Hashable) -> Integers:
         """Places of the states of a kind among those solved for."""
-        return self._by_kind(1, kind)
-
-    def _by_kind(self, which: int, kind: Hashable) -> Integers:
-        key = which, kind
-        if key not in self._kept_kinds:
-            found = [k for k, name in enumerate(self.kinds[which]) if name == kind]
-            self._kept_kinds[key] = np.array(found, dtype=np.int64)
-        return self._kept_kinds[key]
-
-    @cached_property
-    def _kept_kinds(self) -> dict[tuple[int, Hashable], Integers]:
-        return {}
+        return np.flatnonzero([name == kind for name in self.kinds[1]])
 
     @cached_property
     def first_row(self) -> Integers:
         """Row of the first shape of each channel among all shapes, (channels + 1,)."""
         return np.cumsum([0, *(len(own) for own in self.shapes)])
+
+    def rows_of(self, channel: int, names: Sequence[Shape]) -> Integers:
+        """Rows of some shapes of a channel among all shapes."""
+        own = self.shapes[channel]
+        return self.first_row[channel] + np.array([own[name] for name in names], dtype=np.int64)
 
     @cached_property
     def first_weight(self) -> Integers:
@@ -254,11 +248,12 @@ class Structure:
     @cached_property
     def measure_places(self) -> Integers:
         """Place of each measure among all weights times all waves, (measures,)."""
-        force, row, wave = self._measure_keys.T
+        force, row, wave = self.measure_keys.T
         return (self.first_weight[force] + row) * self.waves + wave
 
     @cached_property
-    def _measure_keys(self) -> Integers:
+    def measure_keys(self) -> Integers:
+        """Force, number of the weight among its own, and wave of each measure, (measures, 3)."""
         return np.array(list(self.measures), dtype=np.int64).reshape(-1, 3)
 
     @cached_property
@@ -290,7 +285,7 @@ class Structure:
         """The wave coefficients that columns have, among all of all shapes."""
         return self._coefficients[0]
 
-    def slope_rows(self, others: Sequence[int] = (), further: Sequence[int] = ()) -> Integers:
+    def slope_rows(self, others: Collection[int] = (), further: Collection[int] = ()) -> Integers:
         """Row, force and channel of the section's derivatives of forces with measures and others, (rows, 3).
 
         Only those by channels that have columns, and further ones: the section may leave the others undefined.
@@ -307,7 +302,7 @@ class Structure:
         changing = np.zeros(len(row), dtype=np.bool_)
         _, first, second, _ = self.column_arrays
         changing[self._coefficients[1][np.maximum(first, second) >= self.first_state]] = True
-        keys, arrays, places, factors = self._measure_keys, list[list[int]](), list[Array](), list[Array]()
+        keys, arrays, places, factors = self.measure_keys, list[list[int]](), list[Array](), list[Array]()
         entries = 0
         for slope, (o, c) in enumerate(self.pairs):
             own = np.flatnonzero(keys[:, 0] == o)

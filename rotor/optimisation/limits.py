@@ -13,7 +13,7 @@ import numpy as np
 
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
-from rotor.airfoil.bicubic import MACH_STEP
+from rotor.airfoil.section_table import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.aircraft import number
 from rotor.design.twist import TwistLaw

@@ -28,7 +28,6 @@ from rotor.design.active_twist import Harmonic, PerRev, linear_active_twist, rea
 from rotor.design.design import Design, require_design
 from rotor.engine.linearise import jacobian
 from rotor.engine.linearise import response as linear_response
-from rotor.engine.terms import Terms
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.descent import slsqp
 from rotor.optimisation.evaluator import TrimmedBlades
@@ -154,7 +153,7 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
     problem, point = adjoint.problem, adjoint.point
     structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
     loads = load_terms(problem, point)
-    both = _stacked(loads, adjoint.total_terms)
+    both = loads.stacked(adjoint.total_terms)
     with one_blas_thread():
         matrix, by_state = jacobian(point, both)
         by_measure = both.slopes(point.z, point.q, structure.first_state)[0]
@@ -179,13 +178,6 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
     units = np.append(scaled_loads(problem, np.ones(2 * len(LOADS))).ravel(), watts)[:, None]
     values = np.append(scaled_loads(problem, loads.value(point.z, point.q)).ravel(), solution.power.total)
     return values, slopes * units
-
-
-def _stacked(one: Terms, other: Terms) -> Terms:
-    """The rows of one and of the other."""
-    pairs = ((getattr(one, name), getattr(other, name)) for name in ("measure", "first", "second", "factor"))
-    row = np.concatenate([one.row, other.row + one.rows])
-    return Terms(row, *(np.concatenate(pair) for pair in pairs), rows=one.rows + other.rows)
 
 
 @dataclass(frozen=True, eq=False)

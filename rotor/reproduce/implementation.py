@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebval
 
 from rotor.airfoil.polynomial import (
     DRAG_ORDER,
@@ -124,9 +123,7 @@ def fit_figure(number: str) -> Report:
     fine = np.linspace(low, high, 401)
     smooth = fit(np.deg2rad(fine))[which_one]
     # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
-    t = (2.0 * np.deg2rad(30.0) - sum(fit.fit_range)) / (fit.fit_range[1] - fit.fit_range[0])
-    series = (fit.cl_series, fit.cd_series)[which_one]
-    unheld = float(np.asarray(chebval(t, series), dtype=np.float64))
+    unheld = float((fit.cl_series, fit.cd_series)[which_one](np.deg2rad(30.0)))
     words = f"rms {rms:.5f} over {low:g}…{high:g}°."
     if which == "drag":
         words += f" In attached flow ({ATTACHED_DEG[0]:g}…{ATTACHED_DEG[1]:g}°) Cd is off by "

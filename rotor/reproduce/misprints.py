@@ -184,7 +184,7 @@ def _names() -> dict[str, Any]:
 
     def free(series: Any, ends: tuple[float, float], alpha: float) -> float:
         t = (2.0 * alpha - sum(ends)) / (ends[1] - ends[0])
-        return float(np.asarray(chebval(t, series), dtype=np.float64))
+        return float(np.asarray(chebval(t, series.coef), dtype=np.float64))
 
     helpers: tuple[Callable[..., Any], ...] = (
         hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve, polynomial_section, polynomial_table,

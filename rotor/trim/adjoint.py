@@ -115,7 +115,7 @@ class _Linear:
             factors, power = self._linearised
             of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
             slopes = power if of_power else transposed(point, multipliers, measure)[0]
-            multipliers = factors.solve_transposed(slopes)
+            multipliers = factors.solve(slopes, transposed=True)
         by_channel = transposed(point, -multipliers, measure)[1]
         found, torsion = by_channel[TH], self.problem.torsion
         if torsion is None:

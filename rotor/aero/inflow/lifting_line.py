@@ -2,14 +2,13 @@
 
     λ_i = A Γ,    Γ = (π/N_b) U_T F_z*/max(U_T², 0.01),  0 in reverse flow       (Kutta and Joukowski)
 
-F_z* is F_z with lift and drag held beyond the angle of the largest lift (`bicubic.held_beyond_peak`). If circulation
-fell with the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ
-is over ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the
-blade as built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
+F_z* is F_z with lift and drag held beyond the angle of the largest lift (`held_beyond_peak`). If circulation fell with
+the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ is over
+ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the blade as
+built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
 """
 
 import math
-from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -18,16 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
+from rotor.aero.inflow.interface import InflowModel, InflowTerms, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import Line, influence, mean_influence
-from rotor.aero.lifting_line.shed import shed_correction
+from rotor.aero.lifting_line.influence import Line, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
-from rotor.compiled import compiled
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
-from rotor.engine.terms import Shape, Structure
 
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
@@ -38,17 +34,10 @@ _LIFTED = tuple(channel for force, channel in PAIRS if force == FZ)
 LINE_PAIRS = (*PAIRS, *((CIRCULATION, channel) for channel in _LIFTED))
 
 
-@compiled(error_model="numpy")
-def circulation_gain(u_t: Any, gain: Any, slope: Any) -> None:
-    """U_T/max(U_T², 0.01), 0 in reverse flow, and its slope by U_T, in place; all (elements, azimuths)."""
-    for i in range(u_t.shape[0]):
-        for j in range(u_t.shape[1]):
-            t = u_t[i, j]
-            gain[i, j] = slope[i, j] = 0.0
-            if t >= SLOWEST:
-                gain[i, j], slope[i, j] = 1.0 / t, -1.0 / (t * t)
-            elif t > 0.0:
-                gain[i, j], slope[i, j] = t / SLOWEST**2, 1.0 / SLOWEST**2
+def circulation_gain(u_t: Array) -> tuple[Array, Array]:
+    """U_T/max(U_T², 0.01), 0 in reverse flow, and its slope by U_T; shape of u_t."""
+    over = 1.0 / np.maximum(u_t, SLOWEST) ** 2
+    return np.maximum(u_t, 0.0) * over, np.where(u_t >= SLOWEST, -over, np.where(u_t > 0.0, over, 0.0))
 
 
 _RIGID = dict(zip(SectionData._fields[-len(NO_MOMENT) :], NO_MOMENT, strict=True))
@@ -59,8 +48,7 @@ def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array,
     f, d, s = section(c, data, slopes, flow)
     still = data._replace(tables=data.held, friction=0.0, added=NOTHING_ADDED, **_RIGID)
     held, by_held, _ = section(c, still, slopes, False)
-    gain, by_speed = np.empty_like(c[UT]), np.empty_like(c[UT])
-    circulation_gain(c[UT], gain, by_speed)
+    gain, by_speed = circulation_gain(c[UT])
     f = np.concatenate([f, (gain * held[FZ])[None]])
     if slopes:
         own = np.zeros((len(_LIFTED), *gain.shape))
@@ -76,7 +64,7 @@ _LINE = SectionInterface(_line_section, LINE_PAIRS, len(CHANNELS), len(FORCES) +
 
 
 @dataclass(frozen=True)
-class LiftingLineInflow:
+class LiftingLineInflow(InflowModel):
     """Lifting lines of the rotor's own blades with the wake along the trim."""
 
     name = "lifting-line"
@@ -87,11 +75,6 @@ class LiftingLineInflow:
     )
     load_dependent = True
     fine_tip = True
-    pointwise = True
-
-    def without_tip_loss(self) -> "LiftingLineInflow":
-        """Itself: the tip loss of a lifting line is that of its finite blades."""
-        return self
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """Panels, and azimuths in a multiple of the number of blades."""
@@ -117,34 +100,20 @@ def _matrix(line: Line, course: WakeCourse, half_chord: tuple[float, ...]) -> ND
     return (made * (math.pi / line.blades)).astype(np.float32)
 
 
-class LiftingLineTerms:
+class LiftingLineTerms(InflowTerms):
     """Lifting lines as nodes of the engine, see `InflowTerms`."""
 
-    names: Sequence[Shape] = ()
-    live: Sequence[tuple[int, Shape]] = ()
     interface = _LINE
 
     def __init__(self, line: Line, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
         """half_chord: of unsteady sections over R, (panels,), or empty."""
         self.line, self.course, self._half_chord = line, course, half_chord
-        self.key: Hashable = "lifting line", line.panels, line.azimuths
+        self.key = "lifting line", line.panels, line.azimuths
         self.least_azimuths = line.azimuths
 
     def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
-        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line.shed`."""
+        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line.influence`."""
         return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
-
-    def build(self, structure: Structure) -> None:
-        """Nothing: what is solved for are nodes."""
-
-    def shapes(self) -> dict[Shape, Array]:
-        """None."""
-        return {}
-
-    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
-        """Nothing: the wake lies still."""
-        del wake, mu_z, sees_tilt
-        return Followed({}, {})
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
@@ -160,6 +129,5 @@ class LiftingLineTerms:
         """Through the circulation of the load."""
         course = replace(self.course, mu_x=wake.mu_x, mu_z=wake.mu_z, lambda0=wake.lambda0, flap_1c=0.0, flap_1s=0.0)
         matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
-        gain, slope = np.empty((len(u_t), 1)), np.empty((len(u_t), 1))
-        circulation_gain(np.ascontiguousarray(u_t[:, None]), gain, slope)
-        return matrix * gain.T, matrix * slope.T
+        gain, slope = circulation_gain(u_t)
+        return matrix * gain, matrix * slope

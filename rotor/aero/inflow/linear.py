@@ -5,19 +5,17 @@ distribution, so with them induced power does not depend on twist.
 """
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Wake, WithoutNodes
+from rotor.aero.disk import Disk, azimuths_of
+from rotor.aero.inflow.interface import Atoms, Followed, InflowModel, InflowTerms, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
-from rotor.compiled import compiled
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY
 
@@ -26,18 +24,16 @@ Gradient = tuple[float, float, float]
 
 LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
-_PSI = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
-_COS, _SIN = np.cos(_PSI), np.sin(_PSI)
+_COS, _SIN = np.cos(azimuths_of(LOSS_AZIMUTHS)), np.sin(azimuths_of(LOSS_AZIMUTHS))
 
 
 @dataclass(frozen=True)
-class LinearInflow(GridAsAsked):
+class LinearInflow(InflowModel):
     """A first-harmonic inflow model."""
 
     name: str
     title: str
     explanation: str
-    """One line for the page: what the model is, and its source."""
     longitudinal: Callable[[Wake], Gradient]
     """k_x"""
     lateral: Callable[[Wake], Gradient]
@@ -45,56 +41,43 @@ class LinearInflow(GridAsAsked):
 
     load_dependent = False
 
-    def without_tip_loss(self) -> "LinearInflow":
-        """Itself: the factor is on the section lift."""
-        return self
-
     def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LinearTerms":
         """The model on a disk."""
         del course
         return LinearTerms(self, disk, losses)
 
-    def strengths(self, wake: Wake) -> dict[Hashable, tuple[float, tuple[float, float, float]]]:
+    def strengths(self, wake: Wake) -> Atoms:
         """λ0 k_x and λ0 k_y, with slopes by (µ_x, µ_z, λ0)."""
-        out: dict[Hashable, tuple[float, tuple[float, float, float]]] = {}
-        for name, (k, by_mu, by_axial) in zip(STRENGTHS, (self.longitudinal(wake), self.lateral(wake)), strict=True):
-            l0 = wake.lambda0
-            out[name] = l0 * k, (l0 * by_mu, l0 * by_axial, k + l0 * by_axial)
-        return out
+        gradients = self.longitudinal(wake), self.lateral(wake)
+        return {name: of_mean(own, wake.lambda0) for name, own in zip(STRENGTHS, gradients, strict=True)}
 
     def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> Array:
         """λ_i at radii (n,) and azimuths (m,), and its slopes by (µ_x, µ_z, λ0), (4, n, m)."""
-        (kx, by_x), (ky, by_y) = self.strengths(wake).values()
-        return _field(r, cos, sin, wake.lambda0, (kx, ky), (by_x, by_y))
+        weights = np.array([[value, *slopes] for value, slopes in self.strengths(wake).values()])
+        out = np.tensordot(weights, np.stack([np.outer(r, cos), np.outer(r, sin)]), (0, 0))
+        out[0] += wake.lambda0
+        out[3] += 1.0
+        return out
 
 
-@compiled(error_model="numpy", fastmath={"contract"})
-def _field(r: Any, cos: Any, sin: Any, lambda0: float, strengths: Any, slopes: Any) -> Any:
-    """λ0 + λ0 k_x r cos ψ + λ0 k_y r sin ψ, and its slopes."""
-    out = np.empty((4, len(r), len(cos)))
-    (kx, ky), (by_x, by_y) = strengths, slopes
-    for i in range(len(r)):
-        for j in range(len(cos)):
-            along, across = r[i] * cos[j], r[i] * sin[j]
-            out[0, i, j] = lambda0 + kx * along + ky * across
-            out[1, i, j] = by_x[0] * along + by_y[0] * across
-            out[2, i, j] = by_x[1] * along + by_y[1] * across
-            out[3, i, j] = 1.0 + by_x[2] * along + by_y[2] * across
-    return out
+def of_mean(gradient: Gradient, lambda0: float) -> tuple[float, tuple[float, float, float]]:
+    """λ0 k, and its slopes by (µ_x, µ_z, λ0)."""
+    k, by_mu, by_axial = gradient
+    return lambda0 * k, (lambda0 * by_mu, lambda0 * by_axial, k + lambda0 * by_axial)
 
 
 STRENGTHS = ("lambda0 kx", "lambda0 ky")
 """Made atoms of linear inflow."""
 
 
-class LinearTerms(WithoutNodes):
+class LinearTerms(InflowTerms):
     """Linear inflow on a disk: columns 1, r cos ψ and r sin ψ in U_P, and Prandtl's factors on the section lift."""
 
+    key = "linear"
+    names = ("inflow", "1"), ("inflow", "r")
+    live = ((LOSS, "loss"),)
+
     def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
-        self.key: Hashable = "linear"
-        self.names: Sequence[Shape] = (("inflow", "1"), ("inflow", "r"))
-        self.live: Sequence[tuple[int, Shape]] = ((LOSS, "loss"),)
-        self.interface, self.least_azimuths = PLAIN, 1
         self._model, self._disk, self._losses = model, disk, losses
 
     def build(self, structure: Structure) -> None:
@@ -112,17 +95,14 @@ class LinearTerms(WithoutNodes):
     def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
         """λ0 k_x, λ0 k_y and the loss factor, averaged over azimuth (thesis p. 24)."""
         disk, (tip, hub) = self._disk, self._losses
-        strengths = self._model.strengths(wake)
-        if not (tip or hub):
-            loss = np.ones_like(disk.r), np.zeros((3, len(disk.r)))
-        else:
-            (kx, by_x), (ky, by_y) = strengths.values()
-            field = _field(disk.r, _COS, _SIN, wake.lambda0, (kx, ky), (by_x, by_y))
+        loss = np.ones_like(disk.r), np.zeros((3, len(disk.r)))
+        if tip or hub:
+            field = self._model.field(disk.r, _COS, _SIN, wake)
             found = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
             if sees_tilt:
                 found[3] += found[1]  # λ by µ_z itself.
             loss = found[0], found[2:]
-        return Followed(strengths, {(LOSS, "loss"): loss})
+        return Followed(self._model.strengths(wake), {(LOSS, "loss"): loss})
 
     def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Zero: the load does not change it."""
@@ -134,7 +114,7 @@ def _zero(wake: Wake) -> Gradient:
     return 0.0, 0.0, 0.0
 
 
-def _half_skew(wake: Wake) -> Gradient:
+def half_skew(wake: Wake) -> Gradient:
     """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow.
 
     In upflow the wake is above the disk, the mirror image of one below with the same angle, and induces the same.
@@ -145,9 +125,11 @@ def _half_skew(wake: Wake) -> Gradient:
     return wake.mu_x / total, size / (wake.speed * total), -math.copysign(slope, wake.axial)
 
 
-def _scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
+def scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
+    """k = gain · tan(χ/2)."""
+
     def gradient(wake: Wake) -> Gradient:
-        value, by_mu, by_axial = _half_skew(wake)
+        value, by_mu, by_axial = half_skew(wake)
         return gain * value, gain * by_mu, gain * by_axial
 
     return gradient
@@ -155,7 +137,7 @@ def _scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
 
 def _drees_longitudinal(wake: Wake) -> Gradient:
     """(4/3)(1 − cos χ − 1.8µ²)/sin χ, written with sin χ = µ_x/V so that hover is regular."""
-    value, by_mu, by_axial = _half_skew(wake)
+    value, by_mu, by_axial = half_skew(wake)
     scale = 4.0 / 3.0
     speed = wake.speed
     return (
@@ -180,7 +162,7 @@ LINEAR_MODELS = (
     LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, _zero),
     LinearInflow(
         "coleman", "Coleman", "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
-        _scaled_half_skew(1.0), _zero,
+        scaled_half_skew(1.0), _zero,
     ),
     LinearInflow(
         "drees", "Drees", "kx = 4/3 (1 − cos χ − 1.8µ²)/sin χ and a lateral ky = −2µ (1949).",
@@ -189,11 +171,11 @@ LINEAR_MODELS = (
     LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake, _zero),
     LinearInflow(
         "pitt-peters", "Pitt–Peters (15π/32)", "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
-        _scaled_half_skew(15.0 * math.pi / 32.0), _zero,
+        scaled_half_skew(15.0 * math.pi / 32.0), _zero,
     ),
     LinearInflow(
         "pitt-peters-15pi/23", "Pitt–Peters (15π/23 as printed)",
         "kx = 15π/23 tan(χ/2), eq. (2.32) as the document prints it; closer to measured gradients.",
-        _scaled_half_skew(15.0 * math.pi / 23.0), _zero,
+        scaled_half_skew(15.0 * math.pi / 23.0), _zero,
     ),
 )  # fmt: skip

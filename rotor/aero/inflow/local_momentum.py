@@ -11,15 +11,14 @@ derivatives follow by the implicit function theorem, dλ = (g Σ ∂F_z/∂c dc 
 """
 
 import math
-from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, GridAsAsked, SectionInterface, Wake, WithoutNodes
+from rotor.aero.inflow.interface import Followed, InflowModel, InflowTerms, SectionInterface, Wake
+from rotor.aero.inflow.linear import STRENGTHS, of_mean, scaled_half_skew
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
@@ -28,8 +27,8 @@ from rotor.compiled import compiled
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, STEADY
 
-GRADIENT = 15.0 * math.pi / 32.0
-"""k_x over tan(χ/2): that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
+_GRADIENT = scaled_half_skew(15.0 * math.pi / 32.0)
+"""k_x: that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
 
 GAIN, MEAN = len(CHANNELS), len(CHANNELS) + 1
 """Channels beside those of the section: g, and λ0, from which the search for λ begins."""
@@ -113,33 +112,8 @@ _SECTORS = SectionInterface(
 )
 
 
-@dataclass(frozen=True, eq=False)
-class FlowParameters:
-    """Skew and speed of a wake, with slopes by (µ_x, µ_z, λ0)."""
-
-    half_skew: float
-    """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow."""
-    speed: float
-    """V"""
-    wake: Wake
-
-    @cached_property
-    def slopes(self) -> Array:
-        """(2, 3): rows tan(χ/2), V; columns µ_x, µ_z, λ0."""
-        mu, axial, speed = self.wake.mu_x, self.wake.axial, self.speed
-        total = speed + abs(axial)
-        x_mu, x_axial = abs(axial) / (speed * total), -math.copysign(mu / (speed * total), axial)
-        v_mu, v_axial = mu / speed, axial / speed
-        return np.array([[x_mu, x_axial, x_axial], [v_mu, v_axial, v_axial]])
-
-
-def flow_parameters(wake: Wake) -> FlowParameters:
-    """tan(χ/2) and V of a wake."""
-    return FlowParameters(wake.mu_x / (wake.speed + abs(wake.axial)), wake.speed, wake)
-
-
 @dataclass(frozen=True)
-class LocalMomentumInflow(GridAsAsked):
+class LocalMomentumInflow(InflowModel):
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
@@ -162,19 +136,20 @@ class LocalMomentumInflow(GridAsAsked):
         return SectorTerms(disk, tip=self.tip)
 
 
-class SectorTerms(WithoutNodes):
+class SectorTerms(InflowTerms):
     """Local momentum theory on a disk: one column for the gradient, and a section that balances itself."""
 
+    key = "sectors"
+    names = (("inflow", "r"),)
+    live = ((GAIN, "gain"),)
+    interface = _SECTORS
+
     def __init__(self, disk: Disk, *, tip: bool) -> None:
-        self.key: Hashable = "sectors"
-        self.names: Sequence[Shape] = (("inflow", "r"),)
-        self.live: Sequence[tuple[int, Shape]] = ((GAIN, "gain"),)
-        self.interface, self.least_azimuths = _SECTORS, 1
         self._disk, self._tip = disk, tip
 
     def build(self, structure: Structure) -> None:
         """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
-        structure.column(UP, self.names[0], COS, 1.0, structure.quantity("lambda0 kx"))
+        structure.column(UP, self.names[0], COS, 1.0, structure.quantity(STRENGTHS[0]))
         structure.column(MEAN, "one", STEADY, 1.0, structure.states["lambda0"])
 
     def shapes(self) -> dict[Shape, Array]:
@@ -184,23 +159,19 @@ class SectorTerms(WithoutNodes):
     def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
         """λ0 k_x and the gain 1/(4 r F V)."""
         del mu_z, sees_tilt
-        flow = flow_parameters(wake)
-        by_x, by_z, by_inflow = (GRADIENT * wake.lambda0 * flow.slopes[0]).tolist()
-        slopes = float(by_x), float(by_z), float(by_inflow) + GRADIENT * flow.half_skew
-        atoms: dict[Hashable, tuple[float, tuple[float, float, float]]] = {
-            "lambda0 kx": (GRADIENT * wake.lambda0 * flow.half_skew, slopes)
-        }
-        return Followed(atoms, {(GAIN, "gain"): self._gain(wake)})
+        gradient = of_mean(_GRADIENT(wake), wake.lambda0)
+        return Followed({STRENGTHS[0]: gradient}, {(GAIN, "gain"): self._gain(wake)})
 
     def _gain(self, wake: Wake) -> tuple[Array, Array]:
         """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""
-        disk, flow = self._disk, flow_parameters(wake)
+        disk, speed = self._disk, wake.speed
         factor, factor_slope = np.ones_like(disk.r), np.zeros_like(disk.r)
         if self._tip:
             factor, factor_slope = tip_factor(disk.r, wake.axial, disk.blades)
-        gain = 1.0 / (4.0 * disk.r * factor * flow.speed)
+        gain = 1.0 / (4.0 * disk.r * factor * speed)
         by_axial = -gain * factor_slope / factor
-        return gain, -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
+        by_speed = np.array([wake.mu_x, wake.axial, wake.axial]) / speed**2
+        return gain, -np.outer(by_speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
 
     def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Diagonal: 1/(4 r F V)."""

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotor.aero.momentum import Wake
 from rotor.arrays import Array
 
 GRADIENT = 0.5
@@ -26,28 +27,15 @@ trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 1 to 3 
 
 
 @dataclass(frozen=True)
-class WakeCourse:
+class WakeCourse(Wake):
     """What the course of a wake depends on."""
 
-    mu_x: float
-    mu_z: float
-    lambda0: float
     coning: float
     """β0 [rad], and β1c and β1s."""
     flap_1c: float
     flap_1s: float
     core: tuple[float, float]
     """Square of the core of a young tip vortex over R², and its growth by age."""
-
-    @property
-    def axial(self) -> float:
-        """Advance ratio through the disk and the induced inflow."""
-        return self.mu_z + self.lambda0
-
-    @property
-    def speed(self) -> float:
-        """With which a wake leaves."""
-        return math.hypot(self.mu_x, self.axial)
 
     @property
     def skewed(self) -> float:

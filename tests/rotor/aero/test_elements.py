@@ -12,16 +12,14 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem
-from rotor.aero.section import CHANNELS, FX, FZ, LOSS, PAIRS, RATE, section
+from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import elements_of
-from rotor.columns.trims import trim_of
-from rotor.engine.linearise import evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.power import hub_moment
-from tests.rotor.check_jacobian import check_jacobian, elements_at, point_at
+from tests.rotor.check_jacobian import elements_at, point_at
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 
@@ -96,58 +94,6 @@ def test_chord_ratio_and_droop_of_the_r8():
     assert_allclose(np.degrees(disk.offset[middle]), 1.0, rtol=1e-12)
     blended = (disk.weight > 0.0) & (disk.weight < 1.0)
     assert blended.any()
-
-
-@pytest.mark.parametrize("channel", [c for c in CHANNELS if c != RATE])
-def test_pointwise_derivatives(channel: int):
-    """∂F_z, ∂F_x by θ, U_T, U_P, U_R and F against central differences, everywhere on the disk."""
-    p = problem()
-    point = point_at(p, STATE)
-    step = np.zeros((len(CHANNELS), 1, 1))
-    step[channel] = 1e-6
-    ahead, behind = (section(point.channels + sign * step, p.section_data(), False, False)[0] for sign in (1.0, -1.0))
-    for force in (FZ, FX):
-        difference = (ahead[force] - behind[force]) / 2e-6
-        scale = np.abs(difference).max()
-        # C¹ data: a difference across a knot errs by (jump of curvature) × h, 1e-6 of the scale here.
-        assert_allclose(point.slopes[PAIRS.index((force, channel))], difference, rtol=1e-5, atol=3e-6 * scale)
-
-
-@pytest.mark.parametrize(
-    ("preset", "models"),
-    [
-        ("flight", {}),
-        ("flight", {"inflow": "drees", "tip_loss": False}),
-        ("flight", {"inflow": "white-blake", "trim": "thrust"}),
-        ("thesis", {}),
-        ("thesis", {"trim": "propulsive"}),
-        ("thesis", {"inflow": "coleman", "hub_loss": False}),
-    ],
-)
-@pytest.mark.parametrize("mu", [0.03, 0.15, 0.4])
-def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
-    """The exact Jacobian of the trim residual against central differences."""
-    p = problem(preset, mu, **models)
-    state = STATE
-    if preset == "thesis" or models.get("trim") == "thrust":
-        state = replace(STATE, shaft_tilt=math.atan2(p.drag, p.weight))
-    check_jacobian(p, state)
-
-
-def test_newton_converges_quadratically():
-    """Near the root each residual is of the order of the last one squared: the mark of an exact Jacobian."""
-    p = problem(mu=0.2)
-    point = newton(p, first_guess(p)).point
-    free, count = point.system.structure.free, len(trim_of(p.design).unknowns)
-    x, sizes = point.x.copy(), list[float]()
-    x[free[:count]] += 2e-3
-    for _ in range(4):
-        point = evaluate(point.system, point.grid, x, slopes=True)
-        sizes.append(np.abs(point.residual[:count]).max() / p.weight)
-        x[free] -= np.linalg.solve(jacobian(point)[0], point.residual)
-    assert sizes[1] < sizes[0] ** 2
-    assert sizes[2] < sizes[1] ** 2
-    assert sizes[3] < 1e-13
 
 
 def test_the_residuals_are_sums_over_the_elements():

@@ -1,4 +1,4 @@
-"""The linear inflow family, eqs. (2.29)–(2.33), (3.4)."""
+"""Momentum theory, the linear inflow family, eqs. (2.29)–(2.33), (3.4), and momentum theory point by point."""
 
 import math
 
@@ -6,49 +6,58 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.aero.disk import build_disk
 from rotor.aero.inflow import Wake, inflow_model
-from rotor.aero.inflow.linear import LINEAR_MODELS, LinearInflow
+from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
+from rotor.aero.momentum import glauert_inflow
+from rotor.aero.problem import build_problem
+from rotor.arrays import Array
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
-COS, SIN = np.cos(PSI), np.sin(PSI)
 LINEAR = {model.name: model for model in LINEAR_MODELS}
 WAKES = [Wake(0.002, 0.0, 0.055), Wake(0.1, 0.01, 0.03), Wake(0.3, 0.04, 0.011), Wake(0.4, -0.01, 0.02)]
+DISK = build_disk(make_design().rotor, 12, 24)
+
+
+@pytest.mark.parametrize("mu_x", [0.0, 0.05, 0.2, 0.45])
+@pytest.mark.parametrize("mu_z", [-0.01, 0.0, 0.03, 0.1])
+@pytest.mark.parametrize("ct", [1e-4, 0.006, 0.013])
+def test_glauert_closes_and_slope_is_exact(ct: float, mu_x: float, mu_z: float):
+    """Eq. (2.30); less thrust than nothing gives the mirror image."""
+    inflow, slope = glauert_inflow(ct, mu_x, mu_z)
+    assert_allclose(2.0 * inflow * math.hypot(mu_x, mu_z + inflow), ct, rtol=1e-12)
+    h = 1e-6 * ct
+    difference = (glauert_inflow(ct + h, mu_x, mu_z)[0] - glauert_inflow(ct - h, mu_x, mu_z)[0]) / (2.0 * h)
+    assert_allclose(slope, difference, rtol=1e-6)
+    assert_allclose(glauert_inflow(-ct, mu_x, -mu_z), (-inflow, slope), rtol=1e-14)
 
 
 @pytest.mark.parametrize("name", LINEAR)
 @pytest.mark.parametrize("wake", WAKES)
-def test_mean_is_lambda0(name: str, wake: Wake):
-    field = LINEAR[name].field(R, COS, SIN, wake)[0]
-    assert_allclose(field.mean(axis=1), wake.lambda0, rtol=1e-13)
+def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: Wake):
+    def field(at: Array) -> Array:
+        return LINEAR[name].field(R, np.cos(PSI), np.sin(PSI), Wake(*at.tolist()))
 
-
-@pytest.mark.parametrize("name", LINEAR)
-@pytest.mark.parametrize("wake", WAKES)
-def test_slopes_are_exact(name: str, wake: Wake):
-    model = LINEAR[name]
-    slopes = model.field(R, COS, SIN, wake)[1:]
-    base = (wake.mu_x, wake.mu_z, wake.lambda0)
-    h = 1e-7
-    for k in range(3):
-        ahead = [v + h * (i == k) for i, v in enumerate(base)]
-        behind = [v - h * (i == k) for i, v in enumerate(base)]
-        ahead, behind = (model.field(R, COS, SIN, Wake(*there))[0] for there in (ahead, behind))
-        difference = (ahead - behind) / (2 * h)
-        assert_allclose(slopes[k], difference, rtol=1e-6, atol=1e-7)
+    base = np.array([wake.mu_x, wake.mu_z, wake.lambda0])
+    assert_allclose(field(base)[0].mean(axis=1), wake.lambda0, rtol=1e-13)
+    for k, step in enumerate(1e-7 * np.eye(3)):
+        difference = (field(base + step)[0] - field(base - step)[0]) / 2e-7
+        assert_allclose(field(base)[1 + k], difference, rtol=1e-6, atol=1e-7)
 
 
 def gradient(name: str, wake: Wake) -> tuple[float, float]:
-    """(k_x, k_y) read off the field at the disk edge."""
+    """(k_x, k_y) read off the field at the disk edge over the tail, ψ = 0, and at ψ = 90°."""
     field = LINEAR[name].field(np.array([1.0]), np.array([1.0, 0.0]), np.array([0.0, 1.0]), wake)[0]
     return field[0, 0] / wake.lambda0 - 1.0, field[0, 1] / wake.lambda0 - 1.0
 
 
 @pytest.mark.parametrize("wake", WAKES)
 def test_published_gradients(wake: Wake):
-    """The published forms, written with the skew angle itself."""
+    """The published forms, written with the skew angle itself; none in hover."""
     chi = math.atan2(wake.mu_x, wake.mu_z + wake.lambda0)
     half = math.tan(chi / 2.0)
     drees = 4.0 / 3.0 * (1.0 - math.cos(chi) - 1.8 * wake.mu_x**2) / math.sin(chi)
@@ -63,25 +72,7 @@ def test_published_gradients(wake: Wake):
     assert set(expected) == set(LINEAR)
     for name, pair in expected.items():
         assert_allclose(gradient(name, wake), pair, rtol=1e-9, atol=1e-12)
-
-
-def test_the_two_gains_by_hand():
-    """Edgewise limit χ → 90°: tan 45° = 1, so k_x is the gain itself: 1.4726 (theory) and 2.0489 (as printed)."""
-    edgewise = Wake(0.3, 0.0, 1e-12)
-    assert_allclose(gradient("pitt-peters", edgewise)[0], 1.4726, atol=5e-4)
-    assert_allclose(gradient("pitt-peters-15pi/23", edgewise)[0], 2.0489, atol=5e-4)
-
-
-@pytest.mark.parametrize("name", LINEAR)
-def test_hover_has_no_gradient(name: str):
-    assert_allclose(gradient(name, Wake(0.0, 0.0, 0.05)), (0.0, 0.0), atol=1e-14)
-
-
-def test_upwash_at_the_front_downwash_at_the_back():
-    """ψ = 0 is over the tail: more inflow there, less over the nose."""
-    model: LinearInflow = LINEAR["pitt-peters"]
-    field = model.field(np.array([0.9]), np.array([1.0, -1.0]), np.array([0.0, 0.0]), Wake(0.3, 0.03, 0.012))[0]
-    assert field[0, 0] > 0.012 > field[0, 1]
+        assert_allclose(gradient(name, Wake(0.0, 0.0, 0.05)), 0.0, atol=1e-14)
 
 
 def test_unknown_model_is_one_sentence():
@@ -90,11 +81,32 @@ def test_unknown_model_is_one_sentence():
 
 
 def test_a_trim_has_the_first_harmonics_of_its_model():
-    """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29); Drees: k_x = 4/3 (1 − cos χ − 1.8 µ²)/sin χ, k_y = −2µ."""
+    """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29)."""
     solution = solve(make_design(mu=0.2, inflow="drees"))
     disk, state = solution.disk, solution.controls
-    mu_x, mu_z = 0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt)
-    skew = math.atan2(mu_x, mu_z + state.lambda0)
-    k_x = 4.0 / 3.0 * (1.0 - math.cos(skew) - 1.8 * mu_x**2) / math.sin(skew)
-    for wave, strength in ((np.cos(disk.psi), k_x), (np.sin(disk.psi), -2.0 * mu_x)):
+    wake = Wake(0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt), state.lambda0)
+    for wave, strength in zip((np.cos(disk.psi), np.sin(disk.psi)), gradient("drees", wake), strict=True):
         assert_allclose(2.0 * (disk.induced * wave).mean(axis=1), state.lambda0 * strength * disk.r, atol=1e-9)
+
+
+def local_momentum(load: Array, wake: Wake) -> Array:
+    """λ_i of a load, without tip loss."""
+    terms = LocalMomentumInflow(tip=False).on(DISK, build_problem(make_design()).course, (True, True))
+    followed = terms.follow(wake, wake.mu_z, sees_tilt=True)
+    along = followed.atoms["lambda0 kx"][0] * np.outer(DISK.r, DISK.cos)
+    return followed.live[GAIN, "gain"][0][:, None] * load[:, None] + along
+
+
+def test_hover_is_the_annulus_balance():
+    """d = 4λ²r (2.24): the load of a uniform inflow λ, with V = λ0 = λ, answers that inflow."""
+    assert_allclose(local_momentum(4.0 * 0.06**2 * DISK.r, Wake(0.0, 0.0, 0.06)), 0.06, rtol=1e-14)
+
+
+def test_uniformly_loaded_disk_in_forward_flight_is_glauerts():
+    """p = C_T everywhere, d = 2 r p: λ0 of eq. (2.30) and the gradient 15π/32 tan(χ/2) on it."""
+    ct = 0.0065
+    lambda0, _ = glauert_inflow(ct, 0.2, 0.01)
+    wake = Wake(0.2, 0.01, lambda0)
+    chi = math.atan2(wake.mu_x, wake.axial)
+    expected = lambda0 * (1.0 + 15.0 * math.pi / 32.0 * math.tan(chi / 2.0) * np.outer(DISK.r, DISK.cos))
+    assert_allclose(local_momentum(2.0 * DISK.r * ct, wake), expected, rtol=1e-12)

@@ -83,37 +83,6 @@ def test_adjoint_against_differences(inflow: str, objective: Objective, mu: floa
     assert_allclose(exact, difference, atol=1e-6 * power(middle))
 
 
-@pytest.mark.parametrize("preset", ["flight", "thesis"])
-def test_adjoint_at_every_element(preset: str):
-    """dP/dθ at single blade elements, hover and forward, both presets."""
-    for mu in (0.0, 0.25):
-        design = make_design(preset=preset, twist="linear:-10", mu=mu)
-        middle = solve(design, options=TIGHT).require()
-        gradient = power_gradient(middle)
-        for element in (3, 12, 20):
-            bump = np.zeros_like(gradient.r)
-            bump[element] = 2e-5
-            powers = []
-            for sign in (1.0, -1.0):
-                moved = _Bumped(sign * bump, gradient.r)
-                powers.append(solve(replace(design, twist=moved), middle, TIGHT).require().power.total)
-            difference = (powers[0] - powers[1]) / (2.0 * bump[element])
-            assert_allclose(gradient.by_element[element], difference, rtol=2e-5, atol=1e-6 * middle.power.total)
-
-
-class _Bumped:
-    """Linear twist with single elements moved."""
-
-    def __init__(self, bump: np.ndarray, r: np.ndarray) -> None:
-        self.bump, self.r = bump, r
-
-    def __call__(self, r: object) -> np.ndarray:
-        return LinearTwist(np.radians(-10.0))(np.asarray(r)) + np.interp(np.asarray(r), self.r, self.bump)
-
-    def spec(self) -> str:
-        return "bumped"
-
-
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 def test_twist_changes_induced_power(inflow: str):
     """The point of it all: 5–9 % of total power over 0…−20° (linear models: induced power to 1 % the same)."""

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.losses import loss_factor
-from rotor.aero.problem import Problem, build_problem, skin_friction, swirl_of
+from rotor.aero.problem import Problem, build_problem, skin_friction
 from rotor.aero.section import FR, FX, UP, UR, UT, section
 from rotor.aero.switches import no_effect, with_switches
 from rotor.arrays import Array
@@ -66,20 +66,21 @@ def test_swirl_is_what_the_torque_gives_the_air():
     assert (error[middle] < 0.12).all()
 
 
-def test_swirl_slope_and_limit():
-    r = np.array([0.05, 0.2, 0.9])
-    swirl, slope = swirl_of(r, 0.004)
-    assert_allclose(swirl_of(r, 1e-9)[0], 1e-9 / r, rtol=1e-5)
-    assert (swirl < r).all()
-    assert_allclose(slope, (swirl_of(r, 0.004 + 1e-8)[0] - swirl_of(r, 0.004 - 1e-8)[0]) / 2e-8, rtol=1e-6)
+@pytest.mark.parametrize(
+    ("effect", "mu", "low", "high"),
+    [
+        ("swirl", 0.0, 0.003, 0.012), ("swirl", 0.3, -0.001, 0.002),
+        ("swept_tip", 0.0, -3e-3, 1e-3), ("swept_tip", 0.3, -0.04, -0.01),
+    ],
+)  # fmt: skip
+def test_what_an_effect_costs(effect: str, mu: float, low: float, high: float):
+    """Swirl is about 1 % of hover power at helicopter disk loadings (Johnson 1980, §2-3) and fades with λ0 λ.
 
-
-def test_swirl_costs_hover_about_one_per_cent_and_cruise_hardly_anything():
-    """Swirl is about 1 % of hover power at helicopter disk loadings (Johnson 1980, §2-3) and fades with λ0 λ."""
-    for mu, low, high in ((0.0, 0.003, 0.012), (0.3, -0.001, 0.002)):
-        design = make_design(mu=mu)
-        with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, ("swirl",))))
-        assert low < with_it / without - 1.0 < high
+    Sweep saves where the advancing tip is past drag divergence.
+    """
+    design = make_design(mu=mu)
+    with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, (effect,))))
+    assert low < with_it / without - 1.0 < high
 
 
 def test_a_swept_tip_sees_the_flow_normal_to_its_quarter_chord():
@@ -101,13 +102,6 @@ def test_sweep_begins_smoothly_over_one_chord():
     half = 0.5 * 0.5273 / 8.1788
     sweep = np.degrees(blade.sweep([0.9286 - half, 0.9286, 0.9286 + half, 1.0], radius))
     assert_allclose(sweep, [0.0, 10.0, 20.0, 20.0], atol=1e-9)
-
-
-def test_sweep_saves_power_where_the_advancing_tip_is_past_drag_divergence():
-    for mu, least, most in ((0.0, -1e-3, 3e-3), (0.3, 0.01, 0.04)):
-        design = make_design(mu=mu)
-        swept, straight = (solve(d).require().power.total for d in (design, with_switches(design, ("swept_tip",))))
-        assert least < 1.0 - swept / straight < most
 
 
 def test_download_is_the_stated_part_in_hover_and_fades_with_the_skew_of_the_wake():
@@ -141,12 +135,3 @@ def test_the_document_has_none_of_them():
         assert on.power == off.power
         for name in BEYOND_DOCUMENT:
             assert no_effect(design, name) == "the document does not have it"
-
-
-def test_friction_reaches_the_torque_and_the_drag_of_the_rotor():
-    """With it P_shaft still is the sum of the parts, and F_x exceeds that of the section data."""
-    design = make_design(mu=0.35)
-    solution = solve(design).require()
-    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
-    problem = build_problem(design)
-    assert 0.006 < problem.friction < 0.007  # Re 6 million at 0.75 R.

@@ -2,10 +2,13 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.testing import assert_array_equal
+from numpy.polynomial import polynomial
+from numpy.testing import assert_allclose, assert_array_equal
 
+from rotor.aero.look_up import surface
 from rotor.aero.problem import build_problem
 from rotor.aero.section import FZ, LOSS, TH, UP, UR, UT, arctangent, of_double_angle, section
 from rotor.arrays import Array
@@ -27,6 +30,25 @@ def doubled(angle: Array) -> Array:
     for k in range(len(angle)):
         out[0, k], out[1, k] = of_double_angle(angle[k])
     return out
+
+
+@compiled()
+def polynomials(cell: Any, u: Any, v: Any) -> Any:
+    out = np.empty((3, len(u)))
+    for k in range(len(u)):
+        out[0, k], out[1, k], out[2, k] = surface(cell, u[k], v[k])
+    return out
+
+
+def test_the_polynomial_of_a_cell_is_that_of_numpy():
+    random = np.random.default_rng(2)
+    u, v = random.uniform(0.0, 1.0, (2, 500))
+    cell = random.standard_normal((2, 4, 4))[1]
+    found = polynomials(cell, u, v)
+    assert_allclose(found[0], polynomial.polyval2d(u, v, cell), rtol=0, atol=1e-14)
+    for axis in range(2):
+        slope = polynomial.polyval2d(u, v, polynomial.polyder(cell, axis=axis))
+        assert_allclose(found[1 + axis], slope, rtol=0, atol=3e-14)
 
 
 def test_arctangent_to_rounding():

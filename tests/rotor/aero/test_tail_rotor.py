@@ -37,14 +37,6 @@ def test_slope_is_exact(speed: float, torque: float):
     assert_allclose(slope, difference, rtol=1e-6)
 
 
-def test_share_of_power_near_the_documents_five_per_cent():
-    """The document finds about +5 % in every flight state; ours is solved: 4…14 %, least at moderate speed."""
-    shares = {}
-    for mu in (0.0, 0.15, 0.25, 0.35):
-        power = solve(make_design(mu=mu)).require().power
-        shares[mu] = power.tail / power.main_rotor
-        thesis = solve(make_design(preset="thesis", mu=mu)).require().power
-        assert_allclose(thesis.tail, 0.05 * thesis.main_rotor, rtol=1e-14)
-    print("tail over main rotor:", {mu: f"{100 * share:.1f} %" for mu, share in shares.items()})
-    assert all(0.03 < share < 0.15 for share in shares.values())
-    assert shares[0.15] < shares[0.0]
+def test_the_thesis_adds_five_per_cent():
+    power = solve(make_design(preset="thesis", mu=0.15)).require().power
+    assert_allclose(power.tail, 0.05 * power.main_rotor, rtol=1e-14)

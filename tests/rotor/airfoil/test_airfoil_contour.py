@@ -79,22 +79,10 @@ def test_resampling_keeps_the_shape(name: str, n: int) -> None:
     assert_allclose(area(again.points), area(contour.points), rtol=0.01 * (41 / n) ** 2 + given)
 
 
-def test_resampled_sections_correspond_point_by_point() -> None:
-    one, two = (resample(load_contour(name), 81).points for name in ("sc1095", "sc1094r8"))
-    assert np.abs(one - two).max() < 0.03, "corresponding points lie near each other"
-    half = 0.5 * (one + two)
-    assert np.all(np.diff(half[:41, 0]) < 0.0)
-    assert np.all(np.diff(half[41:, 0]) > 0.0)
-
-
-def test_selig_files_with_a_title_are_read(tmp_path: Path) -> None:
-    body = "\n".join(f"{x:.6f} {y:.6f}" for x, y in load_contour("sc1095").points)
-    (tmp_path / "copy.dat").write_text(f"SOME AIRFOIL\n{body}\n", encoding="utf-8")
-    assert_allclose(read_contour(tmp_path / "copy.dat").points, load_contour("sc1095").points, atol=1e-6)
-
-
-def test_bad_outlines_are_refused_in_one_sentence(tmp_path: Path) -> None:
+def test_titled_outlines_are_read_and_bad_ones_refused_in_one_sentence(tmp_path: Path) -> None:
     body = [f"{x:.6f} {y:.6f}" for x, y in load_contour("sc1095").points]
+    (tmp_path / "copy.dat").write_text("\n".join(["SOME AIRFOIL", *body]), encoding="utf-8")  # Selig's title.
+    assert_allclose(read_contour(tmp_path / "copy.dat").points, load_contour("sc1095").points, atol=1e-6)
     for text, words in (
         ("\n".join(body[:50]) + "\n0.5 oops\n", "line 51: '0.5 oops' is not `x y`"),
         ("\n".join(body[:9]), "has 9 points"),

@@ -101,16 +101,3 @@ def test_blade_weight_lowers_the_coning():
     rotor = uh60a_rotor("flight")
     assert_allclose(flap_dynamics(rotor, 1.225, blade_weight=True).weight, 0.00253, atol=1e-5)
     assert flap_dynamics(rotor, 1.225, blade_weight=False).weight == 0.0
-
-
-def test_given_flapping_is_trimmed():
-    """β1c given: the trim keeps it, and the hinge offset carries a hub moment."""
-    from rotor.trim.solve import solve
-
-    design = make_design(mu=0.2)
-    tilted = replace(design, condition=replace(design.condition, flap_1c=math.radians(-2.0)))
-    solution = solve(tilted).require()
-    assert_allclose(math.degrees(solution.controls.flap_1c), -2.0, rtol=1e-12)
-    # A disk tilted back 2° needs about 2° more shaft tilt for the same force.
-    change = solution.controls.shaft_tilt - solve(design).controls.shaft_tilt
-    assert_allclose(math.degrees(change), 2.0, atol=0.25)

@@ -69,13 +69,6 @@ def test_fan_plot_of_the_uh60a():
     assert 0.98 - 0.56 < turning - still < 22.36 - 20.56
 
 
-def test_softer_controls_lower_the_frequency():
-    structure = uh60a_structure()
-    found = [blade_modes(replace(structure, control_stiffness=k), SPEED, 1).frequency[0] for k in (5e4, 1.1e5, 1e9)]
-    assert found[0] < found[1] < found[2]
-    assert_allclose(found[2] / SPEED, 5.38, atol=0.01)  # As clamped: worked example of the same data, 5.29 to 5.4.
-
-
 def test_bad_structures_are_refused():
     structure = uniform(1e5)
     for change in ({"stations": (1.0, 0.0)}, {"torsional_stiffness": (1.0,)}, {"control_stiffness": 0.0}):
