@@ -159,7 +159,7 @@ class TestFlight:
         hours = [one.hours for one in instants]
         assert hours == sorted(hours)
         saved = [one.saved for one in instants]
-        assert saved == sorted(saved)
+        assert np.diff(saved).min() > -1e-12 * max(saved)  # But for rounding.
 
     def test_twist_is_continuous_and_no_mission_time_passes_between_legs(self, progress: PlanProgress):
         instants = played(progress, 600)
