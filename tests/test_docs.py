@@ -187,6 +187,7 @@ def page_with_a_chart(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.browser
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_chart_of_the_site_is_lines_on_its_page(scheme, page_with_a_chart: Path, browser: typing.Any):
     """Grid and axes once were filled, which covered half of every chart with a black triangle."""

@@ -123,9 +123,10 @@ class NewestWins:
 
     def stop(self, timeout: float = 2.0) -> None:
         """No update and no step begins after this; waits for the one that runs."""
-        self._stopped = True
-        self._wanted.set()
         with self._pool.change:
+            self._stopped = True
+            self._wanted.set()
+            self._pool.change.notify_all()  # Nobody waits for an answer any longer.
             if self._thread != threading.get_ident():
                 self._pool.change.wait_for(lambda: self._state != "running", timeout)
 

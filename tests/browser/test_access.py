@@ -35,6 +35,7 @@ def spoken(watched: Watched) -> list[tuple[str, str]]:
     return [(role, name) for role, name in found if role in CONTROLS]
 
 
+@pytest.mark.slow
 def test_every_control_has_a_spoken_name(watched: Watched):
     expected = {
         "explore": ("slider", "Δ outboard [°/R]"),

@@ -45,6 +45,7 @@ def test_the_first_verdict_comes_by_itself(watched: Watched):
     assert watched.page.evaluate("() => RX.state.earns.net") in watched.text("since")
 
 
+@pytest.mark.slow
 def test_electrodes_follow_actuator_and_voltage(watched: Watched):
     watched.page.get_by_text("Electrodes", exact=True).click()
     watched.page.wait_for_selector('[data-explorer="electrodes"]', state="visible")
@@ -99,6 +100,7 @@ def angle(watched: Watched) -> float:
     )
 
 
+@pytest.mark.slow
 def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behind(watched: Watched):
     """Enter, move the bar, leave: the blade twists by what the chart says, and the scene is as it was."""
     page = watched.page
@@ -136,6 +138,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     watched.reads("actuator-now", "at rest")  # What the flight drove is at rest again.
 
 
+@pytest.mark.slow
 def test_the_flight_is_played_and_another_view_lets_the_blade_fly_back(watched: Watched):
     watched.page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     before = watched.page.evaluate("() => RX.state.flight.at")

@@ -22,6 +22,7 @@ def centre(watched: Watched) -> tuple[float, float, float]:
     return box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"], 0.5 * box["width"] - 22.0
 
 
+@pytest.mark.slow
 def test_a_drag_on_the_dial_is_foreseen_trimmed_and_one_undo(watched: Watched):
     page = watched.page
     watched.mode("actuate")
@@ -55,6 +56,7 @@ def test_a_drag_on_the_dial_is_foreseen_trimmed_and_one_undo(watched: Watched):
     watched.until(lambda: page.evaluate(NOW)[0][:2] == [2, 1])
 
 
+@pytest.mark.slow
 def test_the_map_stands_in_the_stage_and_leaves_nothing(watched: Watched):
     page = watched.page
     watched.mode("optimise")

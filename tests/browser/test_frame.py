@@ -40,6 +40,7 @@ def test_each_mode_has_its_own_rail(watched: Watched):
     rail.get_by_text("Objective").wait_for(state="detached")
 
 
+@pytest.mark.slow
 def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watched):
     page = watched.page
     for name, title in DRAWERS.items():
@@ -127,6 +128,7 @@ def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(
     assert "grabbed" not in watched.text("since")
 
 
+@pytest.mark.slow
 def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
     page = watched.page
     watched.press("Δ outboard [°/R]", "PageUp", 2)
@@ -146,6 +148,7 @@ def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
     assert "grabbed" not in watched.text("since")
 
 
+@pytest.mark.slow
 def test_the_handles_of_the_curve_have_keys(watched: Watched):
     page = watched.page
     outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
@@ -212,6 +215,7 @@ def test_less_motion_is_respected(watched: Watched):
     assert watched.page.evaluate(moving) > 0
 
 
+@pytest.mark.slow
 def test_on_a_tablet_the_rail_is_a_drawer(watched: Watched):
     page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
     page.set_viewport_size({"width": 768, "height": 1024})

@@ -79,7 +79,8 @@ def faults(watched: Watched) -> dict[str, list[str]]:
     return found
 
 
-@pytest.mark.parametrize("pinned", [pytest.param(False, marks=pytest.mark.slow), True])
+@pytest.mark.slow
+@pytest.mark.parametrize("pinned", [False, True])
 def test_every_mode_and_drawer(watched: Watched, pinned: bool):
     page = watched.page
     if pinned:

@@ -91,6 +91,7 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     )
 
 
+@pytest.mark.slow
 def test_its_end_flies_the_actuator(visit: Visit):
     """The last press ends the lecture in Actuate, with the rail that moves the actuator."""
     watched = visit()
@@ -106,6 +107,7 @@ def test_its_end_flies_the_actuator(visit: Visit):
     design_in_address(watched, "mu=0.3")
 
 
+@pytest.mark.slow
 def test_a_scroll_by_hand_is_a_step_and_a_new_layout_none(visit: Visit):
     watched = visit()
     page = watched.page

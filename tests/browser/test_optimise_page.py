@@ -85,6 +85,7 @@ def until_better(session: Session) -> None:
         time.sleep(0.01)
 
 
+@pytest.mark.slow
 def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
     watched, session = page
     before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
@@ -115,6 +116,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.until(lambda: watched.text("total-power").startswith(f"{power / 1e3:.0f}"))
 
 
+@pytest.mark.slow
 def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
     inputs = session.page.controls.inputs()
@@ -144,6 +146,7 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
     assert session.page.controls.inputs() == START
 
 
+@pytest.mark.slow
 def test_stop_keeps_the_best(page: tuple[Watched, Session]):
     """That it answers at once is proved where jobs are: `tests/explorer/workers/test_pool.py`."""
     watched, session = page

@@ -24,6 +24,7 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
     assert watched.page.evaluate("() => RX.state.bar.mode") == "explore"
 
 
+@pytest.mark.slow
 def test_the_strip_has_four_charts_with_axes(watched: Watched):
     watched.answered(wholly=True)
     names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
@@ -114,6 +115,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
+@pytest.mark.slow
 def test_thesis_preset_brings_its_own_inflow(watched: Watched):
     watched.page.get_by_text("Model", exact=True).click()
     watched.drawer("trust")

@@ -250,10 +250,12 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     page.locator(".mantine-Spotlight-action", has_text="Hover").click()
     page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText === 'hover'")
     page.locator("[class*=Spotlight-overlay]").wait_for(state="detached")
+    watched.answered()
     page.keyboard.press("k")
     page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText.includes('103 kt')")
 
 
+@pytest.mark.slow
 def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")

@@ -56,6 +56,7 @@ def test_undo_redo_and_history(visit: Visit):
     page.locator('[data-explorer="kept"]').wait_for(state="detached")
 
 
+@pytest.mark.slow
 def test_the_address_is_the_design(visit: Visit):
     watched = visit(COARSE + "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
     design = Inputs(law="linear", linear=-9.5, advance_ratio=0.3, mass_t=9.0, inflow="drees").design()
@@ -79,6 +80,7 @@ def test_the_address_is_the_design(visit: Visit):
     watched.page.wait_for_selector("[data-do=region][data-value=stall][aria-pressed=false]")
 
 
+@pytest.mark.slow
 def test_save_and_load(visit: Visit, tmp_path: Path):
     watched = visit(COARSE + "&d=1;spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1;airfoils=sc1095")
     page = watched.page

@@ -283,7 +283,7 @@ class TestAnswers:
         go_on, end, seen, told = threading.Event(), threading.Event(), [0], list[str]()
 
         def update() -> Iterator[float]:
-            go_on.wait(10.0)
+            go_on.wait(LONG)
             seen[0] += 1
 
             def steps() -> Iterator[float]:
