@@ -172,10 +172,6 @@ class SliderSensitivity:
         """What belongs behind the number: `kW/°`, `kW/0.1 R`, `hp/200 lb`."""
         return units.power[0].symbol + slider(self.name, units).per
 
-    def text(self, units: Units = SI) -> str:
-        """Number and unit, or that a step changes nothing: `−2.6 kW/0.1 R`, `no effect`."""
-        return f"{self.value_text(units)} {self.unit_text(units)}" if self.saving_direction else "no effect"
-
 
 def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, SliderSensitivity]:
     """Exact sensitivity of each slider of the present twist law, in the order of the page; empty without sliders.
