@@ -355,6 +355,8 @@ def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
         rows.append((name, QUANTITIES[quantity], "mean", f"{one.measured_mean:{form}}", "", f"{one.mean:{form}}", ""))
         for n in range(1, len(one.waves) // 2 + 1):
             size, angle = one.amplitude(n, measured=True), one.phase_deg(n, measured=True)
-            ours = (f"{one.amplitude(n):{form}}", f"{one.phase_deg(n):.0f}")
+            ours = f"{one.amplitude(n):{form}}", f"{one.phase_deg(n):.0f}"
+            if float(ours[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
+                ours = "0", "–"
             rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *ours))
     return tuple(rows)
