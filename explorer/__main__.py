@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
-from explorer.hosting.limits import SESSIONS, host_name, is_loopback, warning
+from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
+from explorer.hosting.limits import SESSIONS
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, run_command

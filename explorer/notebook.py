@@ -6,7 +6,8 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.limits import ServerLimits, host_name
+from explorer.hosting.allowed_hosts import host_name
+from explorer.hosting.limits import ServerLimits
 from explorer.model.inputs import inputs_of
 from rotor import Design
 from rotor.design.design import require_design

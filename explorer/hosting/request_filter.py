@@ -19,7 +19,8 @@ from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
 from explorer import web
-from explorer.hosting.limits import LARGEST_MESSAGE, AllowedHosts, RateLimiter
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import LARGEST_MESSAGE, RateLimiter
 from rotor.compiled import compiling
 
 TITLE = "Rotor explorer"

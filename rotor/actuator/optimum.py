@@ -248,6 +248,13 @@ SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
 """r/R of the electrical segments that follow a curved twist law."""
 
 
+def divisions_of(law: TwistLaw, parameters: int) -> tuple[float, ...]:
+    """r/R where segments of an actuator meet that is to follow a law with so many parameters."""
+    if isinstance(law, PiecewiseLinearTwist):
+        return law.breaks
+    return () if parameters == 1 else SMOOTH_DIVISIONS
+
+
 @dataclass(frozen=True, eq=False)
 class Baseline:
     """Optima of one concept for a pair of flight conditions, without an actuator."""
@@ -278,10 +285,7 @@ class Baseline:
     @property
     def divisions(self) -> tuple[float, ...]:
         """r/R where the concept's segments meet."""
-        law = self.fixed_twist
-        if isinstance(law, PiecewiseLinearTwist):
-            return law.breaks
-        return () if len(self.fixed.values) == 1 else SMOOTH_DIVISIONS
+        return divisions_of(self.fixed_twist, len(self.fixed.values))
 
     def change(self, r: Array) -> Array:
         """Required change of twist from the first condition to the second at r/R [rad], zero at the cut-out."""

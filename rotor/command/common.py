@@ -32,7 +32,7 @@ from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
-from rotor.optimisation.search import ChangeLimit, Limits
+from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.user_input import write_whole
 
 Run = Callable[[argparse.Namespace], int]

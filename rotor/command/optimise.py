@@ -33,7 +33,8 @@ from rotor.optimisation.objective import (
     measure,
     read_mission,
 )
-from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
+from rotor.optimisation.results import Minimum, Optimum, Progress, SearchStatus
+from rotor.optimisation.search import STARTS, Search, run_search
 from rotor.terminal import wrapped
 from rotor.trim.solution import Solution
 

@@ -25,8 +25,8 @@ from rotor.command.common import (
 from rotor.command.optimise import named
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
+from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
-from rotor.optimisation.search import Optimum, SearchStatus
 from rotor.terminal import wrapped
 from rotor.user_input import check_writable, parse_range
 

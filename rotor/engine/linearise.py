@@ -293,7 +293,7 @@ def jacobian(point: Point, further: Terms = NOTHING) -> tuple[Array, Array]:
     end = size + len(by_channel)
     full = np.empty((end, end))
     full[:size, :size], full[:size, size:] = by_states[:size], through[:size]
-    full[size:, :size] = -_ownslopes(point, nodes.force)
+    full[size:, :size] = -_field_slopes(point, nodes.force)
     np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
     full[range(size, end), range(size, end)] += 1.0
     return full, np.concatenate([by_states[size:], through[size:]], axis=1)
@@ -345,7 +345,7 @@ def _measures_by_channel(point: Point, channel: int) -> Array:
     return out.reshape(len(out), -1)
 
 
-def _ownslopes(point: Point, force: int) -> Array:
+def _field_slopes(point: Point, force: int) -> Array:
     """∂ of a force at every point by the states solved for, (points, states)."""
     structure, waves = point.system.structure, point.grid.waves
     by_atom, shapes = _coefficient_slopes(point), len(point.phi)

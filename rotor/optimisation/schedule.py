@@ -16,9 +16,11 @@ from typing import Any, cast
 from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.evaluator import TrimmedBlades
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
 from rotor.optimisation.processes import WorkerLost, Workers
-from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
+from rotor.optimisation.results import Minimum, Optimum, SearchStatus
+from rotor.optimisation.search import Search, run_search
 from rotor.user_input import read_text
 
 CHUNK = 4

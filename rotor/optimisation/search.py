@@ -20,15 +20,9 @@ from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_band
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
-from rotor.optimisation.limits import ChangeLimit as ChangeLimit
-from rotor.optimisation.limits import Limits as Limits
-from rotor.optimisation.limits import even_change_limit as even_change_limit
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index, over_conditions
-from rotor.optimisation.results import Band as Band
-from rotor.optimisation.results import Minimum as Minimum
-from rotor.optimisation.results import Optimum as Optimum
-from rotor.optimisation.results import Progress as Progress
-from rotor.optimisation.results import SearchStatus as SearchStatus
+from rotor.optimisation.results import Band, Minimum, Optimum, Progress, SearchStatus
 
 STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""

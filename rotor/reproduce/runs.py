@@ -16,7 +16,8 @@ from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.processes import Workers
-from rotor.optimisation.search import Search, SearchStatus, run_search
+from rotor.optimisation.results import SearchStatus
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

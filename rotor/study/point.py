@@ -27,8 +27,10 @@ from rotor.design.design import Design, check_preset, preset_models
 from rotor.design.stand import STAND_KEYS
 from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.optimisation.concepts import Concept, restrict
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import at_condition, hover_and_cruise
-from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
+from rotor.optimisation.results import Optimum, SearchStatus
+from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads

@@ -17,9 +17,9 @@ from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity, WeightedCondition
 from rotor.optimisation.schedule import Plan, Schedule, run_plan
-from rotor.optimisation.search import Limits
 from rotor.plots import plot_lines
 from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution

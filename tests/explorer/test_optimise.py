@@ -27,8 +27,8 @@ from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
-from rotor.optimisation.search import Progress
-from rotor.optimisation.search import SearchStatus as Status
+from rotor.optimisation.results import Progress
+from rotor.optimisation.results import SearchStatus as Status
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)

@@ -22,11 +22,10 @@ from rotor.actuator import (
     install,
 )
 from rotor.actuator.harmonic import dynamic_twist, with_harmonic
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, twisted
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, divisions_of, twisted
 from rotor.actuator.section import BladeKind
 from rotor.actuator.verdict import Against
 from rotor.arrays import Array
-from rotor.design import PiecewiseLinearTwist
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept
 
@@ -202,6 +201,4 @@ def concept_divisions(name: str) -> tuple[float, ...]:
     """r/R where a concept's segments meet."""
     concept = find_concept(name)
     law = concept.twist([0.5 * (p.low + p.high) for p in concept.parameters])
-    if isinstance(law, PiecewiseLinearTwist):
-        return law.breaks
-    return () if len(concept.parameters) == 1 else SMOOTH_DIVISIONS
+    return divisions_of(law, len(concept.parameters))

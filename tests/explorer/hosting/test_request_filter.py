@@ -17,7 +17,8 @@ from websockets.typing import Subprotocol
 
 from explorer.app import App, PortBusy
 from explorer.hosting import limits, request_filter, viser_compat
-from explorer.hosting.limits import AllowedHosts, ServerLimits
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor, ran

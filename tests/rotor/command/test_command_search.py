@@ -13,7 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor.command.optimise as command
-from rotor.optimisation.search import Progress
+from rotor.optimisation.results import Progress
 from tests.rotor.command.test_command import run
 
 CONTRACT = [

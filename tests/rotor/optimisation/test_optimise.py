@@ -16,6 +16,7 @@ from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
 from rotor.optimisation.descent import second_derivatives
+from rotor.optimisation.limits import ChangeLimit, Limits, even_change_limit
 from rotor.optimisation.objective import (
     POWERS,
     Objective,
@@ -25,18 +26,8 @@ from rotor.optimisation.objective import (
     hover_and_cruise,
     measure,
 )
-from rotor.optimisation.search import (
-    STARTS,
-    ChangeLimit,
-    Limits,
-    Minimum,
-    Optimum,
-    Progress,
-    Search,
-    SearchStatus,
-    even_change_limit,
-    run_search,
-)
+from rotor.optimisation.results import Minimum, Optimum, Progress, SearchStatus
+from rotor.optimisation.search import STARTS, Search, run_search
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve

@@ -13,10 +13,10 @@ from numpy.testing import assert_allclose
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.results import Minimum
+from rotor.optimisation.results import Minimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
-from rotor.optimisation.search import Limits, SearchStatus
 from rotor.trim.solve import solve
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")
