@@ -69,6 +69,7 @@ INFLOW_MENUS = {
     "inflow": {name: model.title for name, model in INFLOW_MODELS.items()},
     "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
     "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
+    "loss_on": {"lift": "On the lift", "inflow": "On the inflow, eq. (3.3)"},
 }
 """Inputs that choose the inflow: name → title of each choice."""
 
@@ -111,6 +112,7 @@ class Inputs:
     inflow: str = FLIGHT_MODELS.inflow
     hover_inflow: str = FLIGHT_MODELS.hover_inflow
     low_speed: str = FLIGHT_MODELS.low_speed
+    loss_on: str = FLIGHT_MODELS.loss_on
     flapping: bool = True
     tip_loss: bool = True
     hub_loss: bool = True

@@ -27,7 +27,7 @@ from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from rotor import Design, make_design
-from rotor.files.design_file import design_from_record, parse_design
+from rotor.files.design_file import READS, design_from_record, parse_design
 from rotor.files.make_design import Tell, warn
 from rotor.user_input import refusing
 
@@ -55,6 +55,8 @@ _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
 _NEVER = ("format", "version", "twist")
+_ALWAYS = ("loss_on",)
+"""Written wherever a record has it: a link of the preset `thesis` without it is from before this choice."""
 STEPS_KEPT = "steps"
 MOST_STEPS = 50
 """Most steps before the present that are kept, and most after it."""
@@ -81,7 +83,9 @@ def code_of(design: Design) -> str:
     plain = make_design()
     usual = make_design(preset=record["preset"], rotor=design.aircraft).to_dict()
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
-    changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
+    changed = {
+        key: value for key, value in record.items() if key not in _NEVER and (key in _ALWAYS or value != usual.get(key))
+    }
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
@@ -100,7 +104,7 @@ def design_from(code: str, tell: Tell = warn) -> Design:
     twist, *words = _LOST_PLUS.sub("+", rest).replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
-    record: dict[str, Any] = {"twist": twist}
+    record: dict[str, Any] = {"version": READS[-1], "twist": twist}
     for word in words:
         key, found, value = word.partition("=")
         if not found:

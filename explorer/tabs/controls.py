@@ -87,6 +87,7 @@ class DesignControls:
             self._explanation = gui.add_html("")
             self._inflow_menu(gui, "hover_inflow", "Inflow in hover")
             self._inflow_menu(gui, "low_speed", "At low speed")
+            self._inflow_menu(gui, "loss_on", "Tip and root loss")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))

@@ -106,7 +106,6 @@ def section_title(section: str) -> str:
     titles = {
         "sc1095": "SC1095",
         "sc1094r8": "SC1094 R8",
-        "sc1095-thesis": "SC1095 polynomials",
         "naca0012": "NACA 0012",
         "naca63a015": "NACA 63-015A",
         "naca64935": "NACA 64-935",
@@ -119,7 +118,7 @@ def section_title(section: str) -> str:
         "naca23012tab": "NACA 23012 tab",
         "naca23012tab-model": "23012 tab, model",
     }
-    return titles.get(section, section)
+    return titles.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
 
 
 def _status(kind: str, text: str) -> str:

@@ -14,10 +14,10 @@ from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowTerms, SectionInterface
+from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.section import NO_MOMENT, NOTHING_ADDED, SectionData
+from rotor.aero.section import LOSS, NO_MOMENT, NOTHING_ADDED, SectionData
 from rotor.aero.stalling_section import StallingData, stalling
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
@@ -88,7 +88,7 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        own = self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
+        own = self.inflow.on(self.disk, self.course, Losses(models.tip_loss, models.hub_loss, models.loss_on))
         return own if self.stall is None else own.unsteady(self.stall.half_chord)
 
     @cached_property
@@ -110,7 +110,7 @@ class Problem:
             *self.disk.section_data,
             self.tip_mach,
             self.friction,
-            not self.inflow.load_dependent and not self.design.hovering,
+            (LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
             _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
             NOTHING_ADDED,
             *(NO_MOMENT if torsion is None else torsion.moment_data),

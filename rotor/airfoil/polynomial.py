@@ -1,9 +1,9 @@
 """The document's section model: one polar, one polynomial each for lift and drag, no Mach number.
 
 Lonoce fits Cl by order 10 and Cd by order 12 to XFOIL data of SC1095 (figs. 3.3-3.6). Range, Reynolds number,
-Mach and transition are not stated; ours are SC1095, M 0.3, Re 3.68e6, Ncrit 9, -10..15 deg, constant outside
-(extrapolated, Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in degrees, the
-order-12 power basis would have a condition number of 2e15.
+Mach and transition are not stated (`PolynomialReading`); outside the range coefficients are constant (extrapolated,
+Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in degrees, the order-12 power basis would
+have a condition number of 2e15.
 """
 
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ FIT_RANGE_DEG = (-10.0, 15.0)  # our choice: within 0.5 % of the interpolated po
 class PolynomialReading:
     """What the document leaves open of its polynomials: transition, Mach number and range of the fit.
 
-    The default is the reading of the `thesis` preset; the others serve to show what the choice decides.
+    The default has the plain name: it was the reading of the `thesis` preset, which design files and links still name.
     """
 
     transition: Literal["free", "tripped"] = "free"
@@ -43,6 +43,10 @@ class PolynomialReading:
         if self == PolynomialReading():
             return THESIS_NAME
         return f"{THESIS_NAME}:{self.transition}:{self.mach:g}:{self.range_deg[0]:g}:{self.range_deg[1]:g}"
+
+
+THESIS_READING = PolynomialReading("tripped", 0.1)
+"""That of the preset `thesis`, see `rotor.reproduce.readings`."""
 
 
 def parse_reading(name: str) -> PolynomialReading:

@@ -111,11 +111,12 @@ def _structure(key: _StructureKey) -> Structure:
         free += freedom.build(s)
     terms.build(s)
     s.column(UT, SWIRL_SLOPE, STEADY, 1.0, derived["change of swirl"])
-    for channel, name in terms.live:
-        s.column(channel, (name, "tilt"), STEADY, 1.0, derived["change of tilt"])
-        s.column(channel, (name, "inflow"), STEADY, 1.0, derived["change of lambda0"])
-    for channel, name in ((UT, SWIRL), *terms.live):  # Last, for their columns do not change.
-        s.column(channel, name, STEADY, 1.0, ONE)
+    live = terms.live_columns(s)
+    for channel, name, wave, atom in live:
+        s.column(channel, (name, "tilt"), wave, 1.0, derived["change of tilt"], atom)
+        s.column(channel, (name, "inflow"), wave, 1.0, derived["change of lambda0"], atom)
+    for channel, name, wave, atom in ((UT, SWIRL, STEADY, ONE), *live):  # Last, for most of them do not change.
+        s.column(channel, name, wave, 1.0, atom)
     for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
         s.measure(FZ, shape, wave)
     torque_terms(s)

@@ -26,7 +26,7 @@ from rotor.aero.switches import SWITCHES
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic
-from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
+from rotor.design.design import HOVER_INFLOWS, LOSS_ON, LOW_SPEEDS, TRIMS, Design
 from rotor.design.stand import Flapping
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
@@ -102,6 +102,8 @@ def _how(name: str, hint: Any) -> dict[str, Any]:
         return {"action": "store_true"}
     if name == "low_speed":
         return {"choices": LOW_SPEEDS}
+    if name == "loss_on":
+        return {"choices": LOSS_ON}
     if int in get_args(hint):
         return {"type": int, "metavar": "N"}
     if float in get_args(hint):

@@ -132,20 +132,20 @@ def run_ladder(args: argparse.Namespace) -> int:
 
 
 def ladder_text(found: Ladder) -> str:
-    fast = f"µ {found.speeds[-1]:g}"
     heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in found.speeds]
     wide = 46
     lines = [
         "UH-60A, 8322.4 kg, sea level: linear twist of least total power [°/R]; each line changes one assumption more.",
-        f"Moves, at {fast}: in the ladder, changed alone on thesis, taken back alone from flight. Saves: what a moving",
-        "twist saves beyond the best fixed one, equal time at each speed.",
+        "Moves, at the µ named: in the ladder / changed alone on thesis / taken back alone from flight. Saves: what a",
+        "moving twist saves beyond the best fixed one, equal time at each speed.",
         f"−17.3° over −11.5°: main-rotor power at {FAST_KMH:.0f} km/h; Keys et al. measured {100 * FAST:+.0f} %.",
         "",
         f"{'':<{wide}}" + "".join(f"{head:>8}" for head in heads)
-        + f"{'moves':>9}{'on thesis':>11}{'off flight':>12}{'saves':>9}{'−17.3/−11.5':>13}",
+        + "".join(f"{f'moves at {mu:g}':>21}" for mu in found.named) + f"{'saves':>9}{'−17.3/−11.5':>13}",
     ]  # fmt: skip
     for one in found.steps:
-        lines.append(f"{one.words:<{wide}}{_rates(one.best)}{_moves(one)}{_end(one)}")
+        moved = _moves(one) if one.moves else f"{'':{21 * len(found.named)}}"
+        lines.append(f"{one.words:<{wide}}{_rates(one.best)}{moved}{_end(one)}")
         if one.name == TRIM[-1]:
             lines.append(f"{'  ' + found.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(found.trim)}")
     lines += [
@@ -154,7 +154,10 @@ def ladder_text(found: Ladder) -> str:
         "",
         "flight with each inflow model",
     ]
-    lines += [f"{one.inflow:<{wide}}{_rates(one.best)}{'':32}{100 * one.moving.gain:7.2f} %" for one in found.wakes]
+    lines += [
+        f"{one.inflow:<{wide}}{_rates(one.best)}{'':{21 * len(found.named)}}{100 * one.moving.gain:7.2f} %"
+        for one in found.wakes
+    ]
     return "\n".join(lines)
 
 
@@ -163,8 +166,8 @@ def _rates(best: Sequence[Least]) -> str:
 
 
 def _moves(one: Step) -> str:
-    ways = ((one.moves_deg, 9), (one.alone_on_thesis_deg, 11), (one.alone_off_flight_deg, 12))
-    return "".join(f"{'–' if way is None or abs(way) < NOTHING else f'{way:+.1f}':>{width}}" for way, width in ways)
+    words = (" / ".join("–" if abs(way) < NOTHING else f"{way:+.1f}" for way in ways) for ways in one.moves)
+    return "".join(f"{word:>21}" for word in words)
 
 
 def _end(one: Step) -> str:
@@ -174,6 +177,7 @@ def _end(one: Step) -> str:
 def ladder_record(found: Ladder) -> dict[str, Any]:
     return {
         "speeds_mu": list(found.speeds),
+        "named_mu": list(found.named),
         "steps": [_step_record(one) for one in found.steps],
         "trim": _step_record(found.trim),
         "eight_blades_deg": found.eight_blades_deg,
@@ -191,9 +195,11 @@ def _step_record(one: Step) -> dict[str, Any]:
         "step": one.name,
         "change": one.words,
         **_least_record(one.best),
-        "moves_deg": one.moves_deg,
-        "alone_on_thesis_deg": one.alone_on_thesis_deg,
-        "alone_off_flight_deg": one.alone_off_flight_deg,
+        # Those at the fastest of the named speeds; `moves` has them all.
+        "moves_deg": one.moves[-1].in_ladder if one.moves else None,
+        "alone_on_thesis_deg": one.moves[-1].alone_on_thesis if one.moves else None,
+        "alone_off_flight_deg": one.moves[-1].alone_off_flight if one.moves else None,
+        "moves": [{f"{name}_deg": way for name, way in ways._asdict().items()} for ways in one.moves],
         **_moving_record(one.moving),
         "strong_over_weak_percent": {"hover": 100 * hover, "fast": 100 * fast},
     }

@@ -49,6 +49,8 @@ def _text(value: Any) -> str:
 
 HoverInflow = Literal["annulus", "closed-form"]
 HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form")
+LossOn = Literal["lift", "inflow"]
+LOSS_ON: tuple[LossOn, ...] = ("lift", "inflow")
 LowSpeed = Literal["wake", "hover"]
 LOW_SPEEDS: tuple[LowSpeed, ...] = ("wake", "hover")
 FlightTrim = Literal["propulsive", "thrust"]
@@ -119,6 +121,9 @@ class Models:
     low_speed: LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
+    loss_on: LossOn = "lift"
+    """Where Prandtl's factors act under linear inflow in forward flight. `lift`: F C_l; `inflow`: λ_i/F, as in
+    eq. (3.3). In hover they are in the balance of the annulus."""
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
@@ -138,6 +143,8 @@ class Models:
         if self.hover_inflow not in HOVER_INFLOWS:
             known = ", ".join(HOVER_INFLOWS)
             raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
+        if self.loss_on not in LOSS_ON:
+            raise ValueError(f"losses on {self.loss_on!r} are not known: use one of {', '.join(LOSS_ON)}")
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
@@ -271,6 +278,8 @@ class Design:
             "inflow": self.models.inflow,
             **({} if self.models.hover_inflow == preset.hover_inflow else {"hover_inflow": self.models.hover_inflow}),
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
+            # Always in the preset `thesis`: without it a file is from before this choice, see `design_from_record`.
+            **({"loss_on": self.models.loss_on} if self.models.loss_on != "lift" or self.preset == "thesis" else {}),
             **{name: getattr(self.models, name) for name in switches},
             **({"bending": True} if self.models.bending else {}),
             **({"dynamic_stall": True} if self.models.dynamic_stall else {}),
@@ -409,6 +418,7 @@ THESIS_MODELS = Models(
     disk_axial_flow=False,
     blade_weight=False,
     tail_rotor_solved=False,
+    loss_on="inflow",
     document_losses=True,
 )
 

@@ -10,11 +10,12 @@ from typing import Any, cast
 
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import SWITCHES
+from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
-from rotor.files.make_design import Tell, current_model, make_design, warn
+from rotor.files.make_design import BEFORE_LOSS_ON, Tell, current_model, make_design, warn
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
 
@@ -39,6 +40,7 @@ _KEYS = (
     "inflow",
     "hover_inflow",
     "low_speed",
+    "loss_on",
     *SWITCHES,
     "bending",
     "dynamic_stall",
@@ -91,6 +93,10 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         )
     preset = _value(record, "preset", "flight")
     twist = _value(record, "twist", "")
+    aircraft = read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths)
+    if preset == "thesis" and "version" in record and "loss_on" not in record:
+        record = {"loss_on": "lift"} | ({"airfoils": THESIS_NAME} if aircraft.stated else {}) | record
+        tell(BEFORE_LOSS_ON)
     stand = record.get("stand")
     if not isinstance(stand, dict | None):
         raise ValueError(
@@ -98,7 +104,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         )
     design = make_design(
         preset=preset,
-        rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
+        rotor=aircraft,
         twist=twist or None,
         twist_per_rev=record.get("twist_per_rev"),
         pitch_per_rev=record.get("pitch_per_rev"),
@@ -107,6 +113,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         altitude_m=_value(record, "altitude_m", 0.0),
         climb_m_s=_value(record, "climb_m_s", 0.0),
         low_speed=_value(record, "low_speed", "") or None,
+        loss_on=_value(record, "loss_on", "") or None,
         airfoils=_value(record, "airfoils", "") or None,
         trim=_value(record, "trim", "") or None,
         stand=cast(dict[str, Any] | None, stand),

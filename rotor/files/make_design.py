@@ -61,6 +61,12 @@ RETIRED = {
 }
 
 
+BEFORE_LOSS_ON = (
+    "This design is of the preset thesis as it was before: Prandtl's factors on the lift, polynomials of the free "
+    "transition at Mach 0.3. It keeps both; choose the preset anew for those that hold most statements of the thesis."
+)
+
+
 def warn(sentence: str) -> None:
     """The sentence as a warning: one line on stderr in the command lines, a warning in a notebook."""
     warnings.warn(sentence, Notice, stacklevel=1)
@@ -106,6 +112,7 @@ def make_design(
     preset: str | None = None,
     inflow: str | None = None,
     low_speed: str | None = None,
+    loss_on: str | None = None,
     airfoils: str | None = None,
     off: str | None = None,
     bending: bool = False,
@@ -137,6 +144,7 @@ def make_design(
         UH-60A with that rotor's own sections, planform, hinge and twist.
     inflow: model of the inflow, of forward flight or of hover.
     low_speed: hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not.
+    loss_on: lift (flight) or inflow (thesis): what Prandtl's factors act on under linear inflow in forward flight.
     airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
     off: physical effects switched off, separated by commas.
     bending: blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads.
@@ -182,7 +190,7 @@ def make_design(
         condition=condition,
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=with_grid(_changed(models, inflow, low_speed, off), elements, azimuths),
+        models=with_grid(_changed(models, inflow, low_speed, loss_on, off), elements, azimuths),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
@@ -203,8 +211,8 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     return rotor
 
 
-def _changed(models: Models, inflow: str | None, low_speed: str | None, off: str | None) -> Models:
-    """The models with an inflow model by name, a way to low speed, and without some effects."""
+def _changed(models: Models, inflow: str | None, low_speed: str | None, loss_on: str | None, off: str | None) -> Models:
+    """The models with an inflow model by name, a way to low speed, Prandtl's factors, and without some effects."""
     if inflow is not None:
         options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
         current = {option: current_model(option, inflow) for option in options}
@@ -218,6 +226,8 @@ def _changed(models: Models, inflow: str | None, low_speed: str | None, off: str
         if low_speed not in LOW_SPEEDS:
             raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
         models = replace(models, low_speed=low_speed)
+    if loss_on is not None:
+        models = replace(models, loss_on=loss_on)
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 
 

@@ -12,6 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, cast
 
+from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import (
@@ -335,7 +336,7 @@ def _spans(given: TomlTable, root: float, own: tuple[OwnSection, ...]) -> tuple[
 
 
 def _known(table: TomlTable, section: str, own: tuple[OwnSection, ...]) -> str:
-    if section in TABLE_NAMES or any(section == one.name for one in own):
+    if section in TABLE_NAMES or section.startswith(f"{THESIS_NAME}:") or any(section == one.name for one in own):
         return section
     raise table.fail(
         "section",

@@ -16,7 +16,7 @@ from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import Host, default_placement
 from rotor.files.make_design import uh60a_rotor
 from rotor.reproduce.report import Curve, PlotPanel, Report, card, curve, table
-from rotor.reproduce.runs import CachedFunction, variant
+from rotor.reproduce.runs import CachedFunction, Call, variant
 
 SPEEDS = (0.0, 0.3)
 """The two flight conditions of Table 5.2."""
@@ -76,6 +76,27 @@ def figure_5_5() -> Report:
     )  # fmt: skip
 
 
+def figure_5_7() -> Report:
+    """Field over voltage: a line each, whose slope is 1 over the gap between electrodes."""
+    known = [one for one in map(sheet, ("MFC_P1", "MFC_P2")) if one]
+    ends = [(one, np.array(one.voltage_range)) for one in known]
+    fields = {one.id: KV_MM * electric_field(one, volts) for one, volts in ends}
+    return card(
+        "5.7",
+        "Electric field over the whole voltage range: interdigitated electrodes (P1) and continuous ones (P2).",
+        "; ".join(
+            f"{id.replace('_', ' ')}: {row[0]:.2f} to {row[1]:.2f} kV/mm for {volts[0]:.0f} to {volts[1]:.0f} V"
+            for (_, volts), (id, row) in zip(ends, fields.items(), strict=True)
+        ) + ".",
+        f"Voltage over gap; between interdigitated electrodes that is the mean, and the field is not even. {SOURCE}",
+        table("field", ("actuator", "lowest_v", "highest_v", "low_kv_mm", "high_kv_mm"),
+              [(one.id, *volts, *fields[one.id]) for one, volts in ends]),
+        (PlotPanel("voltage [V]", "field [kV/mm]",
+                   tuple(curve(one.name, volts, fields[one.id], "both") for one, volts in ends)),),
+        {id: float(np.ptp(row)) for id, row in fields.items()},
+    )  # fmt: skip
+
+
 def figure_5_10() -> Report:
     """Torsion angle along the blade."""
     curves: list[Curve] = []
@@ -123,12 +144,16 @@ def compared(preset: str) -> actuator_tables.ActuatorTable:
     return actuator_tables.table_5_2(ConditionPair(variant(preset, mu=SPEEDS[0]), SPEEDS))
 
 
+COMPARED: Call = (compared, ("flight",))
+
+
 def table_5_2() -> Report:
     """Actuators and concepts compared."""
     made = compared("flight")
     net = made.columns.index("net kW")
     best = made.rows[0]
     gains = [float(row[net]) for row in made.rows]
+    fitted = next(row for row in made.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
     return card(
         "5.2",
         f"Actuators and twist concepts compared between hover and µ {SPEEDS[1]:g}, half the time each, on the flown "
@@ -137,5 +162,17 @@ def table_5_2() -> Report:
         f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
         made.notes[0],
         table("verdicts", made.columns, made.rows),
-        numbers={"rows": float(len(gains))},
+        numbers={
+            "rows": float(len(gains)),
+            "actuators": float(len({row[0].partition(",")[0] for row in made.rows})),
+            **{
+                key: float(fitted[made.columns.index(column)])
+                for key, column in (
+                    ("needed", "needed °"),
+                    ("reach", "nominal °"),
+                    ("net_kw", "net kW"),
+                    ("ideal_kw", "ideal kW"),
+                )
+            },
+        },
     )

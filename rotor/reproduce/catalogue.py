@@ -45,7 +45,6 @@ _TWIST = "3.3 Effect of blade twist on main-rotor power"
 _OPTIMUM = "4 Results"
 _CONCEPT = "5 Concept"
 _TODAY = "What the thesis would have found"
-_COMPARED: Call = (actuation.compared, ("flight",))
 
 ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("literature", today.literature, _INTRODUCTION),
@@ -66,8 +65,9 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("3.12", twist_effect.figure_3_12, _TWIST),
     CatalogueEntry("3.13", twist_effect.figure_3_13, _TWIST),
     CatalogueEntry("3.14", twist_effect.figure_3_14, _TWIST),
+    CatalogueEntry("3.15", twist_effect.figure_3_15, _TWIST),
     CatalogueEntry("readings", readings.readings, _TWIST, readings.needed),
-    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
+    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST, twist_effect.needed),
     *(
         CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, partial(searches, (concept,)))
         for number, (concept, *_) in optimum_twist.FIGURES.items()
@@ -79,9 +79,10 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, partial(searches, CONCEPTS)),
     CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, partial(searches, CONCEPTS)),
     CatalogueEntry("5.5", actuation.figure_5_5, _CONCEPT),
+    CatalogueEntry("5.7", actuation.figure_5_7, _CONCEPT),
     CatalogueEntry("5.10", actuation.figure_5_10, _CONCEPT),
     CatalogueEntry("table 5.1", actuation.table_5_1, _CONCEPT),
-    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, lambda: [_COMPARED]),
+    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, lambda: [actuation.COMPARED]),
     CatalogueEntry("today", today.today, _TODAY, today.needed),
 )
 
@@ -95,14 +96,12 @@ DRAWINGS = {
     "2.9": "flapping hinge",
     "3.1": "forces around SC1095, XFOIL's picture",
     "3.2": "forces around SC1094 R8, XFOIL's picture",
-    "3.15": "figure of another work, Han et al. 2015",
     "4.9": "planform of the UH-60A blade",
     "5.1": "active twist",
     "5.2": "deformed piezoelectric sheet",
     "5.3": "continuous and interdigitated electrodes",
     "5.4": "electric field of both kinds of electrodes",
     "5.6": "macro fibre composite",
-    "5.7": "electric field over voltage, which is voltage over gap",
     "5.8": "blade with its electronics",
     "5.9": "airfoil with actuators",
 }
@@ -132,7 +131,7 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     for function, args in calls:
         kind = args[0] if function is best else "ladder" if function in ladder.PARTS else (function, args)
         groups.setdefault(kind, []).append((function, args))
-    first = (_COMPARED, *reversed(VARIANTS), "ladder")  # The lifting line takes longest.
+    first = (actuation.COMPARED, *reversed(VARIANTS), "ladder")  # The lifting line takes longest.
     return [
         groups[kind] for kind in sorted(groups, key=lambda kind: first.index(kind) if kind in first else len(first))
     ]

@@ -1,16 +1,18 @@
 """From the preset `thesis` to the preset `flight`, one assumption at a time: how far each moves the best linear twist.
 
-`python -m rotor ladder`. The move of an assumption depends on those changed before it, so it is also computed alone on
-the preset `thesis`, and taken back alone from `flight`. Beside it the value of a twist that moves with speed, and the
-power of twist −17.3° over −11.5° at 330 km/h, which was measured on another rotor (Keys et al. 1987, thesis p. 26, 28).
+`python -m rotor ladder`. It begins with the reading of the thesis that holds most (`rotor.reproduce.readings`). The
+move of an assumption depends on those changed before it, so it is also computed alone on the preset `thesis`, and taken
+back alone from `flight`; at µ 0.2 and at 0.35. Beside it the value of a twist that moves with speed, and the power of
+twist −17.3° over −11.5° at 330 km/h, which was measured on another rotor (Keys et al. 1987, thesis p. 26, 28).
 """
 
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.airfoil.polynomial import THESIS_NAME
+from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -25,7 +27,7 @@ from rotor.validation.uh60a import SLOWEST
 RUNGS = {
     "table": "section table at Mach 0.3 for polynomials",
     "mach": "section data follow the Mach number: drag rise",
-    "wake": "lifting line for linear inflow",
+    "wake": "lifting line for linear inflow, F on it",
     "cyclic": "trim by cyclic for free flapping",
     "axial": "µ sin α in U_P, eq. (3.6)",
     "blade": "blade as built: SC1094 R8, hinge, masses",
@@ -36,6 +38,8 @@ RUNGS = {
 TRIM = ("cyclic", "axial")
 """Counted as one change too: the trim of an aircraft has both."""
 SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
+NAMED = (0.2, 0.35)
+"""µ at which the move of each assumption is named."""
 STRONG, WEAK = -17.3, -11.5
 """Twists of Keys et al. [°], read per radius."""
 HOVER, FAST, FAST_KMH = -0.024, 0.05, 330.0
@@ -51,12 +55,13 @@ def built(on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str
     thesis, flight = (make_design(preset=preset, twist=twist, mu=mu) for preset in ("thesis", "flight"))
     rotor = flight.rotor if "blade" in on else thesis.rotor
     if ("table" in on) != ("blade" in on):
-        rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_NAME,), ())
+        rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_READING.name,), ())
     wake, stated = flight.models, thesis.models
     models = replace(
         flight.models,
         inflow=inflow or (wake if "wake" in on else stated).inflow,
         low_speed=(wake if "wake" in on else stated).low_speed,
+        loss_on=(wake if "wake" in on else stated).loss_on,
         # Equation (3.3) has one lift-curve slope, which a table over angle of attack does not.
         hover_inflow=(wake if "table" in on else stated).hover_inflow,
         trim="propulsive" if "cyclic" in on else "thrust",
@@ -155,6 +160,22 @@ PARTS = (least, moving_twist, strong_over_weak, twice_the_blades, without_drag)
 """What a ladder is made of."""
 
 
+class Ways(NamedTuple):
+    """How far one change moves the best twist at a speed [°/R], in three ways to count it."""
+
+    in_ladder: float
+    """Less that of the rung before."""
+    alone_on_thesis: float
+    alone_off_flight: float
+    """The best twist of `flight` less that of `flight` without it."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The smallest and the largest."""
+        known = sorted((way for way in self if abs(way) > NOTHING), key=abs)
+        return known[0], known[-1]
+
+
 @dataclass(frozen=True)
 class Step:
     """One rung: the blade with this assumption changed, and all before it."""
@@ -163,12 +184,8 @@ class Step:
     words: str
     best: tuple[Least, ...]
     """By speed."""
-    moves_deg: float | None
-    """Best twist at the fastest speed less that of the rung before; None for the first."""
-    alone_on_thesis_deg: float | None
-    """The same, changed alone on the preset `thesis`; None for the first."""
-    alone_off_flight_deg: float | None
-    """The best twist of `flight` less that of `flight` without this."""
+    moves: tuple[Ways, ...]
+    """At each speed of `Ladder.named`; empty for the first."""
     moving: MovingTwist
     strong_over_weak: tuple[float, float]
     """In hover and at 330 km/h."""
@@ -188,6 +205,8 @@ class Ladder:
     """All rungs, the trim as one, and other wakes and blades at the top."""
 
     speeds: tuple[float, ...]
+    named: tuple[float, ...]
+    """Those of `NAMED` among the speeds; without any, the fastest."""
     steps: tuple[Step, ...]
     trim: Step
     """Both of `TRIM` as one change."""
@@ -205,12 +224,9 @@ class Ladder:
         """The best twist of a rung at a speed of the ladder."""
         return self.step(name).best[self.speeds.index(mu)]
 
-    def moves(self, name: str) -> tuple[float, float]:
-        """The smallest and the largest move by this change, of the three ways to count it [°]."""
-        one = self.step(name)
-        ways = [one.moves_deg, one.alone_on_thesis_deg, one.alone_off_flight_deg]
-        known = sorted((way for way in ways if way is not None and abs(way) > NOTHING), key=abs)
-        return known[0], known[-1]
+    def moves(self, name: str, mu: float) -> Ways:
+        """How far this change moves the best twist at one of `named`."""
+        return self.step(name).moves[self.named.index(mu)]
 
 
 def check_speeds(speeds: Sequence[float]) -> tuple[float, ...]:
@@ -224,30 +240,36 @@ def check_speeds(speeds: Sequence[float]) -> tuple[float, ...]:
     return kept
 
 
+def named_of(speeds: tuple[float, ...]) -> tuple[float, ...]:
+    """`Ladder.named`"""
+    return tuple(mu for mu in NAMED if mu in speeds) or speeds[-1:]
+
+
 def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
     """Compute the ladder; ValueError where a blade does not trim."""
-    names = tuple(RUNGS)
-    fast = speeds[-1]
+    names, fast, named = tuple(RUNGS), speeds[-1], named_of(speeds)
 
-    def rate(on: tuple[str, ...]) -> float:
-        return least(on, fast, None).rate_deg
+    def ways(on: tuple[str, ...], before: tuple[str, ...], changed: tuple[str, ...], mu: float) -> Ways:
+        def rate(which: tuple[str, ...]) -> float:
+            return least(which, mu, None).rate_deg
+
+        return Ways(rate(on) - rate(before), rate(changed) - rate(()), rate(names) - rate(_without(*changed)))
 
     def step(name: str, words: str, changed: tuple[str, ...], count: int) -> Step:
         on, before = names[:count], names[: count - len(changed)]
         return Step(
             name, words, tuple(least(on, mu, None) for mu in speeds),
-            rate(on) - rate(before) if changed else None,
-            rate(changed) - rate(()) if changed else None,
-            rate(names) - rate(_without(*changed)) if changed else None,
+            tuple(ways(on, before, changed, mu) for mu in named) if changed else (),
             moving_twist(on, speeds, None),
             (strong_over_weak(on, 0.0, None), strong_over_weak(on, FAST_KMH, None)),
         )  # fmt: skip
 
-    steps = [step("thesis", "preset thesis: what the document states", (), 0)]
+    steps = [step("thesis", "preset thesis: the reading that holds most", (), 0)]
     steps += [step(name, words, (name,), k) for k, (name, words) in enumerate(RUNGS.items(), start=1)]
     trim = step("trim", "trim by cyclic together with µ sin α", TRIM, names.index(TRIM[-1]) + 1)
     return Ladder(
-        speeds, tuple(steps), trim, twice_the_blades(fast).rate_deg - rate(_without("elastic")),
+        speeds, named, tuple(steps), trim,
+        twice_the_blades(fast).rate_deg - least(_without("elastic"), fast, None).rate_deg,
         without_drag(fast).rate_deg,
         tuple(
             WakeRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
@@ -272,7 +294,7 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
             + [(strong_over_weak, (on, kmh, None)) for kmh in (0.0, FAST_KMH)]
             for on in ladder
         ),
-        [(least, (on, speeds[-1], None)) for on in alone],
+        *([(least, (on, mu, None)) for on in alone] for mu in named_of(speeds)),
         [(twice_the_blades, (speeds[-1],)), (without_drag, (speeds[-1],))],
     ]
 

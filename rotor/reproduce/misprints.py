@@ -11,7 +11,7 @@ from numpy.polynomial.chebyshev import chebval
 
 from rotor.aero.losses import prandtl
 from rotor.aero.momentum import glauert_inflow
-from rotor.airfoil.polynomial import polynomial_section, polynomial_table
+from rotor.airfoil.polynomial import THESIS_READING, polynomial_section, polynomial_table
 from rotor.airfoil.sections import load_section
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import ReportTable, table
@@ -54,6 +54,12 @@ MISPRINTS: tuple[Misprint, ...] = (
         "4 * np.mean(lam**2 * lam**2 * r), 4 * np.mean(lam**2 * lam * r)",
     ),
     Misprint(
+        "2.18", "9", "misprint", "dC_P = N_b dF_x Ωy/(ρA(ΩR)²)", "(ΩR)³, as its left side has it. Shown: dC_P of "
+        "1 N at 0.75 R, times ρA.",
+        "tip_speed, r = 27.0 * 8.1788, 0.75",
+        "r * tip_speed / tip_speed**2, r * tip_speed / tip_speed**3",
+    ),
+    Misprint(
         "2.29", "12", "misprint", "λi = λ0(1 + kx r cos φ + ky r sin φ)",
         "ψ for φ, as (3.4). Shown: the fore-aft range of λi/λ0 at 0.75 R; with φ, the inflow angle, there is none.",
         "kx, phi, psi = 1.9, np.full(360, np.radians(5)), np.radians(np.arange(360))",
@@ -83,12 +89,12 @@ MISPRINTS: tuple[Misprint, ...] = (
         "3.5–3.7", "21, 23", "omission", "reverse flow: only the drag changes its sign",
         "φ by atan2 and section data over ±180°. Shown: Cl at 175°; NACA 0012 measures −0.54 (TN 3361).",
         "alpha = np.radians(175.0)",
-        "float(polynomial_table()(alpha, 0.3).cl), float(load_section('sc1095')(alpha, 0.3).cl)",
+        "float(polynomial_table(reading)(alpha, 0.3).cl), float(load_section('sc1095')(alpha, 0.3).cl)",
     ),
     Misprint(
         "3.1, 3.2", "18", "omission", "polynomials of order 10 and 12, range and ends not mentioned",
         "Constant beyond the ends of the fit. Shown: Cl at 30°, extrapolated and constant.",
-        "fit, end = polynomial_section(), polynomial_section().fit_range",
+        "fit, end = polynomial_section(reading), polynomial_section(reading).fit_range",
         "free(fit.cl_series, end, np.radians(30)), float(fit(np.radians(30))[0])",
     ),
     Misprint(
@@ -190,7 +196,7 @@ def _names() -> dict[str, Any]:
         hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve, polynomial_section, polynomial_table,
         load_section,
     )  # fmt: skip
-    return {"np": np, **{one.__name__: one for one in helpers}}
+    return {"np": np, "reading": THESIS_READING, **{one.__name__: one for one in helpers}}
 
 
 def misprint_table() -> ReportTable:

@@ -28,6 +28,7 @@ _CAPTIONS = {
     "Figure 4.13": "Twist behaviours compared",
     "Table 4.1": "Reduction of power between fixed linear twist and simulations",
     "Figure 5.5": "Free strain compared",
+    "Figure 5.7": "Electric field compared",
     "Figure 5.10": "Torsion angle of the thermal analysis",
     "Table 5.1": "Actuator properties",
     "Table 5.2": "Actuators and concepts compared",

@@ -176,9 +176,10 @@ def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> Con
     family = find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
     design = variant(preset, twist=BASELINE, mu=mu)
     if preset == "thesis" and concept in ("two airfoils", SC1095_DECKS):
-        # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars.
-        # Hover by eq. (3.3) has one lift curve for the whole blade, so the annulus balance takes its place.
-        models = replace(design.models, hover_inflow="annulus")
+        # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars,
+        # both at Mach 0.3, because the thesis leaves compressibility out (p. 23). Hover by eq. (3.3) has one lift curve
+        # for the whole blade, so the annulus balance takes its place.
+        models = replace(design.models, hover_inflow="annulus", compressibility=False)
         design = replace(design, rotor=with_airfoils(design.rotor, ("sc1095",), ()), models=models)
     place = speeds.index(mu)
     near = [best(preset, concept, speeds[place - 1], speeds).twist] if place > 0 else []

@@ -175,12 +175,12 @@ def caveats(
         if top_mach > 0.5:
             yield Caveat(
                 "no-compressibility",
-                f"The section polar holds for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
+                f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}.",
             )
         if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
             yield Caveat(
                 "mixed-section-data",
-                f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
+                f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest "
                 "tables with Mach number: their difference is one of data, not of airfoils.",
             )
         clamped = _outside_fit(fields, disk.fit_range)

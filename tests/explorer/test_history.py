@@ -202,7 +202,8 @@ class TestShare:
         ("1;segments:-16,-12,-6@0.4,0.75;mass=9100;alt=1500", {"law": "three", "mass_t": 9.1, "altitude_m": 1500.0}),
         (
             "1;linear:-16;preset=thesis;mu=0;mass=8320;inflow=dynamic-wake",
-            {"preset": "thesis", "inflow": "lifting-line"},
+            # The preset as it was before: these polynomials, and Prandtl's factors on the lift.
+            {"preset": "thesis", "inflow": "lifting-line", "loss_on": "lift", "airfoils": "sc1095-thesis"},
         ),
         ("1;segments:-14,-8@0.5;mass=8320;tip_loss=false;hub_loss=false", {"tip_loss": False, "hub_loss": False}),
         ("1;uh60a;mass=8320;inflow=vortex-wake", {"law": "builtin", "inflow": "lifting-line"}),

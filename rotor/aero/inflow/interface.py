@@ -18,10 +18,11 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import Wake
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
-from rotor.design.design import Models
+from rotor.design.design import LossOn, Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.memory import Memory
-from rotor.engine.terms import Shape, Structure
+from rotor.engine.terms import ONE, Shape, Structure
+from rotor.engine.waves import STEADY
 
 Atoms = dict[Hashable, tuple[float, tuple[float, float, float]]]
 """Values of derived atoms, with slopes by (µ_x, µ_z, λ0)."""
@@ -54,6 +55,15 @@ PLAIN = SectionInterface(section, PAIRS, len(CHANNELS), len(FORCES))
 """That of `rotor.aero.section`."""
 
 
+class Losses(NamedTuple):
+    """Prandtl's factors, for a model without tip losses of its own."""
+
+    tip: bool
+    hub: bool
+    on: LossOn = "lift"
+    """As `Models.loss_on`."""
+
+
 class InflowTerms(ABC):
     """A model on a disk, as parts of the engine's structure; one without unknowns of its own where nothing is said."""
 
@@ -78,6 +88,11 @@ class InflowTerms(ABC):
 
     def build(self, structure: Structure) -> None:  # noqa: B027
         """Add derived atoms and columns."""
+
+    def live_columns(self, structure: Structure) -> list[tuple[int, Shape, int, int]]:
+        """Channel and name of each live shape, with the wave and the atom that multiply it."""
+        del structure
+        return [(channel, name, STEADY, ONE) for channel, name in self.live]
 
     def shapes(self) -> dict[Shape, Array]:
         """Functions along the blade by name, (elements,)."""
@@ -116,7 +131,7 @@ class InflowModel(ABC):
     load_dependent: bool
     """Whether the inflow responds to the load distribution.
 
-    With a model that does not, Prandtl's factor multiplies the section lift; one that does has tip losses of its own.
+    A model that does not takes Prandtl's factors, see `Models.loss_on`; one that does has tip losses of its own.
     """
     fine_tip = False
     """Whether the elements are panels of a lifting line, which are finer towards the tip; else equally wide."""
@@ -133,9 +148,8 @@ class InflowModel(ABC):
         return self
 
     @abstractmethod
-    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> InflowTerms:
+    def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> InflowTerms:
         """The model on a disk.
 
-        course: along which a wake of vortices lies; losses: whether Prandtl's factors at tip and hub apply, for a model
-        that leaves them to the section lift.
+        course: along which a wake of vortices lies; losses: for a model that has none of its own.
         """

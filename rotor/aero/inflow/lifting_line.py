@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowModel, InflowTerms, SectionInterface, Wake
+from rotor.aero.inflow.interface import InflowModel, InflowTerms, Losses, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
@@ -80,7 +80,7 @@ class LiftingLineInflow(InflowModel):
         """Panels, and azimuths in a multiple of the number of blades."""
         return models.panels, -(-models.line_azimuths // blades) * blades
 
-    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LiftingLineTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "LiftingLineTerms":
         """The model on a disk, with the wake on a course."""
         del losses
         return LiftingLineTerms(Line(disk.blades, disk.root, *disk.shape), course)

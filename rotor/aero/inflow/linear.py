@@ -1,7 +1,13 @@
 """Linear inflow in forward flight: λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eqs. (2.29), (3.4).
 
 Eq. (2.29) prints φ for ψ; (3.4) is right. The models differ in k_x and k_y only. None of them responds to the load
-distribution, so with them induced power does not depend on twist.
+distribution.
+
+The loss at the ends of the blades is one of two (`Models.loss_on`). On the lift, F C_l: induced power then all but does
+not depend on twist. On the inflow, as eq. (3.3) has it: an annulus whose air moves by F λ_i on average balances
+dC_T = 4 F λ_i √(µ² + λ²) r dr, in hover 4 F λ² r dr. Where √(µ² + λ²) hardly depends on F, which is so beyond µ 0.1,
+blades with the same load meet λ_i/F. The λ_i of (3.4) is then the mean around the azimuth, whose mean over the disk
+(2.30) ties to C_T.
 """
 
 import math
@@ -11,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero.disk import Disk, azimuths_of
-from rotor.aero.inflow.interface import Atoms, Followed, InflowModel, InflowTerms, Wake
+from rotor.aero.inflow.interface import Atoms, Followed, InflowModel, InflowTerms, Losses, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.losses import mean_loss_factor
+from rotor.aero.losses import SMALLEST_TIP_FACTOR, mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
 from rotor.engine.terms import Shape, Structure
@@ -41,10 +47,11 @@ class LinearInflow(InflowModel):
 
     load_dependent = False
 
-    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LinearTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "LinearTerms":
         """The model on a disk."""
         del course
-        return LinearTerms(self, disk, losses)
+        on_lift = losses.on == "lift"
+        return LinearTerms(self, disk, losses) if on_lift else LossyInflowTerms(self, disk, losses)
 
     def strengths(self, wake: Wake) -> Atoms:
         """λ0 k_x and λ0 k_y, with slopes by (µ_x, µ_z, λ0)."""
@@ -77,7 +84,7 @@ class LinearTerms(InflowTerms):
     names = ("inflow", "1"), ("inflow", "r")
     live = ((LOSS, "loss"),)
 
-    def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
+    def __init__(self, model: LinearInflow, disk: Disk, losses: Losses) -> None:
         self._model, self._disk, self._losses = model, disk, losses
 
     def build(self, structure: Structure) -> None:
@@ -93,20 +100,57 @@ class LinearTerms(InflowTerms):
         return dict(zip(self.names, (np.ones_like(self._disk.r), self._disk.r), strict=True))
 
     def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
-        """λ0 k_x, λ0 k_y and the loss factor, averaged over azimuth (thesis p. 24)."""
-        disk, (tip, hub) = self._disk, self._losses
-        loss = np.ones_like(disk.r), np.zeros((3, len(disk.r)))
-        if tip or hub:
-            field = self._model.field(disk.r, _COS, _SIN, wake)
-            found = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
-            if sees_tilt:
-                found[3] += found[1]  # λ by µ_z itself.
-            loss = found[0], found[2:]
-        return Followed(self._model.strengths(wake), {(LOSS, "loss"): loss})
+        """λ0 k_x, λ0 k_y and the loss factor."""
+        return Followed(self._model.strengths(wake), {(LOSS, "loss"): self.factor(wake, mu_z, sees_tilt)})
+
+    def factor(self, wake: Wake, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
+        """F, (elements,), averaged over azimuth (thesis p. 24), and its slopes by (µ_x, µ_z, λ0), (3, elements)."""
+        disk, (tip, hub, _) = self._disk, self._losses
+        if not (tip or hub):
+            return np.ones_like(disk.r), np.zeros((3, len(disk.r)))
+        field = self._model.field(disk.r, _COS, _SIN, wake)
+        found = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
+        if sees_tilt:
+            found[3] += found[1]  # λ by µ_z itself.
+        return found[0], found[2:]
 
     def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Zero: the load does not change it."""
         return np.zeros((len(u_t),) * 2), np.zeros((len(u_t),) * 2)
+
+
+class LossyInflowTerms(LinearTerms):
+    """Linear inflow on a disk with Prandtl's factors on the inflow: the three columns are λ_i/F."""
+
+    key = "linear over F"
+    live = tuple((UP, name) for name in LinearTerms.names)
+    names = (*LinearTerms.names, *((name, by) for name in LinearTerms.names for by in ("tilt", "inflow")))
+
+    def build(self, structure: Structure) -> None:
+        """All columns are live."""
+        for name in STRENGTHS:
+            structure.quantity(name)
+
+    def live_columns(self, structure: Structure) -> list[tuple[int, Shape, int, int]]:
+        """λ0/F, λ0 k_x r cos ψ/F and λ0 k_y r sin ψ/F."""
+        one, along = LinearTerms.names
+        kx, ky = (structure.derived[name] for name in STRENGTHS)
+        lambda0 = structure.states["lambda0"]
+        return [(UP, one, STEADY, lambda0), (UP, along, COS, kx), (UP, along, SIN, ky)]
+
+    def shapes(self) -> dict[Shape, Array]:
+        """None that stand still."""
+        return {}
+
+    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+        """λ0 k_x, λ0 k_y, 1/F and r/F; F is 0.1 at least, for at the very tip λ_i/F would have no bound."""
+        factor, slopes = self.factor(wake, mu_z, sees_tilt)
+        free = factor > SMALLEST_TIP_FACTOR
+        over = 1.0 / np.where(free, factor, SMALLEST_TIP_FACTOR)
+        by_wake = np.where(free, -slopes * over**2, 0.0)
+        shapes = zip(LinearTerms.names, (1.0, self._disk.r), strict=True)
+        live = {(UP, name): (over * along, by_wake * along) for name, along in shapes}
+        return Followed(self._model.strengths(wake), live)
 
 
 def _zero(wake: Wake) -> Gradient:

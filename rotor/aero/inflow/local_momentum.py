@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, InflowModel, InflowTerms, SectionInterface, Wake
+from rotor.aero.inflow.interface import Followed, InflowModel, InflowTerms, Losses, SectionInterface, Wake
 from rotor.aero.inflow.linear import STRENGTHS, of_mean, scaled_half_skew
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
@@ -130,7 +130,7 @@ class LocalMomentumInflow(InflowModel):
         """F = 1."""
         return replace(self, tip=False)
 
-    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "SectorTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "SectorTerms":
         """The model on a disk."""
         del course, losses
         return SectorTerms(disk, tip=self.tip)

@@ -1,12 +1,20 @@
-"""Prandtl's loss factors, eqs. (3.16)–(3.18)."""
+"""Prandtl's loss factors, eqs. (3.16)–(3.18), on the lift and on the inflow."""
 
 import math
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.testing import assert_allclose
 
 from rotor.aero import losses
 from rotor.aero.losses import HUB_FACTOR, end_factor, loss_factor, mean_loss_factor, prandtl
+from rotor.arrays import Array
+from rotor.columns.hover import closed_form_inflow, lift_curve
+from rotor.design.design import LOSS_ON, LossOn
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 
 def test_tip_factor_by_hand():
@@ -60,3 +68,65 @@ def test_mean_around_the_azimuth():
         assert_allclose(found[0], factor.mean(axis=1), rtol=1e-14)
         assert_allclose(found[1], slope.mean(axis=1), rtol=1e-11, atol=1e-13)
         assert_allclose(found[2:], (slope * ways).mean(axis=2), rtol=1e-11, atol=1e-13)
+
+
+def with_loss(on: LossOn, mu: float, preset: str = "flight", **models: Any) -> Solution:
+    design = make_design(preset=preset, mu=mu, twist="linear:-8", inflow="pitt-peters-15pi/23")
+    return solve(replace(design, models=replace(design.models, loss_on=on, **models))).require()
+
+
+def test_without_losses_it_does_not_matter_where_they_act():
+    """F = 1 at both ends, and hover, where the annulus balance (3.3) holds F in either case."""
+    whole = [with_loss(on, 0.2, tip_loss=False, hub_loss=False).power for on in LOSS_ON]
+    hover = [with_loss(on, 0.0, "thesis").power for on in LOSS_ON]
+    for one, other in (whole, hover):
+        assert_allclose(one.main_rotor, other.main_rotor, rtol=1e-12)
+
+
+def test_hover_of_the_thesis_is_the_closed_form():
+    """λ of every annulus against (3.3) with the F of its own λ, for the straight lift curve of the section data."""
+    one = with_loss("inflow", 0.0, "thesis")
+    problem, disk = one.linear.problem, one.disk
+    slope, zero = lift_curve(problem)
+    inflow = disk.induced[:, 0]
+    factor, _ = loss_factor(disk.r, inflow, 4, 0.1304)
+    pitch = disk.theta[:, 0] - zero
+    assert_allclose(inflow, closed_form_inflow(disk.r, pitch, one.design.rotor.solidity, slope[0], factor=factor),
+                    rtol=1e-8)  # fmt: skip
+
+
+def test_loss_on_the_inflow_is_that_of_the_annulus_in_fast_flight():
+    """λ_i at the blades against dC_T = 4 F λ_i √(µ² + λ²) r dr, with the load that has λ_i0 at F = 1: λ_i0/F where µ is
+    large, with an error of (λ/µ)²; and against λ0(1 + k_x r cos ψ)/F by hand, with F averaged over 360 azimuths."""
+    errors: list[float] = []
+    for mu in (0.15, 0.35):
+        one = with_loss("inflow", mu, "thesis")
+        disk, state = one.disk, one.linear.elements.state
+        psi = np.radians(np.arange(360.0))
+        tilt = 15.0 * math.pi / 23.0 * math.tan(0.5 * math.atan2(mu * math.cos(state.shaft_tilt), mu * math.sin(
+            state.shaft_tilt) + state.lambda0))  # fmt: skip
+        at = disk.r[:, None]
+        plain = state.lambda0 * (1.0 + tilt * at * np.cos(psi))
+        factor = loss_factor(at, plain, 4, 0.1304)[0].mean(axis=1)
+        by_hand = state.lambda0 * (1.0 + tilt * at * np.cos(disk.psi)) / factor[:, None]
+        assert_allclose(disk.induced, by_hand, rtol=1e-3)
+        free, lost = state.lambda0, disk.induced.mean(axis=1)
+
+        def annulus(inflow: Array, mu: float = mu, factor: Array = factor, free: float = free) -> Array:
+            return factor * inflow * np.hypot(mu, inflow) / (free * math.hypot(mu, free)) - 1.0
+
+        errors.append(float(np.abs(annulus(lost)).max()))
+        assert errors[-1] < (lost.max() / mu) ** 2
+    assert errors[1] < 0.2 * errors[0]
+
+
+def test_the_parts_of_power_are_the_torque_with_loss_on_the_inflow():
+    """Energy: with the axial flow of the disk P_shaft is the sum of parts, λ_i/F in the induced one; without it, as
+    (3.6) prints it, it lacks drag times speed and µ H, the force that drags the disk aft times speed."""
+    power = with_loss("inflow", 0.25).power
+    assert_allclose(power.shaft, power.main_rotor, rtol=1e-8)
+    stated = with_loss("inflow", 0.25, "thesis")
+    e, psi = stated.linear.elements, stated.disk.psi
+    aft = (e.fx * np.sin(psi) - e.fz * e.beta * np.cos(psi)).mean(axis=1)
+    lacking = 0.25 * float(stated.disk.dr @ aft) * stated.design.power_unit
+    assert_allclose(stated.power.shaft, stated.power.induced + stated.power.profile - lacking, rtol=1e-6)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.design import PRESETS
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design, uh60a_rotor
@@ -41,7 +42,7 @@ def test_sections_along_the_flown_blade():
     inner, outer, weight = blade.section_at(0.5 * (0.4658 + 0.4969))
     assert (inner, outer) == ("sc1095", "sc1094r8")
     assert_allclose(weight, 0.5, rtol=1e-12)
-    assert {span.section for span in uh60a_rotor("thesis").blade.spans} == {"sc1095-thesis"}
+    assert {span.section for span in uh60a_rotor("thesis").blade.spans} == {THESIS_READING.name}
 
 
 def test_standard_atmosphere():
@@ -83,7 +84,8 @@ STAND = {"shaft_tilt_deg": -12.0, "thrust_n": 60e3, "flapping": "free", "cyclic_
 def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
     """To the last digit but for angles, which are kept to 1e-6 of a degree; what is not asked for is not written."""
     design = make_design(mu=0.23, mass_kg=7654.0, altitude_m=1200.0, **asked)
-    assert set(design.to_dict()) - set(make_design().to_dict()) == set(asked) - {"preset", "twist"}
+    always = {"loss_on"} if asked.get("preset") == "thesis" else set()
+    assert set(design.to_dict()) - set(make_design().to_dict()) == set(asked) - {"preset", "twist"} | always
     path = tmp_path / "design.json"
     design.save(path)
     back = load_design(path)
@@ -96,6 +98,21 @@ def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
     assert json.loads(path.read_text())["version"] == 2
 
 
+def test_a_thesis_design_from_before_keeps_its_polynomials_and_losses():
+    """A file that states its version but not `loss_on`; one written by hand, without a version, is today's preset."""
+    told: list[str] = []
+    record = {"preset": "thesis", "twist": "linear:-8", "version": 2}
+    old = design_from_record(record, tell=told.append)
+    assert old == make_design(preset="thesis", twist="linear:-8", loss_on="lift", airfoils="sc1095-thesis")
+    assert len(told) == 1
+    assert "as it was before" in told[0]
+    assert design_from_record(old.to_dict(), tell=told.append) == old
+    today = design_from_record({"preset": "thesis", "twist": "linear:-8"}, tell=told.append)
+    assert today == make_design(preset="thesis", twist="linear:-8") != old
+    assert design_from_record(today.to_dict(), tell=told.append) == today
+    assert len(told) == 1
+
+
 @pytest.mark.parametrize(
     ("case", "words"),
     [
@@ -106,6 +123,7 @@ def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
         ({"twist": 3}, "give a text"),
         ({"inflow": "magic"}, "'magic'"),
         ({"low_speed": "fly"}, "use one of wake, hover"),
+        ({"loss_on": "drag"}, "use one of lift, inflow"),
     ],
 )
 def test_bad_design_files_are_one_sentence(case: dict[str, object], words: str):

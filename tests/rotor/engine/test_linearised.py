@@ -81,6 +81,8 @@ CASES = {
     "descent": Case(climb=-8.0, models=(("inflow", "local-momentum"),)),
     "thrust": replace(flight(inflow="pitt-peters"), trim="thrust"),
     "thesis": Case(preset="thesis"),
+    "thesis, loss on the lift": Case(preset="thesis", models=(("loss_on", "lift"),)),
+    "loss on the inflow": flight(0.12, inflow="drees", loss_on="inflow"),
     "thesis propulsive": Case(preset="thesis", trim="propulsive"),
     "tunnel thrust": stand("wind-tunnel", ct_over_sigma=0.075, shaft_tilt=TILT),
     "tunnel thrust, free flapping": stand("wind-tunnel", ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03),
