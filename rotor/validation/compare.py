@@ -33,7 +33,7 @@ SETS = (
     "uh60a-hover",
 )
 """Names of the sets, in the order in which they are shown."""
-FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "flown-power")
+FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
 LABELS = {
     "mu": "Advance ratio µ",

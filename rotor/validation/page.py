@@ -16,6 +16,7 @@ from pathlib import Path
 
 from rotor.line_chart import draw, draw_small
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
+from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
@@ -29,6 +30,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     INFLOW_SET: inflow_set,
     hart2.SET: hart2.hart2_set,
     flown.AIRLOADS: flown.gazelle_set,
+    PITCH_LINK: uh60a.pitch_link_set,
     flown.POWERS: flown.flown_set,
     stall_loops.SET: stall_loops.loops_set,
     "sc1095": uh60a.section,
