@@ -19,9 +19,9 @@ from rotor.airfoil.public_points import agreement, public_points
 from rotor.airfoil.sections import load_section
 from rotor.arrays import Array
 from rotor.assets import asset_path
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
-from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.solve import solve
 from rotor.units import KNOT
 from rotor.validation import airloads
@@ -103,15 +103,15 @@ def hover() -> TrustSet:
               "contraction and no tip-vortex interference. The download is left out here."),
     )  # fmt: skip
     series = (
-        Series("measured, digitised", tuple(ct), tuple(cp)),
-        Series("computed, inflow annulus", tuple(ct), tuple(ours), "both", 1),
+        Points("measured, digitised", ct, cp),
+        Line("computed, inflow annulus", ct, ours, 1, dots=True),
     )
     points = zip(ct, cp, ours, ratio, strict=True)
     return TrustSet(
         "uh60a-hover", "UH-60A, hover", "C_P, 10 points", f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         "Digitised UH-60 rotor measurements (W. Garre, 2018, project history of SONATA, TU Munich); provenance "
         "incomplete.",
-        rows, (LineChart("UH-60A in hover", "C_T/σ", "C_P/σ", series),),
+        rows, (Chart("UH-60A in hover", Axis("C_T/σ"), Axis("C_P/σ"), series),),
         ("C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.",),
         (("C_T/σ", "Measured C_P/σ", "Ours", "Error"),
          *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f} %") for a, b, c, d in points)),
@@ -131,14 +131,14 @@ def forward() -> TrustSet:
         )
     )  # fmt: skip
     series = (
-        Series("public model curve", tuple(speeds), tuple(theirs)),
-        Series("computed", tuple(speeds), tuple(ours), "both", 1),
+        Points("public model curve", speeds, theirs),
+        Line("computed", speeds, ours, 1, dots=True),
     )
     title = "UH-60A, forward flight"
     return TrustSet(
         "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         "A flight-mechanics model with Pitt–Peters inflow: Lee, Texas A&M dissertation, 2021, read off a graph to 2 %.",
-        rows, (LineChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
+        rows, (Chart(title, Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series),),
         ("No measured forward-flight power of the UH-60A could be reached.",),
         (("µ", "Model curve [kW]", "Ours [kW]", "Error"),
          *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f} %")
@@ -175,27 +175,29 @@ def section() -> TrustSet:
     )  # fmt: skip
 
 
-def _over_angle(name: str, label: str, mach: float = 0.4) -> LineChart:
+def _over_angle(name: str, label: str, mach: float = 0.4) -> Chart:
     table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
     alpha = np.arange(-5.0, 9.1, 0.25)
     ours = tuple(float(getattr(table(math.radians(a), mach), name)) for a in alpha)
     series = (
-        Series("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
-        Series("section table", tuple(alpha.tolist()), ours, "line", 1),
+        Points("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
+        Line("section table", alpha, ours, 1),
     )
-    return LineChart(f"{label} of SC1095 at Mach {mach:g}", "angle of attack [°]", f"{label}, Mach {mach:g}", series)
+    return Chart(
+        f"{label} of SC1095 at Mach {mach:g}", Axis("angle of attack [°]"), Axis(f"{label}, Mach {mach:g}"), series
+    )
 
 
-def _drag_rise(alpha_deg: float = 2.0) -> LineChart:
+def _drag_rise(alpha_deg: float = 2.0) -> Chart:
     table, alpha = load_section("sc1095"), math.radians(alpha_deg)
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = tuple(float(m) for m in np.arange(mach[0], mach[-1], 0.01))
     series = (
-        Series("RANS and net, kept aside", mach, drag),
-        Series("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), "line", 1),
+        Points("RANS and net, kept aside", mach, drag),
+        Line("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), 1),
     )
-    return LineChart(f"Drag rise of SC1095 at {alpha_deg:g}°", "Mach number", f"C_d at {alpha_deg:g}°", series)
+    return Chart(f"Drag rise of SC1095 at {alpha_deg:g}°", Axis("Mach number"), Axis(f"C_d at {alpha_deg:g}°"), series)
 
 
 def constants() -> TrustSet:
@@ -222,11 +224,11 @@ def constants() -> TrustSet:
     ]  # fmt: skip
     errors = tuple(100.0 * (row.error or 0.0) for row in rows)
     titles = ("lift slope, SC1095", "lift slope, SC1094 R8", "flap frequency", "Lock number")
-    series = Series("", errors, tuple(map(float, range(len(rows)))), "points", 1)
+    series = Points("", errors, tuple(map(float, range(len(rows)))), 1)
     return TrustSet(
         name, "Constants of the UH-60A", "Lift slope, flapping, Lock number",
         f"{min(errors):+.1f} to {max(errors):+.1f} %", "Published constants of sections and blade, each named below.",
-        tuple(rows), (LineChart("Ours over published", "difference [%]", "", (series,), names=titles),),
+        tuple(rows), (Chart("Ours over published", Axis("difference [%]"), Axis(names=titles), (series,)),),
     )  # fmt: skip
 
 
@@ -312,34 +314,39 @@ def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
         )  # fmt: skip
 
 
-def _peak_chart(loads: Sequence[PitchLinkLoad]) -> LineChart:
+def _peak_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = tuple(one.mu for one in loads)
     measured, ours, rigid = zip(*(one.half_peaks for one in loads), strict=True)
     series = (
-        Series("measured", mu, _kilonewtons(measured)),
-        Series("computed", mu, _kilonewtons(ours), "both", 1),
-        Series("without bending", mu, _kilonewtons(rigid), "dashed", 2),
+        Points("measured", mu, _kilonewtons(measured)),
+        Line("computed", mu, _kilonewtons(ours), 1, dots=True),
+        Line("without bending", mu, _kilonewtons(rigid), 2, dashes=True),
     )
-    return LineChart("Half peak to peak of the pitch-link load", "advance ratio µ", "half peak to peak [kN]", series)
+    return Chart(
+        "Half peak to peak of the pitch-link load",
+        Axis("advance ratio µ"),
+        Axis("half peak to peak [kN]"),
+        series,
+    )
 
 
-def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> LineChart:
+def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = tuple(one.mu for one in loads)
     series: list[Series] = []
     for n in LOAD_HARMONICS:
         theirs, ours = ([one.beside.amplitude(n, measured=own) for one in loads] for own in (True, False))
-        series.append(Series(f"{n}/rev, measured", mu, _kilonewtons(theirs), "points", n))
-        series.append(Series("computed", mu, _kilonewtons(ours), "line", n))
-    return LineChart("Harmonics of the pitch-link load", "advance ratio µ", "amplitude [kN]", tuple(series))
+        series.append(Points(f"{n}/rev, measured", mu, _kilonewtons(theirs), n))
+        series.append(Line("computed", mu, _kilonewtons(ours), n))
+    return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))
 
 
-def _load_chart(one: PitchLinkLoad) -> LineChart:
+def _load_chart(one: PitchLinkLoad) -> Chart:
     at, end = np.degrees(one.measured.psi), (*np.degrees(one.psi).tolist(), 360.0)
-    series = [Series("measured", tuple(at.tolist()), _kilonewtons(one.measured.values.tolist()))]
+    series: list[Series] = [Points("measured", at, _kilonewtons(one.measured.values.tolist()))]
     ours, rigid = (_kilonewtons(np.append(of, of[0]).tolist()) for of in (one.ours, one.torsion_alone))
-    series += [Series("computed", end, ours, "line", 1), Series("without bending", end, rigid, "dashed", 2)]
+    series += [Line("computed", end, ours, 1), Line("without bending", end, rigid, 2, dashes=True)]
     title = f"Pitch-link load, µ {one.mu:g}"
-    return LineChart(title, "azimuth [°]", f"{title} [kN]", tuple(series), x_ticks=AZIMUTH)
+    return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(f"{title} [kN]"), tuple(series))
 
 
 def _kilonewtons(values: Sequence[float]) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ from explorer.text.status import section_title
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array
-from rotor.line_chart import round_ticks
+from rotor.chart import round_ticks
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
 from rotor.validation.airloads import REPORTS, harmonics
 
