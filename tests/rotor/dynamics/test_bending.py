@@ -74,7 +74,7 @@ def test_springs_at_offset_hinges(springs: tuple[float, float]) -> None:
     ]
     found = (bending_modes(beam, 2).frequency / speed) ** 2
     if math.isinf(springs[0]):
-        assert_allclose(found[0], expected[1], rtol=1e-3)
+        assert_allclose(found[0], expected[1], atol=2e-3)
         assert found[1] > 1e4
     else:
         assert_allclose(found, np.sort(expected), atol=2e-3)

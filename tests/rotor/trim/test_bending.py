@@ -199,7 +199,7 @@ def test_springs_at_the_hinges(inflow: str) -> None:
 
     At 0 to 2/rev within 7 % of the largest: at a free hinge as much is left of cut-off modes and small angles. The work
     of the air on bending is still all that the shaft gives beside the power. The hub gets the springs' moments: at
-    4/rev within 20 %, for with the modes angles at the hinge converge slower than the forces the hub's loads are made of.
+    4/rev within 20 %, for with the modes angles at the hinge converge slower than forces, of which the hub's are made.
     """
     solution = _sprung(inflow)
     problem, point, b = _at(solution)
