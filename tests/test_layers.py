@@ -23,7 +23,7 @@ PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
 """Packages with public names: a name is imported from the first that has it."""
 ORDER = {
     "rotor": (
-        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "spawn", "blas_threads", "plots",
+        "arrays", "units", "user_input", "terminal", "line_chart", "compiled", "blas_threads", "processes", "plots",
         "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files", "trim", "optimisation",
         "study", "validation", "actuator", "reproduce", "command",
     ),
