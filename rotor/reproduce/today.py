@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from rotor.chart import Axis, Chart, Series
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.files.make_design import make_design
 from rotor.reproduce.actuation import BLADES, COMPARED, fitted_blade, table_5_2
@@ -24,7 +25,7 @@ from rotor.reproduce.ladder import (
     climb,
 )
 from rotor.reproduce.optimum_twist import table_4_1
-from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, TableCell, curve, table
+from rotor.reproduce.report import Agreement, Report, TableCell, curve, table
 from rotor.reproduce.runs import CONCEPTS, Call, searches
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.reproduce.twist_effect import needed as keys_needed
@@ -60,13 +61,13 @@ def today() -> Report:
     slow, middle, fast = SHOWN
     first, last = (found.step(name) for name in ("thesis", tuple(RUNGS)[-1]))
     places = range(len(found.steps))
-    curves: list[Curve] = []
+    curves: list[Series] = []
     for k, mu in enumerate(SHOWN):
         row = [found.at(one.name, mu) for one in found.steps]
         low, high = zip(*(one.band_deg for one in row), strict=True)
         curves += [
             curve("", places, low, "band", upper=high, colour=k),
-            curve("hover" if mu == 0.0 else f"µ {mu:g}", places, [one.rate_deg for one in row], "both", colour=k),
+            curve("hover" if mu == 0.0 else f"µ {mu:g}", [one.rate_deg for one in row], places, "both", colour=k),
         ]
     gains = [one.moving.gain for one in found.wakes]
     keys, tested = last.strong_over_weak, keys_1987().numbers
@@ -150,7 +151,8 @@ def today() -> Report:
             table(
                 "ladder",
                 ("change", *(f"mu_{mu:g}" for mu in found.speeds),
-                 *(f"{way} at µ {mu:g}" for mu in found.named for way in ("moves", "alone on thesis", "alone off flight")),
+                 *(f"{way} at µ {mu:g}" for mu in found.named
+                   for way in ("moves", "alone on thesis", "alone off flight")),
                  "moving saves [%]", "−17.3/−11.5 [%]"),
                 [
                     (one.words, *(x.rate_deg for x in one.best),
@@ -161,8 +163,9 @@ def today() -> Report:
             ),
         ),
         panels=(
-            PlotPanel(
-                "", "best linear twist [°/R]", tuple(curves), names=tuple(one.words for one in found.steps),
+            Chart(
+                "", Axis("best linear twist [°/R]"), Axis(names=tuple(one.words for one in found.steps)),
+                tuple(curves),
             ),
         ),
         numbers={

@@ -13,6 +13,7 @@ import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
 from rotor.reproduce.ladder import (
     FAST,
@@ -29,8 +30,6 @@ from rotor.reproduce.ladder import (
 from rotor.reproduce.report import (
     TOLERANCE,
     Agreement,
-    Curve,
-    PlotPanel,
     Report,
     ReportTable,
     by_name,
@@ -76,7 +75,7 @@ def hover_optimum(name: str) -> tuple[float, float, float, float]:
 def figure_3_11() -> Report:
     """Five twists in hover."""
     tables: list[ReportTable] = []
-    panels: list[PlotPanel] = []
+    panels: list[Chart] = []
     numbers: dict[str, float] = {}
     words: list[str] = []
     for name in ("thesis", "flight"):
@@ -86,11 +85,10 @@ def figure_3_11() -> Report:
         least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
         title = f"{name} preset"
         panels += [
-            PlotPanel("C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp), title=title),
-            PlotPanel(
-                "C_T/σ", "relative to the best of the five [%]",
+            Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
+            Chart(
+                title, Axis("C_T/σ"), Axis("relative to the best of the five [%]"),
                 _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
-                title=title,
             ),
         ]  # fmt: skip
         rows = [
@@ -136,9 +134,9 @@ def figure_3_11() -> Report:
         for k, words in enumerate(readings, start=1)
     ]
     panels.append(
-        PlotPanel(
-            "linear twist [°/R]", "power above the least [%]", (curve("thesis preset", rates, loss), *marks),
-            title="Two readings of the unit of twist",
+        Chart(
+            "Two readings of the unit of twist", Axis("linear twist [°/R]"), Axis("power above the least [%]"),
+            (curve("thesis preset", rates, loss), *marks),
         )
     )  # fmt: skip
     return Report(
@@ -182,8 +180,8 @@ def figure_3_12() -> Report:
         judged(not costs),
         f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:.1f} % in the thesis preset"
         + (f", and from µ {costs[0]:g} on it costs power" if costs else "")
-        + f"; the best goes from {slow}° to {fast}° at 130 km/h. Its linear inflow responds to twist at the ends of the "
-        "blade only, where F is. "
+        + f"; the best goes from {slow}° to {fast}° at 130 km/h. Its linear inflow responds to twist at the blade's ends "
+        "only, where F is. "
         f"With a wake that responds to loading, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, "
         f"{100 * saves['flight']:.1f} % in the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
@@ -253,7 +251,8 @@ def figure_3_15() -> Report:
                    for mu, one in zip(FULL, best, strict=True)]),
         ),
         panels=tuple(
-            PlotPanel("advance ratio µ", label, _five(FULL, lambda rate, k, of=of: of("flight", rate, FULL[k])))
+            Chart("", Axis("advance ratio µ"), Axis(label),
+                  _five(FULL, lambda rate, k, of=of: of("flight", rate, FULL[k])))
             for label, of in (("main-rotor power [kW]", main_rotor_kw),
                               ("relative to the best of the five [%]", _percent))
         ),
@@ -268,7 +267,7 @@ def _neighbours(mu: float) -> str:
                                                                       *FIVE_RATES[k + 1 : k + 2]))  # fmt: skip
 
 
-def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Curve, ...]:
+def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Series, ...]:
     """A curve for each of the five twists; `value` of a twist at a place in x."""
     places = range(len(x))
     return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
@@ -308,9 +307,9 @@ def _speeds(
     numbers: dict[str, float],
 ) -> Report:  # fmt: skip
     panels = tuple(
-        PlotPanel(
-            "advance ratio µ", label, _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
-            title=VARIANT_TITLES[name],
+        Chart(
+            VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(label),
+            _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
         )
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
         for name in FIVE_NAMES
@@ -471,22 +470,16 @@ def keys_1987() -> Report:
                   [(kmh, *row) for kmh, *row in zip(SPEEDS_KMH, *percent.values(), strict=True)]),
         ),
         panels=(
-            PlotPanel(
-                "speed [km/h]", "power of −17.3° over −11.5° [%]",
-                (
+            Chart("", Axis("speed [km/h]"), Axis("power of −17.3° over −11.5° [%]"), (
                     *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
                     curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
-                ),
-            ),
-            PlotPanel(
-                "X/qd²σ", "power of −17.3° over −11.5° at 330 km/h [%]",
-                (
+                )),
+            Chart("", Axis("X/qd²σ"), Axis("power of −17.3° over −11.5° at 330 km/h [%]"), (
                     curve("", force, lowest, "band", upper=highest, colour=2),
                     *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),
                     curve("measured; its force is not stated", (force[0], force[-1]), (100 * FAST,) * 2, "dashed",
                           colour=7),
-                ),
-            ),
+                )),
         ),
         numbers={
             "thesis_fast": ends["thesis"][1],
