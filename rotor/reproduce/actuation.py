@@ -165,6 +165,7 @@ def table_5_2() -> Report:
         table("verdicts", made.columns, made.rows),
         numbers={
             "rows": float(len(gains)),
+            "best_kw": gains[0],
             "actuators": float(len({row[0].partition(",")[0] for row in made.rows})),
             **{
                 key: float(fitted[made.columns.index(column)])

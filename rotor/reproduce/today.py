@@ -12,7 +12,7 @@ import numpy as np
 from rotor.chart import Axis, Chart, Series
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.files.make_design import make_design
-from rotor.reproduce.actuation import BLADES, COMPARED, fitted_blade, table_5_2
+from rotor.reproduce.actuation import BLADES, COMPARED, compared, fitted_blade, table_5_2
 from rotor.reproduce.actuation import SPEEDS as ACTUATED
 from rotor.reproduce.ladder import (
     FAST,
@@ -71,7 +71,7 @@ def today() -> Report:
         ]
     gains = [one.moving.gain for one in found.wakes]
     keys, tested = last.strong_over_weak, keys_1987().numbers
-    concepts, actuators = table_4_1().numbers, table_5_2().numbers
+    concepts, actuators, pair = table_4_1().numbers, table_5_2().numbers, compared("flight").rows[0]
     wakes_fast = [one.best[-1].rate_deg for one in found.wakes]
 
     def best(name: str) -> str:
@@ -98,22 +98,25 @@ def today() -> Report:
         ),
         (
             "Which concept has advantages?",
-            f"None that can be told. Against one linear twist that moves, two segments save "
+            "None that can be told. Against one linear twist that moves, two segments save "
             f"{_saves(concepts['two'])} more, three {_saves(concepts['three'])}, a quadratic twist "
-            f"{_saves(concepts['quadratic'])}: mean power over speed, each concept at its best at every speed. Two "
-            f"segments of two airfoils on the planform of the UH-60A differ by {_signed(concepts['airfoils'])} from "
-            "two of "
-            "its own airfoils. The uncertainty is a few tenths of a per cent. The choice of one good fixed twist is "
-            "worth "
-            f"{_saves(concepts['flight_fixed'])} against −16°.",
+            f"{_saves(concepts['quadratic'])}: mean power over speed, each at its best at every speed. SC1094 R8 "
+            "inboard "
+            f"and SC1095 outboard save {_saves(concepts['airfoils'])} against the airfoils as built, with section drag "
+            "uncertain by 10 %. Differences are known to a few tenths of a per cent. One good fixed twist in place of "
+            f"−16° saves {_saves(concepts['flight_fixed'])}.",
         ),
         (
             "Which actuator?",
-            f"None of {actuators['actuators']:.0f} on the blade as it is. The best, macro fibre composite with "
-            f"interdigitated electrodes (MFC P1), reaches {actuators['reach']:.1f}° of the {actuators['needed']:.1f}° "
-            f"that a linear twist wants between hover and µ {ACTUATED[1]:g}, and with its mass and drive costs "
-            f"{-actuators['net_kw']:.0f} kW on balance. The ideal gain, {actuators['ideal_kw']:.1f} kW, is within the "
-            "uncertainty; the mass is not. No measured gain of a moving twist in flight is known to us.",
+            f"None of {actuators['actuators']:.0f} on the blade as it is: between hover and µ {ACTUATED[1]:g} the "
+            "best of "
+            f"{actuators['rows']:.0f} pairs of actuator and concept, {pair[0].partition(',')[0]} with a {pair[1]} "
+            "twist, "
+            f"costs {-actuators['best_kw']:.0f} kW on balance. Macro fibre composite (MFC P1, 2 plies) reaches "
+            f"{actuators['reach']:.1f}° of the {actuators['needed']:.1f}° wanted. The gain with unlimited twist, "
+            f"{actuators['ideal_kw']:.0f} kW, is within the uncertainty of a few tenths of a per cent; the cost of "
+            "mass "
+            "is not. No measured gain of a moving twist in flight is known to us.",
         ),
         (
             "The thesis says",

@@ -26,7 +26,7 @@ def test_figure_3_3(report: Make):
     assert one.verdict is Agreement.DIFFERS
     assert one.numbers["knee"] < 10
     assert one.numbers["share_of_spread"] < 0.01
-    assert one.numbers["last_step_-10_20"] > one.numbers["next_step_-10_20"]
+    assert one.numbers["last_step_-10_18"] > one.numbers["next_step_-10_18"]
     errors = column(one.tables[0], "rms_-10_15_deg")
     assert (np.diff(errors) < 1e-12).all()  # Nested spaces: least squares cannot get worse.
 
@@ -43,7 +43,7 @@ def test_figure_3_4(report: Make):
 def test_figure_3_5(report: Make):
     """The lift fit is accurate only inside its range: extrapolated, it is wrong at 30°."""
     one = report("3.5")
-    assert one.verdict is Agreement.AGREES
+    assert one.verdict is Agreement.NO_REFERENCE  # The statement has no number.
     assert abs(one.numbers["unheld_at_30"]) > 100.0
 
 
@@ -57,6 +57,7 @@ def test_figure_3_6(report: Make):
 def test_figure_3_7(report: Make):
     """Hover power converges with elements, with an order between 1 and the midpoint rule's 2 and a half."""
     one = report("3.7")
+    assert one.verdict is Agreement.NO_REFERENCE  # The number is in the figure, which is not available.
     for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
         assert 1.0 < one.numbers[f"{preset}_order"] < 3.0
@@ -124,12 +125,11 @@ def test_the_knee_of_a_broken_line():
 
 @pytest.mark.slow
 def test_figure_3_11_by_both_readings(report: Make):
-    """Root to tip, the optimum of −13.5° is ours and −16° lies past it; per radius it misses. No stall."""
+    """Per radius, the unit of figure 4.11, −13.5° misses; root to tip it holds. No stall."""
     one = report("3.11")
-    assert one.verdict is Agreement.AGREES
-    assert_allclose(one.numbers["root_to_tip_optimum"], -13.5, atol=0.2)
-    assert one.numbers["cost_of_13_5_root_to_tip"] < 1e-3 < one.numbers["cost_of_16_root_to_tip"]
-    assert one.numbers["thesis_cost_of_13_5"] > 1e-3
+    assert one.verdict is Agreement.DIFFERS
+    assert one.numbers["root_to_tip_optimum"] > -16.0 > one.numbers["thesis_optimum"]
+    assert one.numbers["cost_of_13_5_root_to_tip"] < 1e-3 < one.numbers["thesis_cost_of_13_5"]
     assert "stalled area 0.0 %" in one.because
 
 
@@ -150,27 +150,30 @@ def test_figure_3_11(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_12(report: Make):
-    """Strong twist is better at low speed if the wake responds to loading; with linear inflow by only 0.1 %."""
+    """Strong twist is better up to 130 km/h; most if the wake responds to loading all over the disk."""
     made = report("3.12")
     numbers = made.numbers
-    assert made.verdict is Agreement.DIFFERS
-    assert "from µ 0.09 on it costs power" in made.because
-    assert 0.0 < numbers["thesis_saving"] < 0.01
+    assert made.verdict is Agreement.AGREES
+    assert "it costs power" not in made.because
+    assert 0.01 < numbers["thesis_saving"] < numbers["thesis-wake_saving"]
     assert numbers["thesis-wake_saving"] > 0.05
     assert numbers["flight_saving"] > 0.05
 
 
 @pytest.mark.slow
 def test_figure_3_13(report: Make):
-    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor; with linear inflow it costs < 0.5 %."""
-    numbers = report("3.13").numbers
-    assert numbers["thesis-wake_always_8"] == 1.0
-    assert 0.0 < numbers["thesis_cost_of_8"] < 5e-3
+    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor, and to 0.1 % with linear inflow."""
+    one = report("3.13")
+    assert one.verdict is Agreement.AGREES
+    assert one.numbers["thesis-wake_always_8"] == 1.0
+    assert 0.0 <= one.numbers["thesis_cost_of_8"] < 1e-3
+    assert [round(met, 2) for met in crossings("thesis", -8, -12, (0.17, 0.18, 0.19))] == [0.18]
 
 
 @pytest.mark.slow
 def test_figure_3_14(report: Make):
     """−4° is best at µ 0.35 on the thesis' rotor with either inflow, not in `flight`, nor once trimmed by cyclic."""
+    assert report("3.14").verdict is Agreement.AGREES
     numbers = report("3.14").numbers
     assert numbers["thesis_best"] == numbers["thesis-wake_best"] == -4.0
     assert numbers["flight_best"] == -12.0
@@ -179,22 +182,21 @@ def test_figure_3_14(report: Make):
 
 
 def test_crossings_are_at_equal_power():
-    """Between −4° and −8° on the thesis' rotor; the two costs cross once at low speed."""
-    found = crossings("thesis", -4, -8, (0.075, 0.105, 0.135))
+    """Between −12° and −16° on the thesis' rotor; the two costs cross once at low speed."""
+    found = crossings("thesis", -12, -16, (0.075, 0.105, 0.135))
     assert len(found) == 1
     assert 0.075 < found[0] < 0.135
 
 
 @pytest.mark.slow
 def test_keys_1987(report: Make):
-    """More twist helps in hover in every model; at 330 km/h the flight preset is far from the measurement."""
+    """More twist helps in hover in every model; at 330 km/h propulsive force decides, in every model alike."""
     one = report("keys 1987")
     assert one.verdict is Agreement.DIFFERS
-    rows = {words: (hover, fast) for words, hover, fast, _ in one.tables[0].rows}
-    assert len(rows) == 18
-    for hover, fast in rows.values():
-        assert -2.4 < float(hover) < 0.0
-        assert float(fast) < 5.0
+    assert all(-0.024 < one.numbers[f"{name}_hover"] < 0.0 for name in ("thesis", "thesis-wake", "flight"))
+    for name in one.tables[0].columns[1:]:
+        assert (np.diff(column(one.tables[0], name)) < 0.0).all()
+    assert one.numbers["usual_low"] < one.numbers["usual_force"] < one.numbers["usual_high"]
     assert one.numbers["thesis_fast"] > 0.0
     assert one.numbers["thesis-wake_fast"] > 0.02
     assert abs(one.numbers["flight_fast"] - 0.05) > 0.04

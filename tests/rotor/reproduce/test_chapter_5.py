@@ -26,6 +26,13 @@ def test_figure_5_5(report: Make):
     assert numbers["MFC_P1"] == max(numbers.values())
 
 
+def test_figure_5_7(report: Make):
+    """4 kV/mm over 2000 V across a gap of 0.5 mm."""
+    numbers = alone(report, "5.7").numbers
+    assert numbers["MFC_P1"] == pytest.approx(2000.0 / 0.5 / 1e3)
+    assert numbers["MFC_P2"] < numbers["MFC_P1"]
+
+
 def test_figure_5_10(report: Make):
     """Up at positive voltage, three times as far as down at −500 V; the worked example's tips within 10 %."""
     numbers = alone(report, "5.10").numbers
