@@ -15,7 +15,7 @@ from rotor.aero.bent_section import SV, SW
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.columns.bending import bending_work, coordinates_of
+from rotor.columns.bending import coordinates_of
 from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
@@ -68,7 +68,7 @@ def test_energy(inflow: str) -> None:
     solution = _solved(0.3, inflow)
     _, point, b = _at(solution)
     watts = solution.design.power_unit
-    work = sum(share * point.z[i] * point.z[j] * point.q[q] for share, i, j, q in bending_work(point.system.structure))
+    work = float(point.system.structure.sums["motion"].value(point.z, point.q)[0])
     left = solution.power.shaft - solution.power.main_rotor
     assert_allclose(work * watts, left, atol=1e-9 * solution.power.shaft)
     q, _ = coordinates_of(b, point.system.structure, point.z)
