@@ -9,7 +9,6 @@ import time
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from rotor.user_input import brief
@@ -70,8 +69,6 @@ class ServerLimits:
     sessions: int = SESSIONS
     """Pages at work at once."""
     allow_hosts: tuple[str, ...] = ()
-    studies: Path = Path()
-    """Results of studies in this folder are offered to every page; nothing else on the disk is."""
     frame_ancestors: tuple[str, ...] = ()
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
 

@@ -20,9 +20,9 @@ from rotor.reproduce.report import (
     Report,
     ReportTable,
     TableCell,
-    typographic,
 )
 from rotor.reproduce.runs import CachedFunction
+from rotor.units import typographic
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
 _STYLE = {
