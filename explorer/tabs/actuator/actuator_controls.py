@@ -21,7 +21,7 @@ from explorer.tabs.actuator.actuator_inputs import (
     drive_of,
 )
 from explorer.tabs.actuator.actuator_tasks import Outcome
-from explorer.tabs.live_charts import Chart, line
+from explorer.tabs.live_charts import PanelChart, line
 from explorer.text.glossary import hint
 from rotor.actuator import (
     Actuator,
@@ -156,7 +156,7 @@ class ActuatorControls:
             self._menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
             self.numbers = gui.add_html("")
-            self.chart = Chart(
+            self.chart = PanelChart(
                 gui,
                 "Δtwist [°]",
                 (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
