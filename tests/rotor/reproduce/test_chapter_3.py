@@ -48,10 +48,10 @@ def test_figure_3_5(report: Make):
 
 
 def test_figure_3_6(report: Make):
-    """The drag fit: a few per cent in the flight range, wrong (even negative) outside."""
+    """The drag fit: a few per cent in the flight range, wrong outside, on either side of zero."""
     numbers = report("3.6").numbers
     assert numbers["attached_rms"] < 0.03
-    assert numbers["unheld_at_30"] < 0.0
+    assert abs(numbers["unheld_at_30"]) > 100.0
 
 
 def test_figure_3_7(report: Make):
@@ -66,11 +66,12 @@ def test_figure_3_7(report: Make):
 
 
 def test_figure_3_8(report: Make):
-    """Power in forward flight converges with elements."""
+    """Power in forward flight converges with elements; λ_i/F, without bound at the tip, settles without an order."""
     one = report("3.8")
     for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
-        assert 1.0 < one.numbers[f"{preset}_order"] < 3.0
+    assert 1.0 < one.numbers["flight-linear_order"] < 3.0
+    assert one.numbers["thesis_error_at_40"] < 1e-3
 
 
 def test_order_of_a_known_sequence():
