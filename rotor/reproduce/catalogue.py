@@ -67,7 +67,7 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("3.14", twist_effect.figure_3_14, _TWIST),
     CatalogueEntry("3.15", twist_effect.figure_3_15, _TWIST),
     CatalogueEntry("readings", readings.readings, _TWIST, readings.needed),
-    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST, twist_effect.needed),
+    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
     *(
         CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, partial(searches, (concept,)))
         for number, (concept, *_) in optimum_twist.FIGURES.items()

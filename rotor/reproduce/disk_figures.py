@@ -236,8 +236,8 @@ def elements_figure(number: str) -> Report:
         )
         + ".",
         verdict=Agreement.NO_REFERENCE,
-        because="The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
-        "the tip, and the airfoils and twist table of the UH-60A have kinks, which makes the order irregular. In forward flight "
+        because="The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at the tip, and "
+        "the airfoils and twist table of the UH-60A have kinks, which makes the order irregular. In forward flight "
         "λ_i/F has no bound at the tip: with it power has no order, and moves by hundredths of a per cent.",
         tables=(table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True)),),
         panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: ours"), "the limit"),

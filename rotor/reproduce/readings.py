@@ -43,7 +43,7 @@ STATEMENTS = (
 )
 
 
-class Reading(NamedTuple):
+class ThesisReading(NamedTuple):
     """One way to read the thesis."""
 
     section: str
@@ -56,7 +56,7 @@ class Reading(NamedTuple):
 class Judgement:
     """What one reading gives of the five statements."""
 
-    reading: Reading
+    reading: ThesisReading
     optimum_deg: float
     """Best linear twist in hover, in the unit of the reading [°]."""
     excess: tuple[float, ...]
@@ -116,7 +116,7 @@ def judge(section: str, loss_on: LossOn) -> tuple[Judgement, ...]:
             max(cost(-4.0, mu) for mu in HIGH),
         )
         met = float(np.interp(0.0, gaps[rises[0] : rises[0] + 2], speeds[rises[0] :][:2])) if rises else float("nan")
-        return Judgement(Reading(section, loss_on, unit, count), best, excess, met)
+        return Judgement(ThesisReading(section, loss_on, unit, count), best, excess, met)
 
     return tuple(judged(unit, count) for unit, count in product(UNITS, COUNTS))
 
@@ -148,10 +148,10 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
     most = held[best]
     several = sum(count == most for count in held.values())
     ways = [*product(LOSS_ON, UNITS, COUNTS)]
-    before = Reading(THESIS_NAME, "lift", best.unit, best.counted)
+    before = ThesisReading(THESIS_NAME, "lift", best.unit, best.counted)
     per_radius = best._replace(unit=UNITS[0])
 
-    def statements(reading: Reading) -> tuple[TableCell, ...]:
+    def statements(reading: ThesisReading) -> tuple[TableCell, ...]:
         one = found[reading]
         cells = [f"{'yes' if yes else 'no'} {100 * value:.2f} %"
                  for yes, value in zip(one.holds, one.excess, strict=True)]  # fmt: skip
@@ -184,7 +184,7 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
             table(
                 "statements that hold",
                 ("section data", *(f"{on}, {unit}, {count}" for on, unit, count in ways)),
-                [(described(one), *(held[Reading(one, *way)] for way in ways)) for one in sections], shown=True,
+                [(described(one), *(held[ThesisReading(one, *way)] for way in ways)) for one in sections], shown=True,
             ),
             table(
                 "statements", ("reading", "optimum in hover [°]", *STATEMENTS, "−8° overtakes −12° at µ"),
@@ -192,7 +192,7 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
             ),
             table(
                 "readings",
-                (*Reading._fields, "optimum_deg", "cost_13_5", "cost_16", "excess_low", "cost_8", "cost_4",
+                (*ThesisReading._fields, "optimum_deg", "cost_13_5", "cost_16", "excess_low", "cost_8", "cost_4",
                  "overtakes_mu", "holds"),
                 [(*reading, one.optimum_deg, *one.excess, one.overtakes, held[reading])
                  for reading, one in found.items()],

@@ -28,7 +28,6 @@ from rotor.reproduce.optimum_twist import table_4_1
 from rotor.reproduce.report import Agreement, Report, TableCell, curve, table
 from rotor.reproduce.runs import CONCEPTS, Call, searches
 from rotor.reproduce.twist_effect import keys_1987
-from rotor.reproduce.twist_effect import needed as keys_needed
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -52,7 +51,7 @@ SOURCES = (
 
 def needed() -> list[Call]:
     """The searches, made once."""
-    return [*(call for group in calls() for call in group), *searches(CONCEPTS), *keys_needed(), COMPARED]
+    return [*(call for group in calls() for call in group), *searches(CONCEPTS), COMPARED]
 
 
 def today() -> Report:

@@ -41,8 +41,6 @@ from rotor.reproduce.runs import (
     FULL,
     THESIS_WAKE,
     VARIANT_TITLES,
-    CachedFunction,
-    Call,
     main_rotor_kw,
     solved,
 )
@@ -345,7 +343,7 @@ USUAL_FORCE = 0.05
 """X/(q d² σ) that tunnel tests of helicopter rotors usually set; the thesis does not state that of Keys et al."""
 
 
-@CachedFunction
+@lru_cache(maxsize=64)
 def over_drag_area(area: float, elastic: bool, bending: bool, inflow: str | None) -> tuple[float, float]:
     """Power of −17.3° over −11.5° at 330 km/h less 1, and what speed that costs −17.3° at equal power [km/h].
 
@@ -369,11 +367,6 @@ FORCE_MODELS: dict[str, tuple[bool, bool, str | None]] = {
     "Pitt–Peters": (True, False, "pitt-peters"),
     "local momentum": (True, False, "local-momentum"),
 }
-
-
-def needed() -> list[Call]:
-    """The calls that Keys' card makes ahead."""
-    return [(over_drag_area, (area, *model)) for area in AREAS for model in FORCE_MODELS.values()]
 
 
 RUNGS_OF = {"thesis": (), THESIS_WAKE: ("wake",), "flight": tuple(RUNGS)}
