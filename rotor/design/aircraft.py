@@ -5,12 +5,13 @@ standard atmosphere, weight, advance ratio, and the drag of the airframe.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
-from numbers import Real
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
+from rotor.design.quantities import BESIDE, CONDITION, QUANTITIES
 from rotor.design.stand import Stand
 from rotor.design.twist import TwistLaw
 from rotor.units import GRAVITY, KNOT
@@ -24,12 +25,6 @@ LAPSE_RATE = 0.0065
 GAS_CONSTANT = 287.05287
 """Specific gas constant of dry air [J/(kg K)] (ISO 2533)."""
 RATIO_OF_SPECIFIC_HEATS = 1.4
-
-
-LEAST_MASS = 100.0
-"""[kg] of an aircraft."""
-FASTEST_CLIMB = 20.0
-"""[m/s], 3900 ft/min, up and down."""
 
 
 @dataclass(frozen=True)
@@ -52,11 +47,10 @@ class FlightCondition:
     """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
 
     def __post_init__(self) -> None:
-        _check("advance ratio", self.advance_ratio, 0.0, 0.6 if self.stand is None else 0.75, "")
-        if self.stand is None:
-            _check("mass", self.mass, LEAST_MASS, 50_000.0, " kg")
-        _check("altitude", self.altitude, -500.0, 8_000.0, " m")
-        _check("rate of climb", self.climb_speed, -FASTEST_CLIMB, FASTEST_CLIMB, " m/s")
+        tested = self.stand is not None
+        for row in CONDITION.values():
+            if not (tested and row.in_flight):
+                row.check(getattr(self, row.field), tested)
         if self.stand is not None and self.climb_speed:
             raise ValueError(
                 f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
@@ -64,6 +58,17 @@ class FlightCondition:
             )
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The quantities of the condition by name."""
+        return {name: getattr(self, row.field) for name, row in CONDITION.items()}
+
+    @property
+    def beside(self) -> tuple[str, ...]:
+        """What is not as in most flights, in words: `climb 5 m/s`."""
+        numbers = self.numbers
+        return tuple(row.said(numbers[name]) for name, row in BESIDE.items() if numbers[name] != row.default)
 
     @property
     def weight(self) -> float:
@@ -110,34 +115,37 @@ class Fuselage:
         return 0.5 * density * speed**2 * self.drag_area
 
 
-def number(name: str, value: object, example: str) -> float:
-    """The value as a float; TypeError with one sentence when it is not a real number."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(f"{name} has hundreds of digits: write for example {name}={example}") from None
+def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
+    """Names of the quantities that a table of these conditions has: those of every table, and what is set."""
+    numbers = [condition.numbers for condition in conditions]
+    return tuple(
+        name for name, row in CONDITION.items() if row.told or any(own[name] != row.default for own in numbers)
+    )
 
 
-def advance_ratio(
-    tip_speed: float, mu: float | None, speed_kt: float | None, hover: bool, default: float | None = None
-) -> float | None:
-    """µ from whichever of the three arguments is given; `default` when none is. `tip_speed` is ΩR [m/s].
+def changed_condition(
+    condition: FlightCondition, tip_speed: float, asked: Mapping[str, Any], **fields: Any
+) -> FlightCondition:
+    """The condition with the quantities asked for, by name; None leaves one as it is. `tip_speed` is ΩR [m/s].
 
-    Raises TypeError or ValueError with one sentence when more than one is given, or a value is not a number.
+    `fields`: of the condition, where nothing else is asked for.
+
+    Raises TypeError or ValueError with one sentence when more than one sets the speed, or a value is not a number.
     """
+    given = {name: value for name, value in asked.items() if value is not None}
+    hover = given.pop("hover", False)
     if hover not in (True, False):
         raise TypeError(f"hover is {hover!r}: write hover=True or leave it out")
-    given = {"mu": mu, "speed_kt": speed_kt, "hover": hover or None}
-    chosen = [f"{name}={value!r}" for name, value in given.items() if value is not None]
-    if len(chosen) > 1:
-        raise ValueError(f"{' and '.join(chosen)} each set the speed: give only one of mu, speed_kt and hover")
+    speeds = {name: given[name] for name in ("mu", "speed_kt") if name in given} | ({"hover": True} if hover else {})
+    if len(speeds) > 1:
+        chosen = " and ".join(f"{name}={value!r}" for name, value in speeds.items())
+        raise ValueError(f"{chosen} each set the speed: give only one of mu, speed_kt and hover")
+    changed = {row.field: row.read(given[name]) for name, row in CONDITION.items() if name in given}
     if hover:
-        return 0.0
-    if speed_kt is not None:
-        return number("speed_kt", speed_kt, "120") * KNOT / tip_speed
-    return default if mu is None else number("mu", mu, "0.2")
+        changed["advance_ratio"] = 0.0
+    elif "speed_kt" in given:
+        changed["advance_ratio"] = QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / tip_speed
+    return replace(condition, **(fields | changed))
 
 
 def _check(name: str, value: float, low: float, high: float, unit: str) -> None:
