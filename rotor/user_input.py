@@ -2,6 +2,7 @@
 
 import difflib
 import errno
+import importlib
 import logging
 import math
 import os
@@ -11,12 +12,27 @@ import tempfile
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 _log = logging.getLogger(__name__)
 
 
 class Notice(UserWarning):
     """What a user should know although the input was accepted, as one sentence."""
+
+
+class MissingExtra(ImportError, ValueError):
+    """A package is not installed that only some uses need; one sentence with the remedy."""
+
+
+def extra_module(name: str, extra: str, what: str) -> Any:
+    """A module that an extra of the installation brings. MissingExtra, for example `what` "a DataFrame", without it."""
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+            raise  # The module is there, and something else is missing.
+        raise MissingExtra(f"{what} needs {error.name}: pip install 'rotor-explorer[{extra}]'") from None
 
 
 LARGEST = 4 * 2**20
@@ -145,19 +161,20 @@ def check_suffix(path: str | Path, suffix: str) -> None:
         )
 
 
-def write_whole(path: str | Path, text: str) -> None:
-    """Write a text file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
+def write_whole(path: str | Path, content: str | bytes) -> None:
+    """Write a file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
 
     What is not a file, as /dev/stdout, is written directly.
     """
     path = Path(os.path.realpath(path))
+    data = content if isinstance(content, bytes) else content.encode()
     if path.exists() and not path.is_file():
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(data)
         return
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()

@@ -83,7 +83,7 @@ class Models:
     trim: FlightTrim | StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
     `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
-    stand, which need `FlightCondition.stand`: see `rotor.design.stand`."""
+    stand, which need `FlightCondition.stand`: see `rotor.design.aircraft`."""
     disk_axial_flow: bool
     """Whether the tilted shaft sees µ sin α through the disk (absent from eq. 3.6 as printed)."""
     blade_weight: bool

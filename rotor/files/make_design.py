@@ -11,7 +11,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
-from rotor.design.aircraft import Aircraft, FlightCondition, changed_condition
+from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import Design, Models, check_preset, preset_models, with_grid
 from rotor.design.quantities import (
@@ -23,7 +23,6 @@ from rotor.design.quantities import (
     STAND_TRIMS,
     LowSpeed,
 )
-from rotor.design.stand import Stand, read_stand
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
 from rotor.user_input import Notice, did_you_mean

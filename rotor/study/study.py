@@ -6,14 +6,13 @@ is computed, not stored: a study of 10⁹ points needs no memory. A study pickle
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from rotor.arrays import Array
 from rotor.design.aircraft import Aircraft
@@ -78,7 +77,7 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
 
 
 @dataclass(frozen=True)
-class Axis:
+class StudyAxis:
     name: str
     values: tuple[float, ...] | tuple[str, ...]
 
@@ -102,7 +101,7 @@ class Sample:
 class StudyPoints:
     """All points of a study; the values of each by quantity."""
 
-    axes: tuple[Axis, ...]
+    axes: tuple[StudyAxis, ...]
     sample: Sample | None
 
     @property
@@ -125,7 +124,7 @@ class StudyPoints:
         digits = _walk(np.arange(first, last, dtype=np.int64), tuple(size for _, size in self._order))
         columns: dict[str, list[float | str]] = {}
         for (axis, _), digit in zip(self._order, digits, strict=True):
-            if isinstance(axis, Axis):
+            if isinstance(axis, StudyAxis):
                 columns[axis.name] = [axis.values[k] for k in digit]
             else:
                 rows = _spread(axis)[digit]
@@ -133,9 +132,9 @@ class StudyPoints:
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     @property
-    def _order(self) -> list[tuple[Axis | Sample, int]]:
+    def _order(self) -> list[tuple[StudyAxis | Sample, int]]:
         """Axes from slow to fast: texts, then axes by increasing number of values."""
-        ranked: list[tuple[float, Axis | Sample, int]] = [
+        ranked: list[tuple[float, StudyAxis | Sample, int]] = [
             (0.0 if axis.textual else len(axis.values), axis, len(axis.values)) for axis in self.axes
         ]
         if self.sample is not None:
@@ -158,6 +157,8 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 @cache
 def _spread(sample: Sample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
+    from scipy.stats import qmc  # Here, for it takes 0.4 s to import.
+
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":
         # The sequence is balanced over powers of two; a first part of it is distributed nearly as well.
@@ -231,6 +232,10 @@ class Study:
     def span(self, chunk: int) -> tuple[int, int]:
         """First point of a chunk, and the one after its last."""
         return chunk * self.chunk, min((chunk + 1) * self.chunk, self.count)
+
+    def points_of(self, chunks: Iterable[int]) -> int:
+        """How many points these chunks have together."""
+        return sum(last - first for first, last in map(self.span, chunks))
 
     def values(self, first: int, last: int) -> list[dict[str, Value]]:
         """All values of the points first … last − 1."""

@@ -18,10 +18,9 @@ from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
 from rotor.columns.trims import trim_of
-from rotor.design.aircraft import FlightCondition
+from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, STAND
-from rotor.design.stand import Stand
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 LINEAR = "pitt-peters"

@@ -12,9 +12,9 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import build_problem
+from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, PRESETS, STAND
-from rotor.design.stand import Stand
 from rotor.files.make_design import make_design
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
