@@ -172,13 +172,11 @@ _BLADE = (
         "twist_per_rev", "text",
         "active twist, linear from the root cut-out, N:DEG:PHASE,…, e.g. 3:1:180: DEG cos(N ψ − PHASE) degrees of the "
         "tip relative to the root, as on a blade at rest; 2:0:0 takes away that of a design file",
-        key="twist_per_rev", section="fixed", input="twist_per_rev",
-        hint="Harmonic of twist, tip relative to root, that the two sliders below set. | section 10",
+        key="twist_per_rev", section="fixed",
     ),
     Quantity(
         "pitch_per_rev", "text", "the same of the root pitch, 2 to 8/rev; both rest in hover",
-        key="pitch_per_rev", section="fixed", input="pitch_per_rev",
-        hint="Harmonic of root pitch that the two sliders below set; higher-harmonic control. | section 10",
+        key="pitch_per_rev", section="fixed",
     ),
 )  # fmt: skip
 
