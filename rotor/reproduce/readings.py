@@ -13,7 +13,8 @@ import numpy as np
 
 from rotor.airfoil.polynomial import THESIS_NAME, PolynomialReading, parse_reading
 from rotor.design.blade import with_airfoils
-from rotor.design.design import LOSS_ON, Design, LossOn
+from rotor.design.design import Design
+from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import TOLERANCE, Agreement, Report, TableCell, table
 from rotor.reproduce.runs import FIVE_RATES, CachedFunction, Call

@@ -18,7 +18,8 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import Wake
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
-from rotor.design.design import LossOn, Models
+from rotor.design.design import Models
+from rotor.design.quantities import LossOn
 from rotor.engine.linearise import Nodes
 from rotor.engine.memory import Memory
 from rotor.engine.terms import ONE, Shape, Structure

@@ -11,7 +11,7 @@ from rotor.aero import losses
 from rotor.aero.losses import HUB_FACTOR, end_factor, loss_factor, mean_loss_factor, prandtl
 from rotor.arrays import Array
 from rotor.columns.hover import closed_form_inflow, lift_curve
-from rotor.design.design import LOSS_ON, LossOn
+from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
