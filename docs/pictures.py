@@ -9,7 +9,7 @@ from explorer.colours import PARTS
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.export.report.figures import figure
 from explorer.picture.fields import FIELDS
-from rotor.line_chart import LineChart, Mark, Series
+from rotor.chart import Axis, Chart, Line
 
 _COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5")
 
@@ -22,13 +22,21 @@ def power_of_twist() -> str:
         design = rotor.make_design(mu=speed)
         powers = [rotor.solve(design.with_twist(f"linear:{rate:g}")).power for rate in rates]
         total = np.array([power.total for power in powers])
-        series = [line("total", rates, 100.0 * (total / total.min() - 1.0), "currentColor")]
+        series = [Line("total", rates, 100.0 * (total / total.min() - 1.0), "currentColor")]
         for part in ("induced", "profile"):
             values = np.array([getattr(power, part) for power in powers])
             change = 100.0 * (values - values[-1]) / total.min()
-            series.append(line(part, rates, change, PARTS[part], "dashed"))
-        labels = "linear twist [°]", "change [% of the least power]"
-        charts.append(figure(LineChart(title, *labels, tuple(series), x_range=(-20.0, 0.0))))
+            series.append(Line(part, rates, change, PARTS[part], dashes=True))
+        charts.append(
+            figure(
+                Chart(
+                    title,
+                    Axis("linear twist [°]", range=(-20.0, 0.0)),
+                    Axis("change [% of the least power]"),
+                    tuple(series),
+                )
+            )
+        )
     return "".join(charts)
 
 
@@ -58,14 +66,9 @@ def shipped_rotors() -> str:
         ]
         speeds = np.array([one.design.condition.advance_ratio for one in table])
         loading = np.array([one.power.total / one.design.condition.weight for one in table])
-        series.append(line(table[0].design.rotor.name, speeds, loading, colour))
-    labels = "advance ratio µ", "power over weight [W/N]"
-    return figure(LineChart("Power over weight", *labels, tuple(series), x_range=(0.05, 0.35)))
-
-
-def line(label: str, x: np.ndarray, y: np.ndarray, colour: str, mark: Mark = "line") -> Series:
-    """A line of a chart."""
-    return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
+        series.append(Line(table[0].design.rotor.name, speeds, loading, colour))
+    speed = Axis("advance ratio µ", range=(0.05, 0.35))
+    return figure(Chart("Power over weight", speed, Axis("power over weight [W/N]"), tuple(series)))
 
 
 def disk_figure(solution: rotor.Solution, field: str, title: str = "") -> str:

@@ -5,7 +5,7 @@ import math
 from html import escape
 
 import numpy as np
-from pictures import disk_figure, line
+from pictures import disk_figure
 
 import rotor
 from explorer.colours import PARTS
@@ -17,7 +17,7 @@ from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import axial_inflow, vortex_ring_edge
 from rotor.airfoil.sections import load_section
 from rotor.assets import asset_path
-from rotor.line_chart import AZIMUTH, COLOURS, LineChart
+from rotor.chart import AZIMUTH, COLOURS, Axis, Chart, Line, Points
 from rotor.study.series import waterfall
 from rotor.trim.adjoint import power_gradient
 
@@ -52,8 +52,8 @@ def flight_condition() -> str:
     drag = [one.power.parasite / one.design.airspeed / one.design.condition.weight for one in table]
     tilt = [math.tan(one.controls.shaft_tilt) for one in table]
     series = (
-        line("drag over weight", SPEEDS, np.array(drag), COLOURS[1]),
-        line("tangent of the shaft's tilt", SPEEDS, np.array(tilt), COLOURS[2], "dashed"),
+        Line("drag over weight", SPEEDS, np.array(drag), COLOURS[1]),
+        Line("tangent of the shaft's tilt", SPEEDS, np.array(tilt), COLOURS[2], dashes=True),
     )
     return _chart("Drag tilts the rotor", MU, "D/W, tan α", *series)
 
@@ -66,8 +66,8 @@ def momentum() -> str:
     power = np.array([(axial_inflow(ct, v * unit) + v * unit) / unit for v in climb])
     edge = vortex_ring_edge(0.0)
     series = (
-        line("ideal rotor", climb, power, COLOURS[1]),
-        line("vortex ring state begins", np.array([edge, edge]), np.array([0.0, 1.4]), COLOURS[2], "dashed"),
+        Line("ideal rotor", climb, power, COLOURS[1]),
+        Line("vortex ring state begins", np.array([edge, edge]), np.array([0.0, 1.4]), COLOURS[2], dashes=True),
     )
     return _chart("Axial climb and descent", "V_c / v_h", "P / P_h", *series)
 
@@ -76,7 +76,7 @@ def twist_laws() -> str:
     """Twist laws over the radius."""
     r = np.linspace(0.13, 1.0, 80)
     laws = ("linear:-12", "quadratic:10,-12", "segments:-4,-14@0.6", "uh60a")
-    series = [line(spec, r, np.degrees(rotor.parse_twist(spec)(r)), COLOURS[1 + k]) for k, spec in enumerate(laws)]
+    series = [Line(spec, r, np.degrees(rotor.parse_twist(spec)(r)), COLOURS[1 + k]) for k, spec in enumerate(laws)]
     return _chart("Twist laws, zero at 0.75 R", RADIUS, "twist [°]", *series)
 
 
@@ -86,7 +86,7 @@ def sections() -> str:
     table, charts = load_section("sc1095"), []
     for name, label in (("cl", "C_l"), ("cd", "C_d")):
         series = [
-            line(f"Mach {mach}", np.degrees(alpha), getattr(table(alpha, mach), name), COLOURS[1 + k])
+            Line(f"Mach {mach}", np.degrees(alpha), getattr(table(alpha, mach), name), COLOURS[1 + k])
             for k, mach in enumerate((0.3, 0.5, 0.7))
         ]
         charts.append(_chart(f"SC1095, {label}", "angle of attack [°]", label, *series))
@@ -97,7 +97,7 @@ def losses() -> str:
     """Prandtl's factor along the blade."""
     r = np.linspace(0.131, 0.9999, 200)
     series = [
-        line(f"λ = {inflow}", r, loss_factor(r, inflow, 4, 0.13)[0], COLOURS[1 + k])
+        Line(f"λ = {inflow}", r, loss_factor(r, inflow, 4, 0.13)[0], COLOURS[1 + k])
         for k, inflow in enumerate((0.03, 0.06))
     ]
     return _chart("Tip and root loss, four blades", RADIUS, "F", *series)
@@ -109,7 +109,7 @@ def hover() -> str:
     for k, twist in enumerate(("linear:0", "linear:-8", "linear:-16")):
         disk = rotor.solve(rotor.make_design(hover=True, twist=twist)).disk
         title = twist.replace("linear:", "twist ").replace("-", "−") + "°"
-        series.append(line(title, disk.r, disk.induced[:, 0], COLOURS[1 + k]))
+        series.append(Line(title, disk.r, disk.induced[:, 0], COLOURS[1 + k]))
     return _chart("Twist evens the inflow of hover", RADIUS, "λ_i", *series)
 
 
@@ -119,7 +119,7 @@ def velocities() -> str:
     disk = solution.disk
     k = int(np.argmin(np.abs(disk.r - 0.75)))
     psi = np.degrees(disk.psi)
-    series = (line("U_T", psi, disk.u_t[k], COLOURS[1]), line("U_P × 10", psi, 10.0 * disk.u_p[k], COLOURS[2]))
+    series = (Line("U_T", psi, disk.u_t[k], COLOURS[1]), Line("U_P × 10", psi, 10.0 * disk.u_p[k], COLOURS[2]))
     return _chart("At 0.75 R, µ 0.3", "azimuth ψ [°]", "velocity over ΩR", *series, ticks=AZIMUTH)
 
 
@@ -138,7 +138,7 @@ def elastic() -> str:
         assert solution.elastic is not None
         psi = np.append(np.degrees(solution.disk.psi), 360.0)
         tip = np.degrees(np.append(solution.elastic.tip, solution.elastic.tip[0]))
-        series.append(line(f"µ {mu}", psi, tip, COLOURS[1 + k]))
+        series.append(Line(f"µ {mu}", psi, tip, COLOURS[1 + k]))
     return _chart("Elastic twist of the tip", "azimuth ψ [°]", "φ [°]", *series, ticks=AZIMUTH)
 
 
@@ -152,7 +152,7 @@ def trim() -> str:
         "shaft tilt": "shaft_tilt",
     }
     series = [
-        line(label, SPEEDS, np.degrees([getattr(one.controls, name) for one in table]), COLOURS[1 + k % 4])
+        Line(label, SPEEDS, np.degrees([getattr(one.controls, name) for one in table]), COLOURS[1 + k % 4])
         for k, (label, name) in enumerate(named.items())
     ]
     return _chart("Controls of level flight", MU, "angle [°]", *series)
@@ -163,8 +163,8 @@ def power() -> str:
     table = _level(SPEEDS)
     parts = {part: np.array([getattr(one.power, part) / 1e3 for one in table]) for part in PARTS if part != "climb"}
     total = np.array([one.power.total / 1e3 for one in table])
-    series = [line("total", SPEEDS, total, "currentColor")]
-    series += [line(part, SPEEDS, values, PARTS[part]) for part, values in parts.items()]
+    series = [Line("total", SPEEDS, total, "currentColor")]
+    series += [Line(part, SPEEDS, values, PARTS[part]) for part, values in parts.items()]
     return _chart("Power of level flight", MU, "power [kW]", *series)
 
 
@@ -173,7 +173,7 @@ def gradient() -> str:
     series = []
     for k, mu in enumerate((0.0, 0.2, 0.35)):
         found = power_gradient(rotor.solve(rotor.make_design(mu=mu)))
-        series.append(line(f"µ {mu:g}", found.r, found.density * math.radians(1.0) / 1e3, COLOURS[1 + k]))
+        series.append(Line(f"µ {mu:g}", found.r, found.density * math.radians(1.0) / 1e3, COLOURS[1 + k]))
     return _chart("Power by local pitch, trimmed again", RADIUS, "kW per ° and per R", *series)
 
 
@@ -189,7 +189,7 @@ def ideal() -> str:
         "any circulation": "any_circulation",
     }
     series = [
-        line(label, mu, np.array([float(row[name]) for row in rows]), COLOURS[1 + k])
+        Line(label, mu, np.array([float(row[name]) for row in rows]), COLOURS[1 + k])
         for k, (label, name) in enumerate(named.items())
     ]
     return _chart("Least induced power over that of momentum theory", MU, "κ", *series)
@@ -201,7 +201,7 @@ def presets() -> str:
     for k, preset in enumerate(("thesis", "flight")):
         table = rotor.sweep(rotor.make_design(preset=preset, twist="linear:-16"), SPEEDS)
         values = np.array([one.power.total / 1e3 if one.converged else math.nan for one in table])
-        series.append(line(preset, SPEEDS, values, COLOURS[1 + k]))
+        series.append(Line(preset, SPEEDS, values, COLOURS[1 + k]))
     return _chart("Twist −16°, both presets", MU, "power [kW]", *series)
 
 
@@ -210,9 +210,9 @@ def switches() -> str:
     steps = waterfall(rotor.make_design(mu=0.3)).steps[1:]
     added = np.array([step.added or 0.0 for step in steps]) / 1e3
     place = np.arange(float(len(steps)))
-    chart = LineChart(
-        "Switched on one after another, µ 0.3", "change of power [kW]", "",
-        (line("", added, place, COLOURS[1], "points"),), names=tuple(step.title for step in steps),
+    chart = Chart(
+        "Switched on one after another, µ 0.3", Axis("change of power [kW]"),
+        Axis(names=tuple(step.title for step in steps)), (Points("", added, place, COLOURS[1]),),
     )  # fmt: skip
     return figure(chart)
 
@@ -225,7 +225,7 @@ def actuator() -> str:
     for k, (title, host) in enumerate({"as built": Host(), "half the stiffness": Host("new", 0.5)}.items()):
         installed = install(find_actuator("MFC_P1"), default_placement(), host, design.rotor)
         whole = installed.change(np.ones(len(installed.shapes)), r)
-        series.append(line(title, r, np.degrees(whole), COLOURS[1 + k]))
+        series.append(Line(title, r, np.degrees(whole), COLOURS[1 + k]))
     return _chart("MFC P1, two plies, over the whole voltage", RADIUS, "change of twist [°]", *series)
 
 
@@ -234,4 +234,4 @@ def _level(speeds: np.ndarray) -> rotor.SweepTable:
 
 
 def _chart(title: str, x: str, y: str, *series, ticks: tuple[float, ...] = ()) -> str:
-    return figure(LineChart(title, x, y, tuple(series), x_ticks=ticks))
+    return figure(Chart(title, Axis(x, ticks=ticks), Axis(y), tuple(series)))

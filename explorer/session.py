@@ -67,7 +67,9 @@ class Session:
         self._curves = PowerCurves()
         self._begun = -math.inf
         """When the last update began."""
-        self._worker = NewestWins(self._update, self._failed)
+        self._worker = NewestWins(
+            self._update, self._failed, held=True
+        )  # A link with A wakes it before the page is whole.
         self._client = client
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
@@ -76,6 +78,7 @@ class Session:
         self.page.answer_when_idle(self._until_idle)
         self.page.start()
         self._wake()
+        self._worker.release()
 
     def stop(self) -> None:
         self._all_changed = True

@@ -1,12 +1,14 @@
-"""Plots of arrays with matplotlib, which is imported only when something is drawn."""
+"""Charts and disks with matplotlib, which is imported only when something is drawn."""
 
 import importlib
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from rotor.arrays import Array
+from rotor.chart import Band, Chart, Line
+
+_MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 
 
 def new_axes(**options: Any) -> Any:
@@ -33,13 +35,45 @@ def plot_disk(r: Array, psi: Array, values: Array, label: str, ax: Any = None) -
     return ax
 
 
-def plot_lines(x: Sequence[float], lines: Mapping[str, Sequence[float]], labels: tuple[str, str], ax: Any) -> Any:
-    """Named lines over one abscissa, into `ax` or new axes; NaN leaves a gap. `labels`: of x and of y."""
+def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
+    """A chart into `ax` or new axes, with the colours and ends of `rotor.chart`; NaN leaves a gap. Returns the axes.
+
+    `legend`: whether the axes have one, where more than one series is named.
+    """
     if ax is None:
         ax = new_axes()
-    for name, y in lines.items():
-        ax.plot(x, y, marker=".", label=name)
-    ax.set_xlabel(labels[0])
-    ax.set_ylabel(labels[1])
-    ax.legend()
+    named = bool(chart.y.names)
+    for one, colour in zip(chart.series, chart.colours(), strict=True):
+        ink = "0.2" if colour == "currentColor" else colour
+        if isinstance(one, Band):
+            if len(one.x) == 1 and not named:  # One condition alone has no area.
+                ax.plot((one.x[0], one.x[0]), (one.low[0], one.high[0]), color=ink, alpha=0.3, linewidth=5)
+                continue
+            fill = ax.fill_betweenx if named else ax.fill_between
+            fill(one.x, one.low, one.high, color=ink, alpha=0.15, linewidth=0)
+            continue
+        look: dict[str, Any] = {"color": ink, "label": one.label or None}
+        if isinstance(one, Line):
+            look |= {"linestyle": "--" if one.dashes else "-"} | ({"marker": "o", "markersize": 3} if one.dots else {})
+        else:
+            look |= {"linestyle": "none", "marker": _MARKERS[one.mark], "markersize": one.size}
+            if one.scatter:
+                error = {"xerr" if named else "yerr": one.scatter}
+                ax.errorbar(one.x, one.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error)
+        ax.plot(one.x, one.y, **look)
+    for name, axis in (("x", chart.x), ("y", chart.y)):
+        getattr(ax, f"set_{name}label")(axis.label)
+        if axis.log:
+            getattr(ax, f"set_{name}scale")("log")
+        if axis.ticks:
+            getattr(ax, f"set_{name}ticks")(axis.ticks)
+        if axis.range is not None:
+            getattr(ax, f"set_{name}lim")(*axis.range)
+    if named:
+        ax.set_yticks(range(len(chart.y.names)), chart.y.names)
+        ax.invert_yaxis()
+    if chart.title:
+        ax.set_title(chart.title)
+    if legend and sum(bool(one.label) for one in chart.series) > 1:
+        ax.legend()
     return ax

@@ -145,19 +145,20 @@ def check_suffix(path: str | Path, suffix: str) -> None:
         )
 
 
-def write_whole(path: str | Path, text: str) -> None:
-    """Write a text file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
+def write_whole(path: str | Path, content: str | bytes) -> None:
+    """Write a file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
 
     What is not a file, as /dev/stdout, is written directly.
     """
     path = Path(os.path.realpath(path))
+    data = content if isinstance(content, bytes) else content.encode()
     if path.exists() and not path.is_file():
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(data)
         return
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()

@@ -62,6 +62,7 @@ def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(
     done = limited(name, "100", tmp_path)
     assert [file.read_text(encoding="utf-8") for file in there] == ["precious"] * 2
     assert not list((tmp_path / "out").rglob("*.part"))
+    assert not list((tmp_path / "out").glob("blade/*"))
     if name == "save":  # A function of Python's own kind of error.
         assert "OSError" in done.stderr
         return

@@ -14,7 +14,7 @@ from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_r
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor import Aircraft, Solution
 from rotor.arrays import Array
-from rotor.line_chart import round_ticks
+from rotor.chart import round_ticks
 from rotor.trim import PitchGradient
 
 Role = Literal["this", "reference", "limit", "saving", "earlier", "flown"]

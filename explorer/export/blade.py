@@ -38,6 +38,7 @@ from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import run_command
+from rotor.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
@@ -180,7 +181,7 @@ def _run(options: argparse.Namespace) -> int:
         for name, design in shapes.items():
             stem = folder / file_stem(jig, "blade", name)
             for path, content in ((f"{stem}.stl", blade_stl(design)), (f"{stem}.csv", section_curves(design))):
-                Path(path).write_bytes(content)
+                write_whole(path, content)
                 print(f"{path}: {len(content) / 1e6:.1f} MB")
     except OSError as error:
         raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None

@@ -14,7 +14,7 @@ from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_code
 from explorer.picture.scene_theme import DiskInk
 from explorer.text.design_words import flight_words, title_words
 from rotor import Solution
-from rotor.line_chart import round_ticks, tick_text
+from rotor.chart import round_ticks, tick_text
 
 Range = tuple[float, float]
 

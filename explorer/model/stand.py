@@ -10,6 +10,7 @@ from rotor import Aircraft, Design, Solution, make_design
 from rotor.design import Flapping, Harmonic, Stand
 from rotor.design.stand import LOAD_KEYS, StandTrim, read_stand
 from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
+from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.flown import MeasuredPower, measured_powers
 
 TRIM_TITLES: dict[str, str] = {
@@ -148,17 +149,17 @@ def _design_of(case: FlownCase) -> Design:
 
 
 def is_at(case: FlownCase, design: Design) -> bool:
-    """Whether a design is in this condition, whatever its blade."""
-    test = _design_of(case)
-    return (test.condition, test.models.trim, test.pitch_per_rev) == (
-        design.condition, design.models.trim, design.pitch_per_rev,
-    )  # fmt: skip
+    """Whether a design is in this condition, whatever its blade; on a stand whatever its mass."""
+    test, here = _design_of(case), design.condition
+    if here.stand is not None:
+        here = replace(here, mass=test.condition.mass)
+    return (test.condition, test.models.trim, test.pitch_per_rev) == (here, design.models.trim, design.pitch_per_rev)
 
 
 def nearest_case(design: Design) -> FlownCase | None:
     """The measured condition that is most like that of a design: the same, else that nearest in advance ratio.
 
-    None for a rotor without measured airloads.
+    In flight one of those flown, on a stand one of a stand; None for a rotor without.
     """
 
     def apart(case: FlownCase) -> tuple[bool, bool, float]:
@@ -166,7 +167,9 @@ def nearest_case(design: Design) -> FlownCase | None:
         mu = abs(test.condition.advance_ratio - design.condition.advance_ratio)
         return not is_at(case, design), test.pitch_per_rev != design.pitch_per_rev, mu
 
-    return min(airload_cases(design.aircraft.key), key=apart, default=None)
+    on_stand = design.condition.stand is not None
+    cases = [case for case in airload_cases(design.aircraft.key) if ("stand" in case.conditions) == on_stand]
+    return min(cases, key=apart, default=None)
 
 
 @dataclass(frozen=True)
@@ -273,5 +276,9 @@ _TITLES = {
     "uh60a-hover": "Hover (digitised)",
 }
 """Short titles of the sets, for a menu."""
-_CASES = {"BL": ("HART II", "Baseline"), "MN": ("HART II", "Minimum noise: 3/rev pitch")}
+_CASES = {
+    "BL": ("HART II", "Baseline"),
+    "MN": ("HART II", "Minimum noise: 3/rev pitch"),
+    **{one.name: ("Tunnel, pitch link", one.name) for one in CASES if one.test == PITCH_LINK},
+}
 """Title of the test and of the point in the menu, by the name of a case of airloads."""

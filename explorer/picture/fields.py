@@ -12,8 +12,8 @@ from explorer.model.inputs import ViewState
 from explorer.picture.polar import PolarGrid, polar_grid, refined
 from rotor import Rotor, Solution
 from rotor.arrays import Array
+from rotor.chart import round_up
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.line_chart import round_up
 from rotor.trim import DiskFields
 
 

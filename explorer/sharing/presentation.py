@@ -84,6 +84,7 @@ class Presentations:
             for name, (_, own) in tuple(self._presenters.items()):
                 if own is session:
                     del self._presenters[name]
+                    self._watchers.pop(name, None)  # It belongs to the session's page.
 
     def watch(self, secret: str, watcher: Callable[[int], None]) -> None:
         """Tell a presenter how many follow, now and whenever that changes."""

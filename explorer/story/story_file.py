@@ -30,7 +30,7 @@ from explorer.scene.still_scene import embedded_viewer, still_page
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
-from rotor.line_chart import round_ticks, tick_text
+from rotor.chart import round_ticks, tick_text
 from rotor.terminal import run_command
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)

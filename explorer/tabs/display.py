@@ -13,7 +13,7 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.controller import TURN_RATES
-from rotor.line_chart import round_ticks, tick_text
+from rotor.chart import round_ticks, tick_text
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
 """Fields of `ViewState` that a press switches."""

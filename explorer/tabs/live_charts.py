@@ -55,7 +55,7 @@ def points(colour: str, size: float) -> uplot.Series:
     return uplot.Series(stroke=colour, width=0, points=uplot.Series_Points(show=True, size=size, fill=colour))
 
 
-class Chart:
+class PanelChart:
     """One titled chart with a key that also serves as axis label; empty until it is shown something."""
 
     def __init__(

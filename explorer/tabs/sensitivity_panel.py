@@ -13,7 +13,7 @@ from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import drawn_bending, flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
 from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.live_charts import AB_KEY, Chart, Key, line, pinned_line
+from explorer.tabs.live_charts import AB_KEY, Key, PanelChart, line, pinned_line
 from explorer.text.glossary import hint
 from rotor import Solution
 from rotor.arrays import Array
@@ -102,7 +102,7 @@ class SensitivityPanel(Tab):
         self._strip, self._layout, gui = strip, context.layout, context.gui
         self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
         gui.add_html(_WORDS)
-        self._chart = Chart(
+        self._chart = PanelChart(
             gui,
             "dP/dθ [kW/° per r/R]",
             _KEY,

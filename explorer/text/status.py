@@ -17,7 +17,7 @@ from rotor.aero.problem import grid_of
 from rotor.compiled import compiling
 from rotor.reproduce.report import typographic
 from rotor.validation import MeasuredSet, SensitivityRow, TrustRow, sensitivity_rows, sets_of, trust_rows
-from rotor.validation.airloads import REPORTS
+from rotor.validation.airloads import PITCH_LINK, REPORTS
 from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.trust import KINDS
 
@@ -215,7 +215,8 @@ def _flown(solution: Solution) -> ValidationRecord | None:
     design = solution.design
     key, blade = design.aircraft.key, "" if as_measured(design) else " Measured with the twist as built."
     powers, cases = flight_powers(key), airload_cases(key)
-    airloads = "" if not cases else " The probe shows its measured airloads."
+    what = "pitch-link load" if cases and cases[0].test == PITCH_LINK else "airloads"
+    airloads = "" if not cases else f" The probe shows its measured {what}."
     if powers and not design.hovering and design.condition.stand is None:
         report = POWER_REPORTS[key]
         count = f"{len(powers)} flights at µ {powers[0].mu:g} to {max(one.mu for one in powers):g}"
@@ -228,8 +229,8 @@ def _flown(solution: Solution) -> ValidationRecord | None:
         return ValidationRecord(words, f"Main rotor {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:
         report = REPORTS[cases[0].test]
-        sentence = f"Its power was not measured; its airloads were: {report}.{blade}{airloads}"
-        return ValidationRecord("airloads measured", sentence)
+        sentence = f"Its power was not measured. {what[0].upper()}{what[1:]}: {report}.{blade}{airloads}"
+        return ValidationRecord(f"{what} measured", sentence)
     return None
 
 

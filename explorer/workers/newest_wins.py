@@ -98,11 +98,14 @@ UPDATES = UpdatePool(min(os.cpu_count() or 1, 2))
 class NewestWins:
     """Runs `update` once after every `wake`; one further run answers all wakes that come while it runs."""
 
-    def __init__(self, update: Update, on_error: Callable[[Exception], None], pool: UpdatePool = UPDATES) -> None:
+    def __init__(
+        self, update: Update, on_error: Callable[[Exception], None], pool: UpdatePool = UPDATES, held: bool = False
+    ) -> None:
+        """held: no update begins before `release`."""
         self._update, self._on_error, self._pool = update, on_error, pool
         self._wanted = threading.Event()
         self._stopped = False
-        self._state: Literal["idle", "frame", "step", "running"] = "idle"
+        self._state: Literal["held", "idle", "frame", "step", "running"] = "held" if held else "idle"
         self._ticket = self._thread = 0
         self._steps: Iterator[float] | None = None
         self._answered = False
@@ -119,6 +122,13 @@ class NewestWins:
         with self._pool.change:
             self._wanted.set()
             if self._state in ("idle", "step") and not self._stopped:
+                self._line_up_for_frame()
+
+    def release(self) -> None:
+        """Updates may begin; one does where something changed before."""
+        with self._pool.change:
+            self._state = "idle"
+            if self._wanted.is_set() and not self._stopped:
                 self._line_up_for_frame()
 
     def stop(self, timeout: float = 2.0) -> None:

@@ -18,6 +18,7 @@ from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
+from rotor.chart_svg import svg
 from rotor.command.common import (
     add_command,
     add_design_arguments,
@@ -31,7 +32,6 @@ from rotor.command.common import (
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
-from rotor.line_chart import draw
 from rotor.optimisation.concepts import find_concept
 from rotor.terminal import wrapped
 from rotor.user_input import check_suffix, check_writable, write_whole
@@ -258,7 +258,7 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
             one = first.candidates[0]
             worth = first.even.twist_for(one.estimate.gross - one.estimate.stiffness_cost)
             best = (one.installed.actuator.name, worth, one.mass)
-        write_whole(args.plot, draw(break_even_chart(first.even, best)))
+        write_whole(args.plot, svg(break_even_chart(first.even, best)))
     if args.json:
         records = [pay_record(search) for search in searches]
         print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command
+from rotor.plots import draw_chart
 from rotor.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
-from rotor.validation.compare import FIELDS, LABELS, SETS, Comparison, compare, load_set
+from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
@@ -174,22 +175,11 @@ def verdict(found: Comparison) -> str:
 def draw(found: Comparison, folder: Path) -> Path:
     """Measured points with their scatter, and ours, as `SET.png`."""
     pictures: Any = importlib.import_module("matplotlib.figure")
-    measured, quantity = found.measured, found.measured.quantity
-    along = measured.varied[0]
+    measured = found.measured
     figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")
-    axes = figure.subplots()
-    values = [point.measured[quantity] for point in found.points]
-    axes.errorbar(
-        [point.given[along] for point in found.points], values, [measured.scatter_of(value) for value in values],
-        fmt="o", color="0.2", capsize=2, label="measured",
-    )  # fmt: skip
-    ours = [(point.given[along], point.ours[quantity]) for point in found.points if point.ours is not None]
-    if ours:
-        axes.plot(*zip(*ours, strict=True), "x", color="tab:blue", label=f"computed ({found.inflow})")
-    axes.set_xlabel(LABELS[along])
-    axes.set_ylabel(LABELS[quantity])
-    axes.set_title(f"{measured.title}\n{verdict(found)}", fontsize="medium")
-    axes.legend()
+    draw_chart(comparison_chart([found]), figure.subplots()).set_title(
+        f"{measured.title}\n{verdict(found)}", fontsize="medium"
+    )
     path = folder / f"{measured.name}.png"
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -22,7 +22,7 @@ import scipy
 from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
 from rotor.optimisation.objective import Measured, Quantity
-from rotor.optimisation.results import Band
+from rotor.optimisation.results import ParameterBand
 
 BAND = 1e-3
 """Relative rise of the objective that defines the band of each parameter."""
@@ -256,14 +256,14 @@ _BAND_EVALUATIONS = 3
 """Evaluations of a side at most."""
 
 
-def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[Band, ...]:
+def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[ParameterBand, ...]:
     """The band of every parameter, SI."""
     edge = best.cost * (1.0 + BAND)
-    found: list[Band] = []
+    found: list[ParameterBand] = []
     for k, parameter in enumerate(evaluate.concept.parameters):
         low, high = (_side(evaluate, best, edge, k, side) for side in (-1.0, 1.0))
         low, high = (float(evaluate.low[k] + evaluate.span[k] * end) for end in (low, high))
-        found.append(Band(parameter.name, low, high))
+        found.append(ParameterBand(parameter.name, low, high))
     return tuple(found)
 
 

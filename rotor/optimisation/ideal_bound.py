@@ -20,7 +20,7 @@ from numpy.polynomial.chebyshev import chebvander
 
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import Line, influence
+from rotor.aero.lifting_line.influence import LiftingLine, influence
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
@@ -39,16 +39,16 @@ REVERSE_FLOW_BLEND = 0.05
 """U_T over which the linear blade's lift fades out into the reverse-flow region."""
 
 
-def bound_line(blades: int, root: float) -> Line:
+def bound_line(blades: int, root: float) -> LiftingLine:
     """The lifting lines of a rotor, fine enough for the bound; root: r/R."""
-    return Line(blades, root, PANELS, -(-AZIMUTHS // blades) * blades)
+    return LiftingLine(blades, root, PANELS, -(-AZIMUTHS // blades) * blades)
 
 
 @dataclass(frozen=True, eq=False)
 class LinesInWake:
     """The lifting lines of a rotor with the wake along a course."""
 
-    line: Line
+    line: LiftingLine
     course: WakeCourse
 
     @cached_property
@@ -145,7 +145,7 @@ def least_twisted_power(
     return _evaluate(lines, circulation[:, 0] + circulation[:, 1:] @ amounts, amounts)
 
 
-def _smooth_shapes(line: Line, harmonics: int) -> Array:
+def _smooth_shapes(line: LiftingLine, harmonics: int) -> Array:
     """√(1 − r²) Chebyshev × 1, cos ψ, sin ψ, …, (panels·azimuths, shapes)."""
     r = line.r
     across = (2.0 * r - 1.0 - line.root) / (1.0 - line.root)

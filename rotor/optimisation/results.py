@@ -63,7 +63,7 @@ class Minimum:
 
 
 @dataclass(frozen=True)
-class Band:
+class ParameterBand:
     """Range of one parameter, the others re-optimised, within BAND of the least power or index."""
 
     parameter: str
@@ -84,7 +84,7 @@ class Optimum:
     best: Minimum | None
     minima: tuple[Minimum, ...]
     """All local minima found, the best first."""
-    band: tuple[Band, ...]
+    band: tuple[ParameterBand, ...]
     """One per parameter, within 0.1 % of the least power or index; empty when not requested, or not found."""
     baseline_power: float | None
     """Of the design given, by the same objective [W]; None when it does not trim."""

@@ -22,7 +22,7 @@ from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index, over_conditions
-from rotor.optimisation.results import Band, Minimum, Optimum, Progress, SearchStatus
+from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
 
 STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""
@@ -111,7 +111,7 @@ class _Run:
         self.groups: list[tuple[Evaluation, list[int]]] = []
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
-        self.band: tuple[Band, ...] = ()
+        self.band: tuple[ParameterBand, ...] = ()
 
     @property
     def best(self) -> Evaluation | None:

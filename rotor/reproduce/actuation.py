@@ -14,8 +14,9 @@ from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import Host, default_placement
+from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import uh60a_rotor
-from rotor.reproduce.report import Curve, PlotPanel, Report, card, curve, table
+from rotor.reproduce.report import Report, card, curve, table
 from rotor.reproduce.runs import CachedFunction, variant
 
 SPEEDS = (0.0, 0.3)
@@ -45,7 +46,7 @@ def fitted_blade(plies: int, host: Host) -> InstalledActuator:
 
 def figure_5_5() -> Report:
     """Free strain."""
-    curves: list[Curve] = []
+    curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     known = [one for one in actuators().values() if isinstance(one, PiezoPly)]
@@ -71,14 +72,14 @@ def figure_5_5() -> Report:
              "across_high_ppm"),
             rows,
         ),
-        (PlotPanel("field [kV/mm]", "free strain along [µε]", tuple(curves)),),
+        (Chart("", Axis("field [kV/mm]"), Axis("free strain along [µε]"), tuple(curves)),),
         numbers,
     )  # fmt: skip
 
 
 def figure_5_10() -> Report:
     """Torsion angle along the blade."""
-    curves: list[Curve] = []
+    curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     low, high = sheet("MFC_P1").voltage_range
@@ -100,7 +101,7 @@ def figure_5_10() -> Report:
         "agree within 2 % (tests/rotor/actuator/test_actuator_fem.py). With the low end of the maker's strain and what "
         f"one tested blade relative to its model, use {100 * derating(sheet('MFC_P1')):.0f} %.",
         table("tip_twist", ("blade", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),
-        (PlotPanel("r/R", "twist [°]", tuple(curves)),),
+        (Chart("", Axis("r/R"), Axis("twist [°]"), tuple(curves)),),
         numbers,
     )
 

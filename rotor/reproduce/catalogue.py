@@ -2,10 +2,10 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
-from rotor.line_chart import LineChart, Mark, Series
+from rotor.chart import INK, Axis, Chart, Line, Points
 from rotor.reproduce import (
     actuation,
     disk_figures,
@@ -16,7 +16,7 @@ from rotor.reproduce import (
     today,
     twist_effect,
 )
-from rotor.reproduce.report import PlotPanel, Report
+from rotor.reproduce.report import Report
 from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
 from rotor.validation.trust import TrustRow, TrustSet, bound, share
 
@@ -216,27 +216,23 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         )  # fmt: skip
     count = Counter(row.shown for row in rows)
     places = tuple(map(float, range(len(count))))
-    series = Series("", tuple(map(float, count.values())), places, "points", 1)
+    series = Points("", tuple(map(float, count.values())), places, 1)
     return TrustSet(
         "thesis", "Statements of the thesis", f"{len(rows)} figures, tables and claims",
         f"{count['agrees']} agree, {count['differs']} differ",
         "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, 2016. "
         "Figures of which only the caption is known, and drawings, are not here.",
-        tuple(rows), (LineChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
+        tuple(rows), (Chart("Verdicts", Axis("figures, tables and claims"), Axis(names=tuple(count)), (series,)),),
         ("*Agrees* and *differs* judge a statement. *As loaded*: its numbers are our input. "
          "*Indicative*: compared with data of unclear origin.",),
     )  # fmt: skip
 
 
-_MARKS: dict[str, Mark] = {"points": "points", "dashed": "dashed", "both": "both"}
-
-
-def _chart(report: Report, place: int = 0) -> LineChart:
-    """A panel of lines as a chart of the trust page."""
+def _chart(report: Report, place: int = 0) -> Chart:
+    """A panel as a chart of the trust page: what the thesis says in ink."""
     panel = report.panels[place]
-    assert isinstance(panel, PlotPanel)
     series = tuple(
-        Series(one.label, one.x, one.y, _MARKS.get(one.style, "line"), 0 if one.style in ("points", "dashed") else k)
-        for k, one in enumerate(panel.curves, start=1)
+        replace(one, colour=INK if isinstance(one, Points) or (isinstance(one, Line) and one.dashes) else k)
+        for k, one in enumerate(panel.series, start=1)
     )
-    return LineChart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)
+    return replace(panel, title=report.caption, series=series)

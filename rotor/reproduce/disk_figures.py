@@ -12,10 +12,9 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.switches import with_switches
+from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import (
-    Curve,
-    PlotPanel,
     Report,
     by_name,
     curve,
@@ -35,8 +34,8 @@ FAST = 0.30
 def figure_2_7() -> Report:
     """Inflow and thrust in hover."""
     rows: list[tuple[float | str, ...]] = []
-    inflow: list[Curve] = []
-    thrust: list[Curve] = []
+    inflow: list[Series] = []
+    thrust: list[Series] = []
     numbers: dict[str, float] = {}
     for k, (preset, twist) in enumerate((("thesis", "linear:-16"), ("flight", "uh60a"))):
         design = make_design(preset=preset, twist=twist, mu=0.0)
@@ -69,8 +68,8 @@ def figure_2_7() -> Report:
         "keeps the load further outboard.",
         tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
         panels=(
-            PlotPanel("r/R", "λ_i", tuple(inflow), title="Induced velocity / ΩR"),
-            PlotPanel("r/R", "dC_T/dr", tuple(thrust), title="Thrust, the whole rotor as if smeared"),
+            Chart("Induced velocity / ΩR", Axis("r/R"), Axis("λ_i"), tuple(inflow)),
+            Chart("Thrust, the whole rotor as if smeared", Axis("r/R"), Axis("dC_T/dr"), tuple(thrust)),
         ),
         numbers=numbers,
     )
@@ -108,9 +107,10 @@ def figure_2_8() -> Report:
             ),
         ),
         panels=(
-            PlotPanel(
-                "r/R",
-                "U_T / ΩR",
+            Chart(
+                "",
+                Axis("r/R"),
+                Axis("U_T / ΩR"),
                 tuple(
                     curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360])
                     for degrees in (0, 90, 180, 270)
@@ -251,16 +251,16 @@ def _grid_panels(
     errors: dict[str, list[float]],
     mark: tuple[int, str],
     reference: str,
-) -> tuple[PlotPanel, ...]:
+) -> tuple[Chart, ...]:
     """Power and its error over the grid, each with a dashed line at the marked one."""
-    panels: list[PlotPanel] = []
+    panels: list[Chart] = []
     for label, rows, words in (("power [kW]", powers, mark[1]), (f"relative error to {reference}", errors, "")):
         curves = [
             curve(name, grid, np.maximum(row, 1e-9), "both", colour=k) for k, (name, row) in enumerate(rows.items())
         ]
-        values = [y for one in curves for y in one.y]
+        values = [value for row in rows.values() for value in np.maximum(row, 1e-9)]
         line = curve(words, (mark[0], mark[0]), (min(values), max(values)), "dashed", colour=7)
-        panels.append(PlotPanel(what, label, (*curves, line), log="" if rows is powers else "xy"))
+        panels.append(Chart("", Axis(what, log=rows is errors), Axis(label, log=rows is errors), (*curves, line)))
     return tuple(panels)
 
 

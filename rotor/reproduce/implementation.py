@@ -18,9 +18,10 @@ from rotor.airfoil.polynomial import (
     fit_polynomials,
     thesis_polar,
 )
+from rotor.chart import Axis, Chart
 from rotor.files.make_design import uh60a_data
 from rotor.reproduce.ladder import built
-from rotor.reproduce.report import Agreement, PlotPanel, Report, curve, judged, table
+from rotor.reproduce.report import Agreement, Report, curve, judged, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
 from rotor.validation.uh60a import SLOWEST, beside_hover_points, beside_model_curve, model_curve_errors
@@ -66,9 +67,10 @@ def error_figure(number: str) -> Report:
         (one.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, one in enumerate(studies[RANGES[0]])
     ]
     symbol = "Cl" if which == "lift" else "Cd"
-    panel = PlotPanel(
-        "polynomial order",
-        f"rms error of {symbol}",
+    panel = Chart(
+        "",
+        Axis("polynomial order"),
+        Axis(f"rms error of {symbol}", log=True),
         tuple(
             curve(f"α {low:g}…{high:g}°", [r[0] for r in rows], [r[k + 1] for r in rows], "both")
             for k, (low, high) in enumerate(RANGES)
@@ -77,7 +79,6 @@ def error_figure(number: str) -> Report:
             curve(f"{words} {order}", (order, order), (min(r[1] for r in rows), max(r[2] for r in rows)), "dashed")
             for words, order in (("thesis: order", chosen), ("our knee: order", knee))
         ),
-        log="y",
     )
     return Report(
         number=number,
@@ -144,8 +145,11 @@ def fit_figure(number: str) -> Report:
             ),
         ),
         panels=(
-            PlotPanel(
-                "α [°]", symbol, (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth))
+            Chart(
+                "",
+                Axis("α [°]"),
+                Axis(symbol),
+                (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth)),
             ),
         ),
         numbers={"attached_rms": float(np.sqrt(np.mean(relative**2))), "unheld_at_30": unheld},
@@ -237,14 +241,10 @@ def tail_rotor() -> Report:
         "reduces the induced power. The mean is near the thesis' number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
-            PlotPanel(
-                "advance ratio µ", "tail over main rotor [%]",
-                (
+            Chart("", Axis("advance ratio µ"), Axis("tail over main rotor [%]", range=(0.0, 12.0)), (
                     curve("ours, solved", TAIL_SPEEDS, [100 * s for s in shares], "both"),
                     curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
-                ),
-                y_limits=(0.0, 12.0),
-            ),
+                )),
         ),
         numbers={"mean": float(np.mean(shares))},
     )  # fmt: skip
@@ -298,27 +298,18 @@ def figure_3_10() -> Report:
             ),
         ),
         panels=(
-            PlotPanel(
-                "advance ratio µ", "total power [kW]",
+            Chart(
+                "8322.4 kg, sea level", Axis("advance ratio µ"), Axis("total power [kW]"),
                 tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS)),
-                title="8322.4 kg, sea level",
             ),
-            PlotPanel(
-                "advance ratio µ", "main-rotor power [kW]",
-                (
+            Chart("7257.5 kg, 1600 m", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), (
                     *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(TWISTS)),
                     curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
-                ),
-                title="7257.5 kg, 1600 m",
-            ),
-            PlotPanel(
-                "C_T/σ (σ = 0.0826)", "C_P/σ",
-                (
+                )),
+            Chart("hover", Axis("C_T/σ (σ = 0.0826)"), Axis("C_P/σ"), (
                     curve("flight", hover_ct, hover_ours),
                     curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7),
-                ),
-                title="hover",
-            ),
+                )),
         ),
         numbers={
             "rms_to_model_curve": error,

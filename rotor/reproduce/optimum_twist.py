@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotor.chart import Axis, Chart, Series
 from rotor.design.twist import shipped_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.ladder import RUNGS, moving_twist
-from rotor.reproduce.report import Curve, PlotPanel, Report, by_name, card, curve, judged, table, with_gap
+from rotor.reproduce.report import Report, by_name, card, curve, judged, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
     FULL,
@@ -109,8 +110,8 @@ def _on_bound(found: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> s
     return f" On the bound of the search, {BOUND_DEG:g}° per radius, and so not optima: {', '.join(places)}."
 
 
-def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> PlotPanel:
-    curves: list[Curve] = []
+def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> Chart:
+    curves: list[Series] = []
     speeds = [one.mu for one in row]
     for k, key in enumerate(shown):
         low, high = zip(*(_band(one, key) for one in row), strict=True)
@@ -119,7 +120,7 @@ def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> PlotPa
             _word(key) if len(shown) > 1 else "optimum", speeds, [_value(one, key) for one in row], colour=k
         )
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
-    return PlotPanel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
+    return Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(y_label), tuple(curves))
 
 
 def _word(key: str) -> str:
@@ -153,8 +154,8 @@ def figure_4_11() -> Report:
             table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, -16.0 * (r - 0.75), strict=True)),
         ),
         panels=(
-            PlotPanel(
-                "r/R", "twist, zero at 0.75 R [°]",
+            Chart(
+                "", Axis("r/R"), Axis("twist, zero at 0.75 R [°]"),
                 (curve("UH-60A", r, angle), curve("linear −16°", r, -16.0 * (r - 0.75), "dashed")),
             ),
         ),
@@ -207,7 +208,7 @@ def figure_4_12(most: int | None = None) -> Report:
         "The saving is smaller than the difference between model and data, so only differences between our own curves "
         "are meaningful.",
         table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
-        (PlotPanel("advance ratio µ", "main-rotor power [kW]", curves),),
+        (Chart("", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), curves),),
         {"least_saving": min(savings), "largest_saving": max(savings)},
     )
 
@@ -225,13 +226,13 @@ def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
         for name in VARIANTS
         for concept in CONCEPTS
     }
-    panels: list[PlotPanel] = []
+    panels: list[Chart] = []
     for name in VARIANTS:
-        curves: list[Curve] = []
+        curves: list[Series] = []
         for k, concept in enumerate(CONCEPTS):
             curves += with_gap(concept, speeds, savings[name, concept], colour=k)
         panels.append(
-            PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
+            Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis("saving of total power [%]"), tuple(curves))
         )
     gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in VARIANTS}
     return card(

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from rotor.assets import asset_path
+from rotor.chart import Chart
+from rotor.plots import draw_chart
 from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
 from rotor.reproduce.misprints import misprint_table
 from rotor.reproduce.report import (
     Agreement,
-    PlotPanel,
     Report,
     ReportTable,
     TableCell,
@@ -24,7 +25,6 @@ from rotor.reproduce.report import (
 )
 from rotor.reproduce.runs import CachedFunction
 
-PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
 _STYLE = {
     "font.size": 9.0,
     "font.family": "sans-serif",
@@ -49,9 +49,9 @@ FEW = 3
 """Curves for whose names there is room in a panel."""
 
 
-def _same_key(panels: tuple[PlotPanel, ...]) -> bool:
+def _same_key(panels: tuple[Chart, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
-    keys = [tuple(one.label for one in panel.curves) for panel in panels]
+    keys = [tuple(one.label for one in panel.series) for panel in panels]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
@@ -68,14 +68,14 @@ def draw(report: Report, folder: Path) -> None:
     down = math.ceil(count / across)
     # A single picture is wider, so that its text is not enlarged on the page.
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
-    if count == 1 and panels[0].names:
+    if count == 1 and panels[0].y.names:
         width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
             place = axes[k // across][k % across]
-            _draw_panel(place, panel, legend=not legend_below)
+            draw_chart(panel, place, legend=not legend_below)
         if legend_below:
             handles, labels = axes[0][0].get_legend_handles_labels()
             columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))
@@ -85,44 +85,6 @@ def draw(report: Report, folder: Path) -> None:
         # Transparent: the page has a dark form.
         figure.savefig(folder / f"{report.stem}.svg", metadata={"Date": None}, transparent=True)
         figure.savefig(folder / f"{report.stem}.png", dpi=130)
-
-
-def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
-    turn, down = 0, bool(panel.names)
-    for one in panel.curves:
-        place = one.colour if one.colour is not None else turn
-        turn += one.colour is None
-        colour = PALETTE[place % len(PALETTE)]
-        if one.style == "band" and len(one.x) == 1 and not down:  # One condition alone has no area.
-            axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
-            continue
-        if one.style == "band":
-            fill = axes.fill_betweenx if down else axes.fill_between
-            fill(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
-            continue
-        look: dict[str, Any] = {
-            "line": {},
-            "points": {"linestyle": "none", "marker": "o", "markersize": 4},
-            "dashed": {"linestyle": "--"},
-            "both": {"marker": "o", "markersize": 3},
-        }[one.style]
-        across, up = (one.y, one.x) if down else (one.x, one.y)
-        axes.plot(across, up, color=colour, label=typographic(one.label) or None, **look)
-    axes.set_xlabel(panel.y_label if down else panel.x_label)
-    axes.set_ylabel(panel.x_label if down else panel.y_label)
-    if down:
-        axes.set_yticks(range(len(panel.names)), panel.names)
-        axes.invert_yaxis()
-    if panel.title:
-        axes.set_title(panel.title)
-    if "x" in panel.log:
-        axes.set_xscale("log")
-    if "y" in panel.log:
-        axes.set_yscale("log")
-    if panel.y_limits:
-        axes.set_ylim(*panel.y_limits)
-    if legend and sum(bool(one.label) for one in panel.curves) > 1:
-        axes.legend()
 
 
 LONG = 60

@@ -10,6 +10,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotor.chart import Band, Chart, Line, Points, Series
+
 CurveStyle = Literal["line", "points", "dashed", "both", "band"]
 TableCell = str | float | int
 TOLERANCE = 1e-3
@@ -49,30 +51,6 @@ class Agreement(Enum):
 
 
 @dataclass(frozen=True)
-class Curve:
-    label: str
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    style: CurveStyle = "line"
-    upper: tuple[float, ...] = ()
-    """With `band`: y is the lower edge and this the upper."""
-    colour: int | None = None
-    """Place in the palette; None: the next one."""
-
-
-@dataclass(frozen=True)
-class PlotPanel:
-    x_label: str
-    y_label: str
-    curves: tuple[Curve, ...]
-    title: str = ""
-    log: Literal["", "y", "xy"] = ""
-    y_limits: tuple[float, float] | None = None
-    names: tuple[str, ...] = ()
-    """Of the places 0, 1, … of x, which then runs down the left side; y runs across."""
-
-
-@dataclass(frozen=True)
 class ReportTable:
     """Rows of numbers and text for a CSV file."""
 
@@ -100,7 +78,7 @@ class Report:
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
     tables: tuple[ReportTable, ...]
-    panels: tuple[PlotPanel, ...] = ()
+    panels: tuple[Chart, ...] = ()
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """Numbers that decide the verdict, by name."""
 
@@ -133,18 +111,25 @@ def curve(
     *,
     upper: ArrayLike | None = None,
     colour: int | None = None,
-) -> Curve:
-    """A curve from arrays; values that are not finite become gaps (NaN) in the picture only."""
-    top = () if upper is None else floats(upper)
-    return Curve(label, floats(x), floats(y), style, top, colour)
+) -> Series:
+    """A series from arrays; values that are not finite become gaps (NaN) in the picture only.
+
+    upper: with `band`, of which y is the lower edge. colour: place among the colours after the ink; None: the next one.
+    """
+    across, up, place = floats(x), floats(y), None if colour is None else colour + 1
+    if style == "band":
+        return Band(label, across, up, floats([] if upper is None else upper), place)
+    if style == "points":
+        return Points(label, across, up, place)
+    return Line(label, across, up, place, dashes=style == "dashed", dots=style == "both")
 
 
 def with_gap(
     label: str, mu: Sequence[float], y: Sequence[float], style: CurveStyle = "both", *, colour: int,
     upper: Sequence[float] | None = None,
-) -> list[Curve]:  # fmt: skip
+) -> list[Series]:  # fmt: skip
     """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
-    parts: list[Curve] = []
+    parts: list[Series] = []
     for words, flying in ((label, True), ("", False)):
         keep = [k for k, one in enumerate(mu) if (one > 0.0) is flying]
         top = [upper[k] for k in keep] if upper else None
@@ -175,7 +160,7 @@ def card(
     ours: str,
     because: str,
     data: ReportTable,
-    panels: tuple[PlotPanel, ...] = (),
+    panels: tuple[Chart, ...] = (),
     numbers: Mapping[str, float] | None = None,
     summary: ReportTable | None = None,
 ) -> Report:

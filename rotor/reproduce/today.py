@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.chart import Axis, Chart, Series
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.files.make_design import make_design
 from rotor.reproduce.actuation import BLADES, fitted_blade
@@ -25,7 +26,7 @@ from rotor.reproduce.ladder import (
     climb,
     strong_over_weak,
 )
-from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, TableCell, curve, table
+from rotor.reproduce.report import Agreement, Report, TableCell, curve, table
 from rotor.reproduce.runs import Call
 from rotor.trim.solve import solve
 
@@ -49,13 +50,13 @@ def today() -> Report:
     first, last = (found.step(name) for name in ("thesis", tuple(RUNGS)[-1]))
     before_trim = found.steps[[one.name for one in found.steps].index(TRIM[0]) - 1]
     places = range(len(found.steps))
-    curves: list[Curve] = []
+    curves: list[Series] = []
     for k, mu in enumerate(SHOWN):
         row = [found.at(one.name, mu) for one in found.steps]
         low, high = zip(*(one.band_deg for one in row), strict=True)
         curves += [
             curve("", places, low, "band", upper=high, colour=k),
-            curve("hover" if mu == 0.0 else f"µ {mu:g}", places, [one.rate_deg for one in row], "both", colour=k),
+            curve("hover" if mu == 0.0 else f"µ {mu:g}", [one.rate_deg for one in row], places, "both", colour=k),
         ]
     gains = [one.moving.gain for one in found.wakes]
     others = [
@@ -132,8 +133,9 @@ def today() -> Report:
             ),
         ),
         panels=(
-            PlotPanel(
-                "", "best linear twist [°/R]", tuple(curves), names=tuple(one.words for one in found.steps),
+            Chart(
+                "", Axis("best linear twist [°/R]"), Axis(names=tuple(one.words for one in found.steps)),
+                tuple(curves),
             ),
         ),
         numbers={

@@ -12,13 +12,12 @@ import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
 from rotor.reproduce.ladder import FAST, FAST_KMH, HOVER, RUNGS, TRIM, least, strong_over_weak
 from rotor.reproduce.report import (
     TOLERANCE,
     Agreement,
-    Curve,
-    PlotPanel,
     Report,
     ReportTable,
     by_name,
@@ -54,7 +53,7 @@ def hover_optimum(name: str) -> tuple[float, float, float, float]:
 def figure_3_11() -> Report:
     """Five twists in hover."""
     tables: list[ReportTable] = []
-    panels: list[PlotPanel] = []
+    panels: list[Chart] = []
     numbers: dict[str, float] = {}
     words: list[str] = []
     for name in ("thesis", "flight"):
@@ -64,11 +63,10 @@ def figure_3_11() -> Report:
         least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
         title = f"{name} preset"
         panels += [
-            PlotPanel("C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp), title=title),
-            PlotPanel(
-                "C_T/σ", "relative to the best of the five [%]",
+            Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
+            Chart(
+                title, Axis("C_T/σ"), Axis("relative to the best of the five [%]"),
                 _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
-                title=title,
             ),
         ]  # fmt: skip
         rows = [
@@ -114,9 +112,9 @@ def figure_3_11() -> Report:
         for k, words in enumerate(readings, start=1)
     ]
     panels.append(
-        PlotPanel(
-            "linear twist [°/R]", "power above the least [%]", (curve("thesis preset", rates, loss), *marks),
-            title="Two readings of the unit of twist",
+        Chart(
+            "Two readings of the unit of twist", Axis("linear twist [°/R]"), Axis("power above the least [%]"),
+            (curve("thesis preset", rates, loss), *marks),
         )
     )  # fmt: skip
     return Report(
@@ -213,7 +211,7 @@ def figure_3_14() -> Report:
     )  # fmt: skip
 
 
-def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Curve, ...]:
+def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Series, ...]:
     """A curve for each of the five twists; `value` of a twist at a place in x."""
     places = range(len(x))
     return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
@@ -253,9 +251,9 @@ def _speeds(
     numbers: dict[str, float],
 ) -> Report:  # fmt: skip
     panels = tuple(
-        PlotPanel(
-            "advance ratio µ", label, _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
-            title=VARIANT_TITLES[name],
+        Chart(
+            VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(label),
+            _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
         )
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
         for name in FIVE_NAMES
@@ -362,13 +360,10 @@ def keys_1987() -> Report:
                   [(kmh, *row) for kmh, *row in zip(SPEEDS_KMH, *percent.values(), strict=True)]),
         ),
         panels=(
-            PlotPanel(
-                "speed [km/h]", "power of −17.3° over −11.5° [%]",
-                (
+            Chart("", Axis("speed [km/h]"), Axis("power of −17.3° over −11.5° [%]"), (
                     *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
                     curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
-                ),
-            ),
+                )),
         ),
         numbers={
             "thesis_fast": ends["thesis"][1],

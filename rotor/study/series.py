@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
+from rotor.chart import Axis, Chart, Line
 from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design, require_design
@@ -20,7 +21,7 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity, WeightedCondition
 from rotor.optimisation.schedule import Plan, Schedule, run_plan
-from rotor.plots import plot_lines
+from rotor.plots import draw_chart
 from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -211,17 +212,16 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
         )
     solutions = [solution for table in tables for solution in table]
     axis = _swept(solutions)
-    labels = _SWEPT[axis], "Power [kW]"
     curves: dict[str, list[Solution]] = {}
     for solution in solutions:
         curves.setdefault(_label(solution.design), []).append(solution)
     if len(tables) == 1 and len(curves) == 1:
         climbs = any(solution.design.condition.climb_speed for solution in solutions)
-        drawn = [part for part in POWERS if climbs or part != "climb"]
-        return plot_lines(_values(solutions, axis), {part: _kilowatts(solutions, part) for part in drawn}, labels, ax)
-    for name, curve in curves.items():
-        ax = plot_lines(_values(curve, axis), {name: _kilowatts(curve, "total")}, labels, ax)
-    return ax
+        shown = [(part, solutions, part) for part in POWERS if climbs or part != "climb"]
+    else:
+        shown = [(name, curve, "total") for name, curve in curves.items()]
+    lines = tuple(Line(name, _values(own, axis), _kilowatts(own, part), dots=True) for name, own, part in shown)
+    return draw_chart(Chart("", Axis(_SWEPT[axis]), Axis("Power [kW]"), lines), ax)
 
 
 def _label(design: Design) -> str:

@@ -116,7 +116,7 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
 
 
 @dataclass(frozen=True)
-class Axis:
+class StudyAxis:
     name: str
     values: tuple[float, ...] | tuple[str, ...]
 
@@ -140,7 +140,7 @@ class Sample:
 class StudyPoints:
     """All points of a study; the values of each by quantity."""
 
-    axes: tuple[Axis, ...]
+    axes: tuple[StudyAxis, ...]
     sample: Sample | None
 
     @property
@@ -163,7 +163,7 @@ class StudyPoints:
         digits = _walk(np.arange(first, last, dtype=np.int64), tuple(size for _, size in self._order))
         columns: dict[str, list[float | str]] = {}
         for (axis, _), digit in zip(self._order, digits, strict=True):
-            if isinstance(axis, Axis):
+            if isinstance(axis, StudyAxis):
                 columns[axis.name] = [axis.values[k] for k in digit]
             else:
                 rows = _spread(axis)[digit]
@@ -171,9 +171,9 @@ class StudyPoints:
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     @property
-    def _order(self) -> list[tuple[Axis | Sample, int]]:
+    def _order(self) -> list[tuple[StudyAxis | Sample, int]]:
         """Axes from slow to fast: texts, then axes by increasing number of values."""
-        ranked: list[tuple[float, Axis | Sample, int]] = [
+        ranked: list[tuple[float, StudyAxis | Sample, int]] = [
             (0.0 if axis.textual else len(axis.values), axis, len(axis.values)) for axis in self.axes
         ]
         if self.sample is not None:

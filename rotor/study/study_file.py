@@ -22,12 +22,12 @@ from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point
 from rotor.study.study import (
     QUANTITIES,
-    Axis,
     Method,
     OptimumSettings,
     Sample,
     ShowSettings,
     Study,
+    StudyAxis,
     StudyPoints,
     Value,
     check_uncertain,
@@ -114,15 +114,15 @@ class Reader:
         self._try_points(study)
         return replace(study, show=self._aims(study))
 
-    def _axes(self) -> tuple[tuple[Axis, ...], list[tuple[str, float, float]]]:
-        axes: list[Axis] = []
+    def _axes(self) -> tuple[tuple[StudyAxis, ...], list[tuple[str, float, float]]]:
+        axes: list[StudyAxis] = []
         ranges: list[tuple[str, float, float]] = []
         for key, value in self._section("axes").items():
             self._known("axes", key)
             if isinstance(value, dict):
                 ranges.append((key, *self._range(key, cast(dict[str, Any], value))))
             else:
-                axes.append(Axis(key, self._listed(key, value)))
+                axes.append(StudyAxis(key, self._listed(key, value)))
         return tuple(axes), ranges
 
     def _known(self, section: str, key: str) -> None:

@@ -1,4 +1,5 @@
-"""Measured airloads, twist and flapping over the azimuth beside ours: HART II in the tunnel, the Gazelle in flight.
+"""Measured airloads, twist, flapping and pitch-link loads over the azimuth beside ours: HART II and the UH-60A in
+tunnels, the Gazelle in flight.
 
 Nothing is fitted to any of it.
 
@@ -53,6 +54,16 @@ def _tunnel(density: float, sound: float, speed: float, moment: float) -> dict[s
     return {"mu": round(32.9 / (2.0 * speed), 4), "stand": stand}
 
 
+PITCH_LINK = "uh60a-pitch-link"
+PITCH_LINK_SPEEDS = (0.15, 0.2, 0.24, 0.3, 0.35, 0.37)
+"""Advance ratios of the UH-60A in the tunnel."""
+
+
+def _pitch_link_test(mu: float) -> dict[str, Any]:
+    """Shaft tilt and hub moments are not stated: 5° forward and no first-harmonic flapping are assumed."""
+    return {"mu": mu, "stand": {"ct_over_sigma": 0.09, "shaft_tilt_deg": 5.0}, "bending": True}
+
+
 HART2_BASELINE = FlownCase("hart2-airloads", "BL", "hart2", _tunnel(1.2055, 341.7, 109.12, 20.0))
 """As OpenCOPTER's case files state it; shaft wall-corrected. The signs of the hub moments are not checked: 20 N m is
 0.3 % of thrust times radius, and the other sign moves power by 1.5 % and the twist of the tip by 0.01°."""
@@ -63,12 +74,14 @@ CASES = (
     ),
     FlownCase("gazelle-airloads", "FC1", "gazelle", {"mu": 0.14, "mass_kg": 1985.0, "altitude_m": 317.0}),
     FlownCase("gazelle-airloads", "FC2", "gazelle", {"mu": 0.362, "mass_kg": 1934.0, "altitude_m": 1521.0}),
+    *(FlownCase(PITCH_LINK, f"µ {mu:.2f}", "uh60a", _pitch_link_test(mu)) for mu in PITCH_LINK_SPEEDS),
 )
 """MN: 0.8° of pitch at 3/rev at the root, for least noise. NASA TM-88351 for the Gazelle."""
 TESTS = tuple(dict.fromkeys(case.test for case in CASES))
 REPORTS = {
     "hart2-airloads": "HART II, DNW 2001, as the public code OpenCOPTER carries it",
     "gazelle-airloads": "NASA TM-88351 (1987), flight, digitised by the authors of HEROES",
+    PITCH_LINK: "Marpu et al. (AIAA 2013), 40 × 80 ft tunnel, digitised by the authors of SONATA",
 }
 
 
@@ -80,7 +93,8 @@ class MeasuredCurve:
     quantity: str
     """`cn_m2`, `cm_m2`: normal force and moment coefficient times Mach number squared; `cl`: lift coefficient of the
     section; `cl_u2`: the same times (r + µ sin ψ)²; `tip_twist_deg`: elastic twist of the tip, nose up, without the
-    pitch of the root; `tip_flap`: deflection of the tip up from the precone, over R."""
+    pitch of the root; `tip_flap`: deflection of the tip up from the precone, over R; `pitch_link`: load of one pitch
+    link without its mean [N], positive where the blade's moment is nose up."""
     r: float
     """r/R"""
     psi: Array
@@ -157,6 +171,11 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
             psi_deg, values = columns(rows, "psi_deg", column)
             yield MeasuredCurve(case, quantity, r, np.radians(psi_deg), values)
         return
+    if case.test == PITCH_LINK:
+        rows = csv_rows(asset_path("measured/uh60a_pitch_link.csv"))
+        psi_deg, load = columns(rows, "psi_deg", case.name.removeprefix("µ "))
+        yield MeasuredCurve(case, "pitch_link", 0.0, np.radians(psi_deg), load)
+        return
     rows = [row for row in csv_rows(asset_path("measured/gazelle_airloads.csv")) if row["case"] == case.name]
     for r in sorted({float(row["r"]) for row in rows}):
         psi_deg, cl = columns([row for row in rows if float(row["r"]) == r], "psi_deg", "cl")
@@ -180,6 +199,9 @@ def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array
         blade, state = solution.design.rotor.blade, solution.controls
         flapping = state.coning + state.flap_1c * np.cos(disk.psi) + state.flap_1s * np.sin(disk.psi)
         return disk.psi, (1.0 - blade.flap_hinge) * (flapping - blade.flap_rest)
+    if measured.quantity == "pitch_link":
+        load = np.zeros(len(disk.psi)) if solution.elastic is None else solution.elastic.pitch_link_load
+        return disk.psi, load.mean() - load
     found = distribution(solution)
     match measured.quantity:
         case "cn_m2":

@@ -10,11 +10,11 @@ from functools import cache, cached_property, lru_cache
 from typing import Any, Literal
 
 from rotor.assets import asset_path
+from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.design import HOVER_INFLOWS, Design
 from rotor.design.stand import Stand
 from rotor.files.make_design import current_model, make_design
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.line_chart import LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
@@ -33,7 +33,7 @@ SETS = (
     "uh60a-hover",
 )
 """Names of the sets, in the order in which they are shown."""
-FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "flown-power")
+FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
 LABELS = {
     "mu": "Advance ratio µ",
@@ -263,7 +263,7 @@ def measured_set(name: str) -> TrustSet:
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
         rows=rows,
-        charts=(_chart(found),),
+        charts=(comparison_chart(found),),
         text=tuple(words for words in (_constant(measured), measured.note) if words),
         points=_points(found),
     )
@@ -289,20 +289,21 @@ def _row(found: Comparison) -> TrustRow:
     )
 
 
-def _chart(found: list[Comparison]) -> LineChart:
+def comparison_chart(found: list[Comparison]) -> Chart:
     """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
     measured, quantity = found[0].measured, found[0].measured.quantity
     along = measured.varied[0]
     values = tuple(point[quantity] for point in measured.points)
     places = tuple(point[along] for point in measured.points)
     scatter = tuple(map(measured.scatter_of, values))
-    series = [Series("measured", places, values, "points", 0, scatter)]
+    series: list[Series] = [Points("measured", places, values, scatter=scatter)]
     for k, one in enumerate(found, start=1):
         ours = sorted((point.given[along], point.ours[quantity]) for point in one.points if point.ours is not None)
         x, y = zip(*ours, strict=True)
         alone = len(set(x)) == len(x)
-        series.append(Series(f"computed, inflow {one.inflow}", x, y, "both" if alone else "crosses", k))
-    return LineChart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
+        label = f"computed, inflow {one.inflow}"
+        series.append(Line(label, x, y, k, dots=True) if alone else Points(label, x, y, k, mark="cross"))
+    return Chart(measured.title, Axis(LABELS[along]), Axis(LABELS[quantity]), tuple(series))
 
 
 def _constant(measured: MeasuredSet) -> str:

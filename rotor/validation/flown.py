@@ -15,9 +15,9 @@ import numpy as np
 from rotor.aero.momentum import glauert_inflow
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.study.series import between_drag_areas
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -292,25 +292,25 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
     )  # fmt: skip
 
 
-def _power_chart(powers: Sequence[FlownPower], rotor: str) -> LineChart:
+def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
     mine = sorted((row for row in powers if row.rotor == rotor and row.ours is not None), key=lambda row: row.mu)
     mu = tuple(row.mu for row in mine)
-    series = [
-        Series("measured", mu, tuple(row.measured / 1e3 for row in mine)),
-        Series("computed", mu, tuple((row.ours or math.nan) / 1e3 for row in mine), "both", 1),
+    series: list[Series] = [
+        Points("measured", mu, tuple(row.measured / 1e3 for row in mine)),
+        Line("computed", mu, tuple((row.ours or math.nan) / 1e3 for row in mine), 1, dots=True),
     ]
     for k, word in enumerate(("lowest", "highest")):
         ends = tuple(math.nan if row.band is None else row.band[k] / 1e3 for row in mine)
-        series.append(Series(f"{word} drag area", mu, ends, "dashed", 2 + k))
-    return LineChart(f"Power of the {TITLES[rotor]}", "advance ratio µ", "main-rotor power [kW]", tuple(series))
+        series.append(Line(f"{word} drag area", mu, ends, 2 + k, dashes=True))
+    return Chart(f"Power of the {TITLES[rotor]}", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), tuple(series))
 
 
-def _angle_chart(angles: Sequence[FlownAngle]) -> LineChart:
+def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
     series: list[Series] = []
     for k, one in enumerate(angles, start=1):
-        series.append(Series(f"{ANGLES[one.quantity]}, measured", one.speed_kt, one.measured, "points", k))
-        series.append(Series("computed", one.speed_kt, one.ours, "line", k))
-    return LineChart("Pitch angles of the Bo 105", "airspeed [kt]", "pitch [°]", tuple(series))
+        series.append(Points(f"{ANGLES[one.quantity]}, measured", one.speed_kt, one.measured, k))
+        series.append(Line("computed", one.speed_kt, one.ours, k))
+    return Chart("Pitch angles of the Bo 105", Axis("airspeed [kt]"), Axis("pitch [°]"), tuple(series))
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
@@ -380,18 +380,21 @@ def _lift_row(name: str, quantity: str, found: Sequence[CurveAgreement]) -> Trus
     )
 
 
-def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> LineChart:
+def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> Chart:
     """c_l at the radii."""
     series: list[Series] = []
     mine = [one for one in curves if one[0].case.name == name and one[0].quantity == "cl"]
     for k, (measured, (psi, values)) in enumerate(mine, start=1):
         at = tuple(np.degrees(measured.psi).tolist())
-        series.append(Series(f"measured, {measured.r:g} R", at, tuple(measured.values.tolist()), "points", k))
+        series.append(Points(f"measured, {measured.r:g} R", at, measured.values, k))
         ours = tuple(np.append(values, values[0]).tolist())
-        series.append(Series("computed", (*np.degrees(psi).tolist(), 360.0), ours, "line", k))
+        series.append(Line("computed", (*np.degrees(psi).tolist(), 360.0), ours, k))
     mu = mine[0][0].case.conditions["mu"]
-    return LineChart(
-        f"Section lift coefficient, {name}, µ {mu:g}", "azimuth [°]", f"c_l, {name}", tuple(series), x_ticks=AZIMUTH
+    return Chart(
+        f"Section lift coefficient, {name}, µ {mu:g}",
+        Axis("azimuth [°]", ticks=AZIMUTH),
+        Axis(f"c_l, {name}"),
+        tuple(series),
     )
 
 

@@ -10,9 +10,9 @@ import numpy as np
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.airloads import (
@@ -297,7 +297,7 @@ def vortex_errors(solution: Solution, case: str) -> tuple[float, float, int]:
     return rms(error), float(error.mean()), len(error)
 
 
-def _charts(solutions: Mapping[str, Solution]) -> Iterator[LineChart]:
+def _charts(solutions: Mapping[str, Solution]) -> Iterator[Chart]:
     """Loads less their mean, a chart for each case; twist and flapping as they are."""
     beside = curves()
     for quantity in ("cn_m2", "cm_m2"):
@@ -307,22 +307,22 @@ def _charts(solutions: Mapping[str, Solution]) -> Iterator[LineChart]:
             theirs = measured.values - measured.values.mean()
             label = f"{QUANTITIES[quantity]}, {name}, without mean"
             series = (
-                Series("measured", _degrees(measured.psi[::2]), tuple(theirs[::2].tolist())),
-                Series("computed", *_closed(psi, values - values.mean()), "line", 1),
+                Points("measured", _degrees(measured.psi[::2]), theirs[::2]),
+                Line("computed", *_closed(psi, values - values.mean()), 1),
             )
-            yield LineChart(label, "azimuth [°]", label, series, x_ticks=AZIMUTH)
+            yield Chart(label, Axis("azimuth [°]", ticks=AZIMUTH), Axis(label), series)
     for quantity in ("tip_twist_deg", "tip_flap"):
         series_of: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
             measured = beside[name, quantity]
             theirs = tuple(measured.values.tolist())
-            series_of.append(Series(f"{name}, measured", _degrees(measured.psi), theirs, "points", k))
-            series_of.append(Series("computed", *_closed(*our_curve(measured, solution)), "line", k))
+            series_of.append(Points(f"{name}, measured", _degrees(measured.psi), theirs, k))
+            series_of.append(Line("computed", *_closed(*our_curve(measured, solution)), k))
         label = QUANTITIES[quantity]
-        yield LineChart(label, "azimuth [°]", label, tuple(series_of), x_ticks=AZIMUTH)
+        yield Chart(label, Axis("azimuth [°]", ticks=AZIMUTH), Axis(label), tuple(series_of))
 
 
-def _vortex_chart(solution: Solution) -> LineChart:
+def _vortex_chart(solution: Solution) -> Chart:
     """Height over x of BL near three planes y."""
     course, (x, y, z) = solution.wake_course, measured_vortices("BL")
     assert course is not None
@@ -331,11 +331,11 @@ def _vortex_chart(solution: Solution) -> LineChart:
         here = np.flatnonzero(np.abs(y - plane) < 0.05)
         here = here[np.argsort(x[here])]
         label = f"{'advancing' if plane > 0.0 else 'retreating'}, {abs(plane):g} R, measured"
-        series.append(Series(label, tuple(x[here].tolist()), tuple(z[here].tolist()), "points", k))
+        series.append(Points(label, x[here], z[here], k))
         along = np.linspace(-math.sqrt(1.0 - plane**2), float(x[here].max()), 30)
         ours = height(course, along, np.full_like(along, plane))
-        series.append(Series("computed", tuple(along.tolist()), tuple(ours.tolist()), "line", k))
-    return LineChart("Tip vortices above the hub, BL", "x/R, aft", "z/R of tip vortices, BL", tuple(series))
+        series.append(Line("computed", along, ours, k))
+    return Chart("Tip vortices above the hub, BL", Axis("x/R, aft"), Axis("z/R of tip vortices, BL"), tuple(series))
 
 
 def _degrees(psi: Array) -> tuple[float, ...]:

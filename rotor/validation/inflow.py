@@ -15,8 +15,8 @@ from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.lifting_line.influence import at_points
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
 from rotor.files.make_design import make_design
-from rotor.line_chart import AZIMUTH, LineChart, Series
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -121,18 +121,18 @@ def inflow_set() -> TrustSet:
     )
 
 
-def _chart(measured: MeasuredInflow) -> LineChart:
+def _chart(measured: MeasuredInflow) -> Chart:
     """Measured and computed inflow over azimuth."""
     here = [k for k, r in enumerate(measured.r) if r == RADIUS]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     ring = MeasuredInflow(measured.mu, np.full_like(psi, RADIUS), psi, np.zeros_like(psi))
     angle = tuple(np.degrees(psi).tolist())
     places, values = np.degrees(measured.psi)[here], measured.inflow[here]
-    series = [Series("measured", tuple(places.tolist()), tuple(values.tolist()))]
+    series: list[Series] = [Points("measured", places, values)]
     for k, name in enumerate(DRAWN, start=1):
-        series.append(Series(name, angle, tuple(_time_mean(name, ring).tolist()), "line", k))
+        series.append(Line(name, angle, tuple(_time_mean(name, ring).tolist()), k))
     title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
-    return LineChart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
+    return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(f"inflow over ΩR, µ {measured.mu:g}"), tuple(series))
 
 
 def inflow_agreement() -> Iterator[InflowAgreement]:

@@ -1,9 +1,10 @@
 """The trust page: a summary with one row a set, and a page with charts and numbers for each.
 
 A further set is one function that returns a `TrustSet`, listed in `SETS` under its name. Its rows give the numbers and
-verdicts, its charts are drawn from the same numbers: `Series` of marks "points" for what was measured and "line" for
-ours, `x_ticks=AZIMUTH` over azimuth. The function runs when the page is made and may take its time. Each row names the
-test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust` makes all of it anew.
+verdicts, its charts are drawn from the same numbers: `Points` for what was measured, `Line` for ours,
+`Axis("azimuth [°]", ticks=AZIMUTH)` over azimuth. The function runs when the page is made and may take its time. Each
+row names the test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust` makes all
+of it anew.
 """
 
 import csv
@@ -14,8 +15,9 @@ from functools import partial
 from itertools import groupby
 from pathlib import Path
 
-from rotor.line_chart import draw, draw_small
+from rotor.chart_svg import small_svg, svg
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
+from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import measured_set
 from rotor.validation.inflow import SET as INFLOW_SET
@@ -29,6 +31,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     INFLOW_SET: inflow_set,
     hart2.SET: hart2.hart2_set,
     flown.AIRLOADS: flown.gazelle_set,
+    PITCH_LINK: uh60a.pitch_link_set,
     flown.POWERS: flown.flown_set,
     stall_loops.SET: stall_loops.loops_set,
     "sc1095": uh60a.section,
@@ -80,7 +83,7 @@ def write_trust(sets: Iterable[TrustSet], changes: Sequence[SensitivityRow], fol
     _write(folder / "sensitivity.csv", SensitivityRow, [[_plain(cell) for cell in astuple(row)] for row in changes])
     for one in sets:
         write_set(one, folder)
-    (folder / FOLDER / "sensitivity.svg").write_text(draw(sensitivity_chart(changes)), encoding="utf-8")
+    (folder / FOLDER / "sensitivity.svg").write_text(svg(sensitivity_chart(changes)), encoding="utf-8")
     (folder / FOLDER / "sensitivity.md").write_text(sensitivity_page(changes), encoding="utf-8")
     path = folder / "validation.md"
     path.write_text(summary(sets), encoding="utf-8")
@@ -92,8 +95,8 @@ def write_set(one: TrustSet, folder: Path) -> Path:
     folder = folder / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     for k, chart in enumerate(one.charts):
-        (folder / _picture(one, k)).write_text(draw(chart), encoding="utf-8")
-    (folder / f"{one.name}-small.svg").write_text(draw_small(one.charts[0]), encoding="utf-8")
+        (folder / _picture(one, k)).write_text(svg(chart), encoding="utf-8")
+    (folder / f"{one.name}-small.svg").write_text(small_svg(one.charts[0]), encoding="utf-8")
     path = folder / f"{one.name}.md"
     path.write_text(set_page(one), encoding="utf-8")
     return path

@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from rotor.chart import Axis, Chart, Points
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.structure import BladeStructure
 from rotor.files.make_design import make_design
-from rotor.line_chart import LineChart, Series
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.validation.trust import SensitivityRow
@@ -140,21 +140,20 @@ def sensitivity() -> Iterator[SensitivityRow]:
             )
 
 
-def sensitivity_chart(rows: Sequence[SensitivityRow]) -> LineChart:
+def sensitivity_chart(rows: Sequence[SensitivityRow]) -> Chart:
     """The best twist of each change with its band, one colour a speed."""
     changes = tuple(dict.fromkeys(row.change for row in rows))
-    series: list[Series] = []
+    series: list[Points] = []
     for k, mu in enumerate(dict.fromkeys(row.mu for row in rows)):
         mine = [row for row in rows if row.mu == mu]
         series.append(
-            Series(
+            Points(
                 "hover" if mu == 0.0 else f"µ {mu:g}",
                 tuple(row.optimum_deg for row in mine),
                 tuple(changes.index(row.change) + 0.25 * (k - 1) for row in mine),
-                "points",
                 k + 1,
-                tuple(0.5 * (row.high_deg - row.low_deg) for row in mine),
+                scatter=tuple(0.5 * (row.high_deg - row.low_deg) for row in mine),
             )
         )
     title = "Best linear twist by choice of model, with its band"
-    return LineChart(title, "best linear twist [° per radius]", "", tuple(series), names=changes)
+    return Chart(title, Axis("best linear twist [° per radius]"), Axis(names=changes), tuple(series))

@@ -14,7 +14,7 @@ from rotor.airfoil.section_table import SectionTable, table_from_deck
 from rotor.airfoil.stall_onset import stall_onset
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
-from rotor.line_chart import LineChart, Series
+from rotor.chart import Axis, Chart, Line, Points
 from rotor.validation.airloads import columns
 from rotor.validation.trust import TrustRow, TrustSet, judged
 
@@ -136,13 +136,13 @@ def loops_set() -> TrustSet:
     )  # fmt: skip
 
 
-def _chart(loop: StallLoop, k: int) -> LineChart:
+def _chart(loop: StallLoop, k: int) -> Chart:
     """Measured, static and with dynamic stall over the angle of attack."""
     parts = np.degrees(loop.alpha), loop.static[k], loop.dynamic[k]
     alpha, static, dynamic = (tuple(np.append(one, one[0]).tolist()) for one in parts)  # Closed loops.
     series = (
-        Series("measured", alpha[:-1], tuple(loop.measured[k].tolist())),
-        Series("dynamic stall", alpha, dynamic, "line", 1),
-        Series("static data", alpha, static, "line", 2),
+        Points("measured", alpha[:-1], loop.measured[k]),
+        Line("dynamic stall", alpha, dynamic, 1),
+        Line("static data", alpha, static, 2),
     )
-    return LineChart(f"{NAMES[k]}, pitching {loop.motion}", "angle of attack [°]", NAMES[k], series)
+    return Chart(f"{NAMES[k]}, pitching {loop.motion}", Axis("angle of attack [°]"), Axis(NAMES[k]), series)

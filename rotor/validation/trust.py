@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.assets import asset_path, csv_rows
-from rotor.line_chart import LineChart
+from rotor.chart import Chart
 
 Kind = Literal["validation", "indicative", "verification", "public code", "document"]
 KINDS: dict[Kind, str] = {
@@ -79,7 +79,7 @@ class TrustSet:
     """For the summary."""
     source: str
     rows: tuple[TrustRow, ...]
-    charts: tuple[LineChart, ...]
+    charts: tuple[Chart, ...]
     """The first is also the small picture of the summary."""
     text: tuple[str, ...] = ()
     """Paragraphs that hold for all rows."""

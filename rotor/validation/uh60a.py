@@ -1,8 +1,15 @@
-"""The UH-60A beside what is public: hover points, a model's curve over speed, section data, constants of the blade."""
+"""The UH-60A beside what is public: hover points, a model's curve over speed, section data, constants of the blade, and
+loads of the pitch link in the tunnel.
+
+Of those loads the figure states neither unit nor sign: pound-force is taken by its size, and positive where the blade's
+moment is nose up, for so measured pitch-link loads at high speed are described: nose up in the first quadrant, nose
+down in the second (An Examination of the Aerodynamic Moment on Rotor Blade Tips, DTIC ADA529954).
+"""
 
 import math
 import tomllib
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -10,12 +17,22 @@ import numpy as np
 
 from rotor.airfoil.public_points import agreement, public_points
 from rotor.airfoil.sections import load_section
+from rotor.arrays import Array
 from rotor.assets import asset_path
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
-from rotor.line_chart import LineChart, Series
 from rotor.trim.solve import solve
 from rotor.units import KNOT
+from rotor.validation import airloads
+from rotor.validation.airloads import (
+    PITCH_LINK,
+    REPORTS,
+    CurveAgreement,
+    MeasuredCurve,
+    measured_curves,
+    our_curve,
+)
 from rotor.validation.trust import TrustRow, TrustSet, judged, rms, share
 
 HORSEPOWER_KW = 0.745700
@@ -26,6 +43,10 @@ LIFT_SLOPE = {"sc1095": 6.15, "sc1094r8": 6.30}
 """[1/rad] over 0–8° at Mach 0.3, section decks of NASA CR-166309 (Howlett 1981)."""
 FLAP_FREQUENCY, LOCK_NUMBER = 1.04, 8.19
 """First flap frequency over Ω, digitised fan plot of the UH-60A blade; Lock number of NASA TM-85890 (Hilbert 1984)."""
+
+LOAD_HARMONICS = (1, 2, 3, 4)
+"""Of the pitch-link load that are shown."""
+_LOAD_TEST = "rotor/validation/test_pitch_link.py"
 
 
 @cache
@@ -82,15 +103,15 @@ def hover() -> TrustSet:
               "contraction and no tip-vortex interference. The download is left out here."),
     )  # fmt: skip
     series = (
-        Series("measured, digitised", tuple(ct), tuple(cp)),
-        Series("computed, inflow annulus", tuple(ct), tuple(ours), "both", 1),
+        Points("measured, digitised", ct, cp),
+        Line("computed, inflow annulus", ct, ours, 1, dots=True),
     )
     points = zip(ct, cp, ours, ratio, strict=True)
     return TrustSet(
         "uh60a-hover", "UH-60A, hover", "C_P, 10 points", f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         "Digitised UH-60 rotor measurements (W. Garre, 2018, project history of SONATA, TU Munich); provenance "
         "incomplete.",
-        rows, (LineChart("UH-60A in hover", "C_T/σ", "C_P/σ", series),),
+        rows, (Chart("UH-60A in hover", Axis("C_T/σ"), Axis("C_P/σ"), series),),
         ("C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.",),
         (("C_T/σ", "Measured C_P/σ", "Ours", "Error"),
          *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f} %") for a, b, c, d in points)),
@@ -110,14 +131,14 @@ def forward() -> TrustSet:
         )
     )  # fmt: skip
     series = (
-        Series("public model curve", tuple(speeds), tuple(theirs)),
-        Series("computed", tuple(speeds), tuple(ours), "both", 1),
+        Points("public model curve", speeds, theirs),
+        Line("computed", speeds, ours, 1, dots=True),
     )
     title = "UH-60A, forward flight"
     return TrustSet(
         "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         "A flight-mechanics model with Pitt–Peters inflow: Lee, Texas A&M dissertation, 2021, read off a graph to 2 %.",
-        rows, (LineChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
+        rows, (Chart(title, Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series),),
         ("No measured forward-flight power of the UH-60A could be reached.",),
         (("µ", "Model curve [kW]", "Ours [kW]", "Error"),
          *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f} %")
@@ -154,27 +175,29 @@ def section() -> TrustSet:
     )  # fmt: skip
 
 
-def _over_angle(name: str, label: str, mach: float = 0.4) -> LineChart:
+def _over_angle(name: str, label: str, mach: float = 0.4) -> Chart:
     table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
     alpha = np.arange(-5.0, 9.1, 0.25)
     ours = tuple(float(getattr(table(math.radians(a), mach), name)) for a in alpha)
     series = (
-        Series("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
-        Series("section table", tuple(alpha.tolist()), ours, "line", 1),
+        Points("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
+        Line("section table", alpha, ours, 1),
     )
-    return LineChart(f"{label} of SC1095 at Mach {mach:g}", "angle of attack [°]", f"{label}, Mach {mach:g}", series)
+    return Chart(
+        f"{label} of SC1095 at Mach {mach:g}", Axis("angle of attack [°]"), Axis(f"{label}, Mach {mach:g}"), series
+    )
 
 
-def _drag_rise(alpha_deg: float = 2.0) -> LineChart:
+def _drag_rise(alpha_deg: float = 2.0) -> Chart:
     table, alpha = load_section("sc1095"), math.radians(alpha_deg)
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = tuple(float(m) for m in np.arange(mach[0], mach[-1], 0.01))
     series = (
-        Series("RANS and net, kept aside", mach, drag),
-        Series("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), "line", 1),
+        Points("RANS and net, kept aside", mach, drag),
+        Line("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), 1),
     )
-    return LineChart(f"Drag rise of SC1095 at {alpha_deg:g}°", "Mach number", f"C_d at {alpha_deg:g}°", series)
+    return Chart(f"Drag rise of SC1095 at {alpha_deg:g}°", Axis("Mach number"), Axis(f"C_d at {alpha_deg:g}°"), series)
 
 
 def constants() -> TrustSet:
@@ -201,9 +224,144 @@ def constants() -> TrustSet:
     ]  # fmt: skip
     errors = tuple(100.0 * (row.error or 0.0) for row in rows)
     titles = ("lift slope, SC1095", "lift slope, SC1094 R8", "flap frequency", "Lock number")
-    series = Series("", errors, tuple(map(float, range(len(rows)))), "points", 1)
+    series = Points("", errors, tuple(map(float, range(len(rows)))), 1)
     return TrustSet(
         name, "Constants of the UH-60A", "Lift slope, flapping, Lock number",
         f"{min(errors):+.1f} to {max(errors):+.1f} %", "Published constants of sections and blade, each named below.",
-        tuple(rows), (LineChart("Ours over published", "difference [%]", "", (series,), names=titles),),
+        tuple(rows), (Chart("Ours over published", Axis("difference [%]"), Axis(names=titles), (series,)),),
     )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class PitchLinkLoad:
+    """One advance ratio."""
+
+    mu: float
+    measured: MeasuredCurve
+    psi: Array
+    """[rad], (azimuths,)"""
+    ours: Array
+    """[N], (azimuths,)"""
+    torsion_alone: Array
+    """Ours of a blade that twists but does not bend."""
+    beside: CurveAgreement
+
+    @property
+    def half_peaks(self) -> tuple[float, float, float]:
+        """Half peak to peak [N]: measured, ours, ours without bending."""
+        measured, ours, rigid = (
+            0.5 * float(np.ptp(of)) for of in (self.measured.values, self.ours, self.torsion_alone)
+        )
+        return measured, ours, rigid
+
+
+def pitch_link_loads() -> Iterator[PitchLinkLoad]:
+    """All measured advance ratios; RuntimeError where the rotor does not trim."""
+    for measured in measured_curves():
+        if measured.case.test == PITCH_LINK:
+            design = measured.case.design()
+            solution = solve(design).require()
+            rigid = solve(replace(design, models=replace(design.models, bending=False))).require()
+            psi, ours = our_curve(measured, solution)
+            yield PitchLinkLoad(
+                design.condition.advance_ratio, measured, psi, ours, our_curve(measured, rigid)[1],
+                airloads.agreement(measured, solution),
+            )  # fmt: skip
+
+
+def pitch_link_set() -> TrustSet:
+    """For the trust page."""
+    loads = list(pitch_link_loads())
+    errors = [ours / measured - 1.0 for measured, ours, _ in (one.half_peaks for one in loads)]
+    return TrustSet(
+        name=PITCH_LINK,
+        title="UH-60A, pitch-link load",
+        compared="load of the pitch link over azimuth, six speeds to µ 0.37",
+        error=f"half peak to peak {100 * min(errors):+.0f} to {100 * max(errors):+.0f} %",
+        source=REPORTS[PITCH_LINK],
+        rows=tuple(_load_rows(loads)),
+        charts=(_peak_chart(loads), _amplitude_chart(loads), *map(_load_chart, loads)),
+        text=_LOAD_WORDS,
+        points=_load_points(loads),
+    )
+
+
+_LOAD_WORDS = (
+    "C_T/σ 0.09, tip Mach number 0.65, blades that bend and twist. The source states no unit: pound-force is taken, by "
+    "size. It states no sign: positive is where the moment of the blade is nose up, for so measured pitch-link loads "
+    "at high speed are described, nose up in the first quadrant and nose down in the second (An Examination of the "
+    "Aerodynamic Moment on Rotor Blade Tips, DTIC ADA529954; its analysis, too, misses size and form). Shaft tilt and "
+    "hub moments are not stated: 5° forward and no first-harmonic flapping here. The horn of 0.19 m is assumed, and "
+    "loads go with its inverse; the control stiffness of 1.1e5 N m/rad is assumed too. Phase is φ of A cos(nψ − φ).",
+)
+
+
+def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
+    for one in loads:
+        measured, ours, _ = one.half_peaks
+        yield share(
+            PITCH_LINK, "validation", f"Half peak to peak, µ {one.mu:g}", REPORTS[PITCH_LINK], ours / measured - 1.0,
+            0.02, f"{_LOAD_TEST}::test_half_peak_to_peak", digits=0,
+        )  # fmt: skip
+    for n in (1, 2):
+        ratios = [one.beside.ratio(n) for one in loads]
+        late = [one.beside.late_deg(n) for one in loads]
+        mean = float(np.mean(ratios))
+        yield TrustRow(
+            PITCH_LINK, "validation", f"{n}/rev, mean of six speeds", REPORTS[PITCH_LINK],
+            f"{100 * mean:+.0f} %, phase {min(late):+.0f} to {max(late):+.0f}°", mean, 0.02,
+            f"{_LOAD_TEST}::test_harmonics",
+        )  # fmt: skip
+
+
+def _peak_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
+    mu = tuple(one.mu for one in loads)
+    measured, ours, rigid = zip(*(one.half_peaks for one in loads), strict=True)
+    series = (
+        Points("measured", mu, _kilonewtons(measured)),
+        Line("computed", mu, _kilonewtons(ours), 1, dots=True),
+        Line("without bending", mu, _kilonewtons(rigid), 2, dashes=True),
+    )
+    return Chart(
+        "Half peak to peak of the pitch-link load",
+        Axis("advance ratio µ"),
+        Axis("half peak to peak [kN]"),
+        series,
+    )
+
+
+def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
+    mu = tuple(one.mu for one in loads)
+    series: list[Series] = []
+    for n in LOAD_HARMONICS:
+        theirs, ours = ([one.beside.amplitude(n, measured=own) for one in loads] for own in (True, False))
+        series.append(Points(f"{n}/rev, measured", mu, _kilonewtons(theirs), n))
+        series.append(Line("computed", mu, _kilonewtons(ours), n))
+    return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))
+
+
+def _load_chart(one: PitchLinkLoad) -> Chart:
+    at, end = np.degrees(one.measured.psi), (*np.degrees(one.psi).tolist(), 360.0)
+    series: list[Series] = [Points("measured", at, _kilonewtons(one.measured.values.tolist()))]
+    ours, rigid = (_kilonewtons(np.append(of, of[0]).tolist()) for of in (one.ours, one.torsion_alone))
+    series += [Line("computed", end, ours, 1), Line("without bending", end, rigid, 2, dashes=True)]
+    title = f"Pitch-link load, µ {one.mu:g}"
+    return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(f"{title} [kN]"), tuple(series))
+
+
+def _kilonewtons(values: Sequence[float]) -> tuple[float, ...]:
+    return tuple(1e-3 * one for one in values)
+
+
+def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
+    rows: list[tuple[str, ...]] = [("µ", "", "Measured [kN]", "φ [°]", "Ours [kN]", "φ [°]", "Without bending [kN]")]
+    for one in loads:
+        measured, ours, rigid = (f"{1e-3 * value:.2f}" for value in one.half_peaks)
+        rows.append((f"{one.mu:g}", "half peak to peak", measured, "", ours, "", rigid))
+        for n in LOAD_HARMONICS:
+            cells = [
+                (f"{1e-3 * one.beside.amplitude(n, measured=own):.2f}", f"{one.beside.phase_deg(n, measured=own):.0f}")
+                for own in (True, False)
+            ]
+            rows.append((f"{one.mu:g}", f"{n}/rev", *cells[0], *cells[1], ""))
+    return tuple(rows)

@@ -21,10 +21,10 @@ from rotor.aero.problem import build_problem, in_disk_axes
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UT, section
 from rotor.airfoil.sections import load_section
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.line_chart import LineChart, Series
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
@@ -76,14 +76,13 @@ def theory() -> TrustSet:
         ),
     )  # fmt: skip
     places = tuple(map(float, range(len(bounds))))
-    chart = LineChart(
-        "Errors and their bounds", "relative error", "",
+    chart = Chart(
+        "Errors and their bounds", Axis("relative error", log=True),
+        Axis(names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)")),
         (
-            Series("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, "points", 1),
-            Series("bound", tuple(row.allowed for row in bounds), places, "crosses"),
+            Points("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, 1),
+            Points("bound", tuple(row.allowed for row in bounds), places, mark="cross"),
         ),
-        log="x",
-        names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)"),
     )  # fmt: skip
     met = sum(row.verdict == "met" for row in bounds)
     return TrustSet(
@@ -203,8 +202,8 @@ def dynbem() -> TrustSet:
         for one in made
     ]  # fmt: skip
     rows = rows or [row for row in trust_rows() if row.set == "dynbem"]
-    series = Series("dynbem's torque over ours", SPEEDS, _percent(rows), "both", 1)
-    chart = LineChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
+    series = Line("dynbem's torque over ours", SPEEDS, _percent(rows), 1, dots=True)
+    chart = Chart("Torque of dynbem over ours", Axis("advance ratio µ"), Axis("difference [%]"), (series,))
     return TrustSet(
         "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
         "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
@@ -223,10 +222,10 @@ def ccblade() -> TrustSet:
     rows = rows or [row for row in trust_rows() if row.set == "ccblade"]
     power = _percent(rows)
     series = (
-        Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
-        Series("with swirl", CCBLADE_MASSES, power[1::2], "both", 2),
+        Line("without swirl", CCBLADE_MASSES, power[0::2], 1, dots=True),
+        Line("with swirl", CCBLADE_MASSES, power[1::2], 2, dots=True),
     )
-    chart = LineChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
+    chart = Chart("Hover power of CCBlade over ours", Axis("mass [kg]"), Axis("difference [%]"), series)
     return TrustSet(
         "ccblade", "CCBlade", "Hover power without and with swirl",
         f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",

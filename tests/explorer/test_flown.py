@@ -21,7 +21,7 @@ from rotor.study.series import between_drag_areas
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve
 
-NEW = ("gazelle", "bo105", "hart2")
+NEW = ("gazelle", "bo105", "hart2", "uh60a")
 
 
 def at_test(rotor: str, case: str) -> Inputs:
@@ -183,6 +183,24 @@ class TestAirloads:
 def test_the_probe_names_the_source_of_the_section_s_public_points(name: str, source: str):
     solution = solve(with_rotor(OPENING, name).design())
     assert source in probe_panel(probe(solution, 0.75, math.radians(65.0)), solution)
+
+
+def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():
+    """Beside ours where the blade twists; a rigid one has none."""
+    inputs = at_test("uh60a", "µ 0.30")
+    assert inputs.advance_ratio == 0.3
+    solution = solve(inputs.design())
+    beside = beside_measured(solution, 0.75)
+    assert beside is not None
+    assert beside.at_test
+    ((measured, _, ours),) = beside.curves
+    assert solution.elastic is not None
+    assert np.ptp(ours) == pytest.approx(np.ptp(solution.elastic.pitch_link_load))
+    assert "Pitch link [N]" in measured_panel(beside, 0.0)
+    assert validated(solution).words == "pitch-link load measured"
+    rigid = replace(inputs.design(), models=replace(inputs.design().models, elastic_twist=False))
+    assert beside_measured(solve(rigid), 0.75) is None
+    assert measured.highest == 10
 
 
 def test_the_chip_says_what_was_measured():

@@ -140,3 +140,13 @@ class TestPresentations:
         assert presentations.claim("other", "other", two)
         presentations.release(one)
         assert presentations.claim("s", "other", two)
+
+    def test_a_presenter_that_has_gone_is_not_kept(self):
+        """Its watcher belongs to its page, and so would keep the whole session alive."""
+        presentations, one = Presentations(), object()
+        presentations.claim("s", "page", one)
+        presentations.watch("s", (counts := list[int]()).append)
+        presentations.follow(follow_name("s"), lambda _: None)
+        presentations.release(one)
+        presentations.follow(follow_name("s"), lambda _: None)
+        assert counts == [0, 1]

@@ -1,5 +1,7 @@
 """The path of a slider step: what the session calls on its page, and in which order."""
 
+import threading
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -87,6 +89,33 @@ def update(session: Session) -> Any:
     for _ in steps:
         pass
     return page
+
+
+def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest.MonkeyPatch):
+    """As a link with A does. Before, the update ran in a session without a page."""
+    failures, shown = list[Exception](), threading.Event()
+
+    class WakingPage(RecordingPage):
+        def __init__(self, *arguments: Any) -> None:
+            arguments[-1].wake()
+            time.sleep(0.05)
+            super().__init__(*arguments)
+
+        def answer_when_idle(self, wait: Any) -> None: ...
+
+        def start(self) -> None: ...
+
+        def follow(self, *arguments: Any) -> None:
+            shown.set()
+
+    monkeypatch.setattr(session_module, "Page", WakingPage)
+    monkeypatch.setattr(Session, "_failed", lambda _, error: failures.append(error))
+    client: Any = SimpleNamespace(client_id=1)
+    made = Session(client, Inputs(), PageFacts(), shared=SimpleNamespace())  # pyright: ignore[reportArgumentType]
+    made.start()
+    assert shown.wait(300.0)  # The kernels may have to be compiled.
+    made._worker.stop()
+    assert not failures
 
 
 def test_only_reading_and_pinning_come_before_the_frame(session: Session):

@@ -21,7 +21,8 @@ from rotor import Solution
 from rotor.actuator import ActuatorFlight, Verdict, verdict_details, verdict_sentence
 from rotor.actuator.verdict import count
 from rotor.arrays import Array
-from rotor.line_chart import LineChart, Mark, Series, draw
+from rotor.chart import Axis, Chart, Line, Points
+from rotor.chart_svg import svg
 
 PIXELS = 480
 """Pixels of a disk along each edge: the labels of its regions can be read."""
@@ -41,41 +42,39 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
     r = np.linspace(report.entries[0].solution.design.rotor.blade.root_cutout, 1.0, 160)
     twist, load = [], []
     for entry, colour in reversed(pairs):
-        mark: Mark = "dashed" if entry is report.reference else "line"
+        dashed = entry is report.reference
         solution = entry.solution
-        twist.append(series(entry.title, r, np.degrees(solution.design.twist(r)), mark, colour))
-        load.append(series(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, mark, colour))
+        twist.append(Line(entry.title, r, np.degrees(solution.design.twist(r)), colour, dashes=dashed))
+        load.append(Line(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, colour, dashes=dashed))
     seen = [y for one in power for x, y in zip(one.x, one.y, strict=True) if x <= 0.4 and math.isfinite(y)]
     y_range, unit = held_range(None, 0.0, max(seen, default=1.0)), report.units.power[0].symbol
     speed, speeds, along_r = "advance ratio µ", (-0.01, 0.46), (0.1, 1.01)
     changes = [one for entry, colour in pairs for one in _change(report, entry, colour, curves)]
-    zero = series("", np.array(speeds), np.zeros(2), "dashed", BASELINE)
+    zero = Line("", speeds, (0.0, 0.0), BASELINE, dashes=True)
     against = f"vs. {report.reference.title} [%]"
     charts = [
-        LineChart("Power over advance ratio", f"{speed}; hover as a point", f"total power [{unit}]", tuple(power),
-                  x_range=speeds, y_range=y_range),
-        *([LineChart("Change of power", speed, against, (zero, *changes), x_range=speeds)] if changes else []),
-        LineChart("Jig twist along the blade", "r/R", "twist [°], zero at 0.75 R", tuple(twist), x_range=along_r),
-        LineChart("Load along the blade", "r/R", "dT/dr, mean over azimuth [kN/m]", tuple(load), x_range=along_r),
+        Chart(
+            "Power over advance ratio", Axis(f"{speed}; hover as a point", range=speeds),
+            Axis(f"total power [{unit}]", range=y_range), tuple(power),
+        ),
+        *([Chart("Change of power", Axis(speed, range=speeds), Axis(against), (zero, *changes))] if changes else []),
+        Chart("Jig twist along the blade", Axis("r/R", range=along_r), Axis("twist [°], zero at 0.75 R"), tuple(twist)),
+        Chart("Load along the blade", Axis("r/R", range=along_r), Axis("dT/dr, mean over azimuth [kN/m]"), tuple(load)),
     ]  # fmt: skip
     return f"<section><h2>Over speed and along the blade</h2>{_charts(charts)}</section>"
 
 
-def _charts(charts: Sequence[LineChart]) -> str:
+def _charts(charts: Sequence[Chart]) -> str:
     return f'<div class="charts">{"".join(map(figure, charts))}</div>'
 
 
-def figure(chart: LineChart) -> str:
+def figure(chart: Chart) -> str:
     """A chart with its title, as HTML."""
     title = f"<figcaption><b>{escape(chart.title)}</b></figcaption>"
-    return f'<figure class="chart">{title}{draw(chart, inline=True)}</figure>'
+    return f'<figure class="chart">{title}{svg(chart, inline=True)}</figure>'
 
 
-def series(label: str, x: Array, y: Array, mark: Mark, colour: str) -> Series:
-    return Series(label, tuple(x.tolist()), tuple(y.tolist()), mark, colour)
-
-
-def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Series]:
+def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
     """Curve over advance ratio, hover as a point, the present condition as a point."""
     design = entry.solution.design
     curves.sweep(design, report.reference.solution.design, lambda: False)
@@ -84,16 +83,16 @@ def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerC
     unit = report.units.power[0]
     here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
     total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
-    found = [
-        series(entry.title, *_smooth(total), "dashed" if is_reference else "line", colour),
-        series("", mu[:1], total[:1], "points", colour),
+    found: list[Line | Points] = [
+        Line(entry.title, *_smooth(total), colour, dashes=is_reference),
+        Points("", mu[:1], total[:1], colour),
     ]
     if entry is report.entries[0]:
-        found.insert(0, series("ideal for its lift", *_smooth(ideal), "dashed", IDEAL))
-    return found if is_reference else [*found, series("", *here, "points", colour)]
+        found.insert(0, Line("ideal for its lift", *_smooth(ideal), IDEAL, dashes=True))
+    return found if is_reference else [*found, Points("", *here, colour)]
 
 
-def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Series]:
+def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
     """Change against the reference over speed, for blades with the same weight and altitude."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
@@ -102,8 +101,8 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
     curve = curves.known(design, reference)
     change = 100.0 * (curve.design / curve.reference - 1.0)
     return [
-        series(entry.title, *_smooth(change), "line", colour),
-        series("", np.array(SWEEP[:1]), change[:1], "points", colour),
+        Line(entry.title, *_smooth(change), colour),
+        Points("", np.array(SWEEP[:1]), change[:1], colour),
     ]
 
 
@@ -156,14 +155,14 @@ def along(solution: Solution) -> str:
         lower, upper, angle = plots.angles_along(solution, float(degrees))
         if degrees == 270:
             names = zip(("stall at ψ 270°", ""), (lower, upper), strict=True)
-            alpha += [series(name, r, limit, "dashed", BASELINE) for name, limit in names]
-        alpha.append(series(f"ψ {degrees}°", r, angle, "line", colour))
+            alpha += [Line(name, r, limit, BASELINE, dashes=True) for name, limit in names]
+        alpha.append(Line(f"ψ {degrees}°", r, angle, colour))
         cl = np.where(np.isfinite(angle), plots.lift_along(solution, float(degrees)), math.nan)
-        lift.append(series(f"ψ {degrees}°", r, cl, "line", colour))
+        lift.append(Line(f"ψ {degrees}°", r, cl, colour))
     x_label, x_range = "r/R; reverse flow omitted", (0.1, 1.01)
     charts = [
-        LineChart("Angle of attack", x_label, "α [°]", tuple(alpha), x_range=x_range, y_range=(-15.0, 20.0)),
-        LineChart("Lift coefficient", x_label, "C_l", tuple(lift), x_range=x_range, y_range=(-0.5, 1.5)),
+        Chart("Angle of attack", Axis(x_label, range=x_range), Axis("α [°]", range=(-15.0, 20.0)), tuple(alpha)),
+        Chart("Lift coefficient", Axis(x_label, range=x_range), Axis("C_l", range=(-0.5, 1.5)), tuple(lift)),
     ]
     return f"<h3>Along the blade</h3>{_charts(charts)}"
 
@@ -231,14 +230,16 @@ def _over_flight(flight: ActuatorFlight) -> str:
     mu = np.array([leg.advance_ratio for leg in flight.legs])
     low, high = (np.full(len(mu), math.degrees(end)) for end in flight.reach)
     lines = (
-        series("within reach", mu, low, "dashed", _RANGE),
-        series("", mu, high, "dashed", _RANGE),
-        series("wanted", mu, np.degrees(flight.wanted), "line", _WANTED),
-        series("reached", mu, np.degrees(flight.reached), "line", _REACHED),
-        series("", mu, np.degrees(flight.reached), "points", _REACHED),
+        Line("within reach", mu, low, _RANGE, dashes=True),
+        Line("", mu, high, _RANGE, dashes=True),
+        Line("wanted", mu, np.degrees(flight.wanted), _WANTED),
+        Line("reached", mu, np.degrees(flight.reached), _REACHED),
+        Points("", mu, np.degrees(flight.reached), _REACHED),
     )
     names = ", ".join(leg.name for leg in flight.legs)
-    return figure(LineChart("Tip twist over the flight", f"advance ratio µ: {names}", "change of tip twist [°]", lines))
+    return figure(
+        Chart("Tip twist over the flight", Axis(f"advance ratio µ: {names}"), Axis("change of tip twist [°]"), lines)
+    )
 
 
 def _legs(flight: ActuatorFlight, verdict: Verdict, units: Units) -> str:

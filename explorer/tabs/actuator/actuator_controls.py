@@ -24,7 +24,7 @@ from explorer.tabs.actuator.actuator_inputs import (
 )
 from explorer.tabs.actuator.actuator_tasks import Outcome
 from explorer.tabs.actuator.electrodes import ElectrodesPanel
-from explorer.tabs.live_charts import Chart, line, points
+from explorer.tabs.live_charts import PanelChart, line, points
 from explorer.text.glossary import hint
 from rotor.actuator import (
     Actuator,
@@ -162,7 +162,7 @@ class ActuatorControls:
             self._menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
             self.numbers = gui.add_html("")
-            self.chart = Chart(
+            self.chart = PanelChart(
                 gui,
                 "Δtwist [°]",
                 (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
@@ -182,14 +182,14 @@ class ActuatorControls:
             self._slider("amplitude", "Amplitude [%]", 0.0, 100.0, 1.0)
             self._slider("phase", "Phase [°]", 0.0, 360.0, 5.0)
             self.swept = gui.add_html("")
-            self.over_phase = Chart(
+            self.over_phase = PanelChart(
                 gui,
                 "ΔkW over phase [°]",
                 (("full", BASELINE, True), ("as set", NOW), ("now", THIS)),
                 (line(BASELINE, 1.5, (5, 3)), line(NOW), points(THIS, 8.0)),
                 (0.0, 360.0),
             )
-            self.over_amplitude = Chart(
+            self.over_amplitude = PanelChart(
                 gui,
                 "ΔkW over amplitude [%]",
                 (("best", BASELINE, True), ("as set", NOW), ("limit", LIMIT)),

@@ -12,7 +12,7 @@ from explorer.charts.plots import Plot, held_range
 from explorer.colours import BASELINE, IDEAL, NOW, THIS, colour_map
 from explorer.model.units import number
 from explorer.picture.disk_image import encode_png
-from explorer.tabs.live_charts import Chart, line, points
+from explorer.tabs.live_charts import PanelChart, line, points
 from rotor.actuator import Actuator, PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
 from rotor.arrays import Array
@@ -173,7 +173,7 @@ class ElectrodesPanel:
         self._shown: tuple[Actuator, tuple[float, ...]] | None = None
         self._folder = gui.add_folder("Electrodes", expand_by_default=False)
         with self._folder:
-            self._chart = Chart(
+            self._chart = PanelChart(
                 gui,
                 "Strain [µε]",
                 (("this sheet", THIS), ("α·V", IDEAL), ("other kind", BASELINE)),

@@ -19,7 +19,7 @@ from explorer.text.readout import balance, fuel_used, fuel_words, pair_words, si
 from rotor import Design
 from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict, verdict_sentence
 from rotor.actuator.verdict import reference
-from rotor.line_chart import round_ticks
+from rotor.chart import round_ticks
 
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""

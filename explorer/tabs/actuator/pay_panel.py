@@ -16,7 +16,7 @@ from explorer.tabs.context import TabContext
 from explorer.text.glossary import hint
 from rotor.actuator import BreakEven, ConditionPair, PaySearch, Verdict, break_even, pay_sentence, what_would_pay
 from rotor.actuator.pay import Candidate, search_sentence
-from rotor.line_chart import round_ticks, tick_text
+from rotor.chart import round_ticks, tick_text
 
 _LIMIT = 300.0
 """Of a search [s], which takes ten on an idle machine."""

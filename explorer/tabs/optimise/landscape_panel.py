@@ -29,8 +29,8 @@ from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
 from rotor import Design
 from rotor.arrays import Array
+from rotor.chart import round_ticks, tick_text
 from rotor.design import TwistLaw
-from rotor.line_chart import round_ticks, tick_text
 from rotor.optimisation import Parameter
 from rotor.optimisation.descent import BAND
 

@@ -23,8 +23,8 @@ from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgres
 from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.arrays import Array
+from rotor.chart import round_ticks, tick_text
 from rotor.design import TwistLaw
-from rotor.line_chart import round_ticks, tick_text
 from rotor.optimisation import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND as _BAND
 

@@ -7,7 +7,7 @@ import viser
 from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.inputs import with_optimum
 from explorer.tabs.context import Player, TabContext
-from explorer.tabs.live_charts import Chart, line
+from explorer.tabs.live_charts import PanelChart, line
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
@@ -64,14 +64,14 @@ class SchedulePanel:
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
-        self._twists = Chart(
+        self._twists = PanelChart(
             gui,
             "Best twist [°] over r/R",
             (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
             (*(line(css(shades[k]), 1.5) for k in range(LEGS)), line(NOW, 2.0, (5, 3))),
             (0.1, 1.02),
         )
-        self._savings = Chart(
+        self._savings = PanelChart(
             gui,
             "Saving [%] over µ",
             (("variable", THIS), ("fixed", NOW)),

@@ -16,7 +16,7 @@ from explorer.text.status import section_title
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array
-from rotor.line_chart import round_ticks
+from rotor.chart import round_ticks
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
 from rotor.validation.airloads import REPORTS, harmonics
 
@@ -41,6 +41,7 @@ _TITLES = {
     "cl": ("C<sub>l</sub>", "lift coefficient of the section"),
     "tip_twist_deg": ("Tip twist [°]", "elastic twist of the tip, nose up"),
     "tip_flap": ("Tip flapping/R", "deflection of the tip up from the precone"),
+    "pitch_link": ("Pitch link [N]", "load of one pitch link without its mean, by a nose-up moment of the blade"),
 }
 """Symbol and meaning of what is drawn."""
 
@@ -165,7 +166,9 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
         return None
     curves = [one for one in airload_curves(case.rotor) if one.case == case and one.quantity in _TITLES]
     if solution.elastic is None:
-        curves = [one for one in curves if one.quantity != "tip_twist_deg"]
+        curves = [one for one in curves if one.quantity not in ("tip_twist_deg", "pitch_link")]
+    if not curves:
+        return None
     nearest = [
         min((one for one in curves if one.quantity == quantity), key=lambda one: abs(one.r - r))
         for quantity in dict.fromkeys(one.quantity for one in curves)
@@ -207,7 +210,7 @@ def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
 
 def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> str:
     title, meaning = _TITLES[measured.quantity]
-    where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
+    where = "" if measured.quantity.startswith(("tip_", "pitch_link")) else f" at {number(measured.r, 2)} R"
     low = float(min(measured.values.min(), ours.min()))
     high = float(max(measured.values.max(), ours.max()))
     margin = 0.05 * (high - low)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import InflowModel, InflowTerms, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import Line, influence, mean_influence, shed_correction
+from rotor.aero.lifting_line.influence import LiftingLine, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
 from rotor.design.design import Models
@@ -83,11 +83,11 @@ class LiftingLineInflow(InflowModel):
     def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LiftingLineTerms":
         """The model on a disk, with the wake on a course."""
         del losses
-        return LiftingLineTerms(Line(disk.blades, disk.root, *disk.shape), course)
+        return LiftingLineTerms(LiftingLine(disk.blades, disk.root, *disk.shape), course)
 
 
 @lru_cache(maxsize=32)
-def _matrix(line: Line, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
+def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
     """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
 
     half_chord: of unsteady sections over R, (panels,), or empty.
@@ -105,7 +105,7 @@ class LiftingLineTerms(InflowTerms):
 
     interface = _LINE
 
-    def __init__(self, line: Line, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
+    def __init__(self, line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
         """half_chord: of unsteady sections over R, (panels,), or empty."""
         self.line, self.course, self._half_chord = line, course, half_chord
         self.key = "lifting line", line.panels, line.azimuths

@@ -56,7 +56,7 @@ SHED_CORE = 0.08
 
 
 @dataclass(frozen=True)
-class Line:
+class LiftingLine:
     """The lifting lines of a rotor."""
 
     blades: int
@@ -139,12 +139,12 @@ def _groups(panels: int) -> Integers:
     return np.unique(np.r_[0, np.arange(panels, 0, -GROUP)])
 
 
-def _strip_of(line: Line, panel: int) -> int:
+def _strip_of(line: LiftingLine, panel: int) -> int:
     """The strip of the far wake that a panel belongs to."""
     return int(np.searchsorted(_groups(line.panels), panel, side="right") - 1)
 
 
-def _strip_weights(line: Line) -> Array:
+def _strip_weights(line: LiftingLine) -> Array:
     """By which circulations of panels become those of strips: weighted with r Δr, for the same impulse."""
     edges = _groups(line.panels)
     weight = line.r * np.diff(line.edges)
@@ -154,7 +154,7 @@ def _strip_weights(line: Line) -> Array:
     return out
 
 
-def build_wake(line: Line, course: WakeCourse, psi: Array) -> WakeLines:
+def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     """The lines of the wakes of blades at azimuths psi."""
     n, step = line.panels, 2.0 * math.pi / line.azimuths
     near, turns = max(round(line.near / step), 1), TURNS * line.azimuths
@@ -233,7 +233,7 @@ class _Parts:
         )  # fmt: skip
 
 
-def _by_panels(line: Line, wake: WakeLines, rows: Singles) -> Singles:
+def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
     """From sums by line, (rows, azimuths, targets), to those by panel, (panels, azimuths, targets)."""
     near_edges, near_panels, bound, edges, strips, mean, end = (*wake.rows,)
     panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
@@ -243,7 +243,7 @@ def _by_panels(line: Line, wake: WakeLines, rows: Singles) -> Singles:
     return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
-def influence(line: Line, course: WakeCourse) -> Array:
+def influence(line: LiftingLine, course: WakeCourse) -> Array:
     """A, (points, points) with points in the order (panel, azimuth): row target, column source.
 
     Downwash over ΩR along the blade's normal, by circulation over ΩR².
@@ -266,7 +266,7 @@ def influence(line: Line, course: WakeCourse) -> Array:
 
 
 @lru_cache(maxsize=32)
-def mean_influence(line: Line, course: WakeCourse) -> Array:
+def mean_influence(line: LiftingLine, course: WakeCourse) -> Array:
     """The same of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""
     at = line.azimuths // line.blades * np.arange(line.blades)
     wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
@@ -274,7 +274,7 @@ def mean_influence(line: Line, course: WakeCourse) -> Array:
     return _seen(line, wake, targets, at, order, np.zeros(line.panels, np.int64), own_core(line, course)).sum(axis=1).T
 
 
-def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
+def at_points(line: LiftingLine, course: WakeCourse, points: Array, normals: Array) -> Array:
     """Downwash over ΩR at fixed points along their normals, by circulation over ΩR².
 
     points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
@@ -287,7 +287,8 @@ def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> 
 
 
 def _seen(
-    line: Line, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers, own: Array
+    line: LiftingLine, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers,
+    own: Array,
 ) -> Singles:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
@@ -305,7 +306,7 @@ def _seen(
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
-def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
+def _on_blades(line: LiftingLine, course: WakeCourse, psi: Array) -> Singles:
     """Control points and normals of blades at psi, (6, blades × panels)."""
     beta, cos, sin = course.flapping(psi)[:, None], np.cos(psi)[:, None], np.sin(psi)[:, None]
     r, one = line.r, np.ones(line.panels)
@@ -313,12 +314,12 @@ def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
     return np.array(along, dtype=np.float32).reshape(6, -1)
 
 
-def own_core(line: Line, course: WakeCourse) -> Array:
+def own_core(line: LiftingLine, course: WakeCourse) -> Array:
     """c⁴ of a blade's own young trailers at its control points, (panels,)."""
     return (OWN_CORE * (1.0 - _outboard(line, course))) ** 4
 
 
-def _outboard(line: Line, course: WakeCourse) -> Array:
+def _outboard(line: LiftingLine, course: WakeCourse) -> Array:
     """1 where no wake passes back over the blade, 0 where it does, and smoothly between, (panels,)."""
     y = np.clip((line.r - course.mu_x - BARE[0]) / (BARE[1] - BARE[0]), 0.0, 1.0)
     return y * y * (3.0 - 2.0 * y)
@@ -330,7 +331,7 @@ def theodorsen(k: Array) -> NDArray[np.complex128]:
     return np.asarray(one / (one + 1j * zero), dtype=np.complex128)
 
 
-def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
+def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
     """Downwash over ΩR of a panel's own shed lines by its circulation exp(inψ) over ΩR², in a straight wake: complex.
 
     harmonic: n, (harmonics,). The lines are those of `build_wake`, as if they ran on along the blade.
@@ -348,7 +349,7 @@ def lattice_lag(line: Line, course: WakeCourse, panel: int, harmonic: Array) -> 
     )
 
 
-def shed_correction(line: Line, course: WakeCourse, half_chord: Array) -> Array:
+def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
     """To be added to A between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
     n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import Line
+from rotor.aero.lifting_line.influence import LiftingLine
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
@@ -31,7 +31,7 @@ from rotor.optimisation.ideal_bound import (
 from rotor.trim.forward import with_course
 from rotor.trim.solve import solve
 
-COARSE = Line(4, 0.13, 16, 36)
+COARSE = LiftingLine(4, 0.13, 16, 36)
 CHORD = 0.5273 / 8.1778
 """c/R (thesis tables 3.1, 3.2)."""
 ROWS = {row["mu"]: row for row in csv_rows(Path(__file__).parents[2] / "data/inflow/bound_kappa.csv")}
@@ -47,7 +47,7 @@ class Helix(WakeCourse):
         return np.stack([x, y, self.flapping(released) * r - self.axial * t], axis=-1)
 
 
-def condition(mu: str, line: Line = COARSE) -> tuple[LinesInWake, float]:
+def condition(mu: str, line: LiftingLine = COARSE) -> tuple[LinesInWake, float]:
     """The table's UH-60A and its C_T: coning 0.06, and the tilt that carries 3.27 m² of drag."""
     row, speed = ROWS[mu], float(mu)
     thrust = float(row["CT"])
@@ -60,7 +60,7 @@ def over_glauert(lines: LinesInWake, thrust: float, result: InducedPower) -> flo
     return result.coefficient / (thrust * lines.course.lambda0)
 
 
-def compare(line: Line, mu: str) -> tuple[list[float], list[float]]:
+def compare(line: LiftingLine, mu: str) -> tuple[list[float], list[float]]:
     """Our bounds and those of the table."""
     lines, thrust = condition(mu, line)
     r, row = line.r, ROWS[mu]
@@ -89,7 +89,7 @@ def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int], mon
     Up to 4 % at µ 0.3; steady twists need 1 % more.
     """
     monkeypatch.setattr("rotor.aero.lifting_line.influence.OWN_CORE", 0.02)
-    found, expected = compare(Line(4, 0.13, *grid), mu)
+    found, expected = compare(LiftingLine(4, 0.13, *grid), mu)
     assert_allclose(found, expected, rtol=TOLERANCE[mu])
 
 
@@ -105,7 +105,7 @@ def test_best_linear_twist():
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
 def test_the_grid_is_fine_enough(mu: float):
     problem = with_course(build_problem(make_design(mu=mu)))
-    lines = [LinesInWake(Line(4, 0.13, *grid), problem.course) for grid in ((PANELS, AZIMUTHS), (32, 96))]
+    lines = [LinesInWake(LiftingLine(4, 0.13, *grid), problem.course) for grid in ((PANELS, AZIMUTHS), (32, 96))]
     ours, finer = (
         [
             least_induced_power(one, 0.0065).coefficient,

@@ -23,7 +23,7 @@ from rotor.files.make_design import make_design
 from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
-from rotor.study.study import QUANTITIES, Axis, Sample, StudyPoints, columns_of, default_chunk
+from rotor.study.study import QUANTITIES, Sample, StudyAxis, StudyPoints, columns_of, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -51,7 +51,11 @@ azimuths = 48
 
 
 def test_neighbours_differ_by_one_step_and_every_point_occurs_once():
-    axes = (Axis("mu", (0.0, 0.1, 0.2, 0.3)), Axis("mass_kg", (1.0, 2.0)), Axis("inflow", ("a", "b", "c")))
+    axes = (
+        StudyAxis("mu", (0.0, 0.1, 0.2, 0.3)),
+        StudyAxis("mass_kg", (1.0, 2.0)),
+        StudyAxis("inflow", ("a", "b", "c")),
+    )
     places = StudyPoints(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
     points = places.at(0, places.count)
     assert len(points) == 4 * 2 * 3 * 5 == len({tuple(sorted(point.items())) for point in points})
@@ -68,7 +72,7 @@ def test_neighbours_differ_by_one_step_and_every_point_occurs_once():
 
 def test_a_study_of_a_billion_points_needs_no_memory():
     axis = tuple(float(k) for k in range(1000))
-    places = StudyPoints((Axis("mu", axis), Axis("mass_kg", axis), Axis("altitude_m", axis)), None)
+    places = StudyPoints((StudyAxis("mu", axis), StudyAxis("mass_kg", axis), StudyAxis("altitude_m", axis)), None)
     assert places.count == 10**9
     assert places.at(10**9 - 1, 10**9)[0]["mu"] == 999.0
 

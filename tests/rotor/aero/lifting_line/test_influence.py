@@ -14,7 +14,7 @@ from scipy.special import kv
 from rotor.aero.lifting_line import influence as kernels
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import (
-    Line,
+    LiftingLine,
     at_points,
     build_wake,
     influence,
@@ -25,7 +25,7 @@ from rotor.aero.lifting_line.influence import (
 )
 from rotor.arrays import Array
 
-LINE = Line(blades=2, root=0.2, panels=6, azimuths=8)
+LINE = LiftingLine(blades=2, root=0.2, panels=6, azimuths=8)
 COURSE = WakeCourse(0.2, 0.01, 0.02, 0.05, 0.01, -0.02, (1e-4, 1e-5))
 HOVER = replace(COURSE, mu_x=0.0, mu_z=0.0, flap_1c=0.0, flap_1s=0.0)
 STEP = 2.0 * math.pi / LINE.azimuths
@@ -187,7 +187,7 @@ def test_many_blades_in_hover_approach_momentum_theory():
 
     The end of the wake at 8 R takes 0.7 %, steps of 30° beyond two turns 1 %: with 10° and 30 R it is 1.000.
     """
-    line, thrust = Line(blades=12, root=0.15, panels=24, azimuths=24), 0.006
+    line, thrust = LiftingLine(blades=12, root=0.15, panels=24, azimuths=24), 0.006
     course = replace(HOVER, coning=0.0, lambda0=math.sqrt(0.5 * thrust))
     inflow = mean_influence(line, course) @ np.full(line.panels, 2.0 * math.pi * thrust / line.blades)
     middle = (line.r > 0.4) & (line.r < 0.8)
@@ -201,7 +201,7 @@ def test_in_hover_every_azimuth_sees_the_same():
     assert_allclose(mean_influence(LINE, HOVER), mean, rtol=0, atol=2e-4 * float(np.abs(mean).max()))
 
 
-FINE = Line(4, 0.15, 24, 24)
+FINE = LiftingLine(4, 0.15, 24, 24)
 FAST = WakeCourse(0.3, 0.02, 0.01, 0.0, 0.0, 0.0, (1e-4, 0.0))
 HALF_CHORD = 0.0322
 """Of a UH-60A, over R."""

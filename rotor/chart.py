@@ -1,0 +1,277 @@
+"""A chart as a value: two axes, series of lines, points and bands, and rules.
+
+`rotor.chart_svg` draws it for the trust page, reports, the documentation and lecture files, `rotor.plots` with
+matplotlib, and `explorer/web/chart.js` on the page from `as_json`. Ticks, ends of the axes and colours are decided
+here, so that all draw the same.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from rotor.arrays import Array
+
+Span = tuple[float, float]
+Mark = Literal["dot", "cross", "ring"]
+Values: TypeAlias = Sequence[float] | Array
+"""Any numbers; a series keeps them as a tuple of floats."""
+Colour: TypeAlias = int | str | None
+"""Place in `COLOURS`, a colour as CSS writes it, or None: the next of `COLOURS` after the ink."""
+AZIMUTH = (0.0, 90.0, 180.0, 270.0, 360.0)
+"""Ticks of a chart over azimuth [°]."""
+COLOURS = ("currentColor", "#1c7ed6", "#e8590c", "#0ca678", "#be4bdb", "#e8a100", "#1098ad", "#a0694b", "#868e96")
+"""Ink first, for what was measured, then ours; each can be read on white and on black."""
+INK = 0
+_DASHES = "6 4"
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What an axis is, and where it ends."""
+
+    label: str = ""
+    range: Span | None = None
+    """Its ends; None: as the series ask for. What lies beyond is cut off."""
+    ticks: tuple[float, ...] = ()
+    """Where they stand; empty: at round numbers."""
+    unit: str = ""
+    """Behind the number of each tick."""
+    log: bool = False
+    names: tuple[str, ...] = ()
+    """Of the places 0, 1, … of y, which then run down the left side; values and error bars lie along x."""
+
+
+def _keep(series: object, *names: str) -> None:
+    """The values of a series as tuples of floats."""
+    for name in names:
+        numbers: list[float] = np.asarray(getattr(series, name), dtype=float).ravel().tolist()
+        object.__setattr__(series, name, tuple(numbers))
+
+
+@dataclass(frozen=True)
+class Line:
+    """Values joined by a line; NaN is a gap."""
+
+    label: str
+    """For the key; empty leaves it out."""
+    x: Values
+    y: Values
+    colour: Colour = None
+    dashes: bool | str = False
+    """True, or the lengths of dashes and gaps as SVG writes them."""
+    width: float = 2.0
+    dots: bool = False
+    """Whether each value has a dot."""
+    filled: bool = False
+    """Whether the area down to zero is tinted."""
+
+    def __post_init__(self) -> None:
+        _keep(self, "x", "y")
+
+
+@dataclass(frozen=True)
+class Points:
+    """Values that are not joined."""
+
+    label: str
+    x: Values
+    y: Values
+    colour: Colour = INK
+    mark: Mark = "dot"
+    scatter: Values = ()
+    """Half the length of an error bar on each point, along the axis of values."""
+    words: Sequence[str] = ()
+    """What is said of each where the pointer rests on it."""
+    press: Sequence[str] = ()
+    """What a press on each says to the page; empty: it cannot be pressed."""
+    faint: Sequence[bool] = ()
+    size: float = 4.0
+    """Radius [px]."""
+
+    def __post_init__(self) -> None:
+        _keep(self, "x", "y", "scatter")
+
+
+@dataclass(frozen=True)
+class Band:
+    """The area between two lines over one abscissa; where y has names, x counts these and the area lies along x."""
+
+    label: str
+    x: Values
+    low: Values
+    high: Values
+    colour: Colour = None
+
+    def __post_init__(self) -> None:
+        _keep(self, "x", "low", "high")
+
+
+Series: TypeAlias = Line | Points | Band
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A line across the chart at one value, or an area between two in which nothing is drawn."""
+
+    at: float
+    to: float | None = None
+    label: str = ""
+    along: Literal["x", "y"] = "x"
+    """The axis that has the value."""
+    colour: str = "currentColor"
+    dashes: str = "3 3"
+
+
+@dataclass(frozen=True)
+class Chart:
+    """One pair of axes with what is drawn over them."""
+
+    title: str
+    x: Axis
+    y: Axis
+    series: tuple[Series, ...]
+    rules: tuple[Rule, ...] = ()
+    value: str = ""
+    """The number to remember."""
+    note: str = ""
+    """One sentence: what the chart says, or what lies outside it."""
+
+    def span(self, axis: Literal["x", "y"]) -> Span:
+        """Ends of an axis, as given or of all values with their error bars; of the logarithm on a logarithmic axis."""
+        own = self.x if axis == "x" else self.y
+        if own.range is not None:
+            return scaled(own.range[0], own.log), scaled(own.range[1], own.log)
+        if own.names:
+            return len(own.names) - 0.5, -0.5
+        known = [scaled(value, own.log) for value in (*self._values(axis), *own.ticks) if math.isfinite(value)]
+        low, high = (min(known), max(known)) if known else (0.0, 1.0)
+        if own.ticks:
+            return low, high
+        if low == high:
+            return low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
+        if not own.log and 0.0 < low < 0.5 * high:
+            low = 0.0
+        margin = 0.06 * (high - low)
+        return (low if low == 0.0 else low - margin), (high if high == 0.0 else high + margin)
+
+    def ticks(self, axis: Literal["x", "y"], about: int) -> list[tuple[float, str]]:
+        """Value and text of at most about so many ticks."""
+        own = self.x if axis == "x" else self.y
+        if own.names:
+            return [(float(k), name) for k, name in enumerate(own.names)]
+        places = own.ticks or _ticks(self.span(axis), about, own.log)
+        return [(value, tick_text(value, own.log) + own.unit) for value in places]
+
+    def colours(self) -> list[str]:
+        """Of each series."""
+        found, turn = list[str](), 0
+        for one in self.series:
+            turn += one.colour is None
+            colour = (turn - 1) % (len(COLOURS) - 1) + 1 if one.colour is None else one.colour
+            found.append(COLOURS[colour % len(COLOURS)] if isinstance(colour, int) else colour)
+        return found
+
+    def _values(self, axis: Literal["x", "y"]) -> Iterable[float]:
+        along = "x" if self.y.names else "y"
+        for one in self.series:
+            if isinstance(one, Band):
+                yield from ((*one.low, *one.high) if axis == along else one.x)
+                continue
+            values = one.x if axis == "x" else one.y
+            if isinstance(one, Points) and one.scatter and axis == along:
+                for value, half in zip(values, one.scatter, strict=True):
+                    yield from (value - half, value + half)
+            else:
+                yield from values
+
+
+def dash_lengths(one: Line) -> str | None:
+    """As SVG writes them; None for a line without gaps."""
+    return _DASHES if one.dashes is True else one.dashes or None
+
+
+def as_json(chart: Chart) -> dict[str, Any]:
+    """The chart as the page draws it: numbers rounded to what a pixel shows, gaps as None."""
+    digits = {
+        axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
+        for axis, (start, end) in (("x", chart.span("x")), ("y", chart.span("y")))
+    }
+    series = [_plain_series(one, colour, digits) for one, colour in zip(chart.series, chart.colours(), strict=True)]
+    return {
+        "title": chart.title,
+        "x": _plain_axis(chart, "x", 5),
+        "y": _plain_axis(chart, "y", 4),
+        "series": series,
+        **({"rules": [_slim(vars(rule)) for rule in chart.rules]} if chart.rules else {}),
+        **_slim({"value": chart.value, "note": chart.note}),
+    }
+
+
+def _plain_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> dict[str, Any]:
+    own = chart.x if axis == "x" else chart.y
+    kept = _slim({"label": own.label, "log": own.log})
+    return {**kept, "range": chart.span(axis), "ticks": chart.ticks(axis, about)}
+
+
+def _plain_series(one: Series, colour: str, digits: dict[str, int]) -> dict[str, Any]:
+    """What differs from how a series of its kind is drawn anyway."""
+    shared = {
+        "kind": type(one).__name__.lower(),
+        "label": one.label,
+        "colour": colour,
+        "x": _rounded(one.x, digits["x"]),
+    }
+    if isinstance(one, Band):
+        return shared | {"low": _rounded(one.low, digits["y"]), "high": _rounded(one.high, digits["y"])}
+    shared["y"] = _rounded(one.y, digits["y"])
+    if isinstance(one, Line):
+        look: dict[str, Any] = {"width": one.width, "dashes": dash_lengths(one), "dots": one.dots, "filled": one.filled}
+    else:
+        look = {"mark": one.mark, "size": one.size, "words": one.words, "press": one.press, "faint": one.faint}
+        look["scatter"] = _rounded(one.scatter, digits["y"] + 1)
+    return shared | _slim(look)
+
+
+def _slim(values: dict[str, Any]) -> dict[str, Any]:
+    """Without what says nothing."""
+    return {key: value for key, value in values.items() if value or isinstance(value, float)}
+
+
+def _rounded(values: Values, digits: int) -> list[float | None]:
+    return [round(value, digits) if math.isfinite(value) else None for value in values]
+
+
+def scaled(value: float, log: bool) -> float:
+    """On the scale of an axis."""
+    return math.log10(max(value, 1e-300)) if log else value
+
+
+def _ticks(span: Span, about: int, log: bool) -> list[float]:
+    """Round values within a range, at most about that many; whole powers of ten on a logarithmic axis."""
+    low, high = span
+    if log:
+        every = max(1, math.ceil((high - low) / about))
+        return [10.0**k for k in range(math.ceil(low), math.floor(high) + 1) if k % every == 0]
+    return round_ticks(low, high, about)
+
+
+def round_up(step: float) -> float:
+    """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
+    power = 10.0 ** math.floor(math.log10(step))
+    return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))
+
+
+def round_ticks(low: float, high: float, about: int) -> list[float]:
+    """At most `about` + 1 round numbers within an axis, zero among them where it is inside."""
+    step = round_up((high - low) / about)
+    return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+def tick_text(value: float, log: bool = False) -> str:
+    """A tick's number with a true minus sign and no needless digits; a power of ten on a logarithmic axis."""
+    if log and not 0.1 <= value <= 1e4:
+        return "10" + f"{round(math.log10(value))}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{round(value, 6) + 0.0:.6g}".replace("-", "−")
