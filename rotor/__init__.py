@@ -36,6 +36,7 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
 from rotor.optimisation.vibration import t_matrix, vibration_front
+from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
@@ -67,6 +68,7 @@ __all__ = (
     "optimise",
     "parse_twist",
     "plot_power",
+    "run_study",
     "schedule",
     "solve",
     "sweep",

@@ -2,6 +2,7 @@
 
 import difflib
 import errno
+import importlib
 import logging
 import math
 import os
@@ -11,12 +12,27 @@ import tempfile
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 _log = logging.getLogger(__name__)
 
 
 class Notice(UserWarning):
     """What a user should know although the input was accepted, as one sentence."""
+
+
+class MissingExtra(ImportError, ValueError):
+    """A package is not installed that only some uses need; one sentence with the remedy."""
+
+
+def extra_module(name: str, extra: str, what: str) -> Any:
+    """A module that an extra of the installation brings. MissingExtra, for example `what` "a DataFrame", without it."""
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+            raise  # The module is there, and something else is missing.
+        raise MissingExtra(f"{what} needs {error.name}: pip install 'rotor-explorer[{extra}]'") from None
 
 
 LARGEST = 4 * 2**20

@@ -23,8 +23,8 @@ PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
 """Packages with public names: a name is imported from the first that has it."""
 ORDER = {
     "rotor": (
-        "arrays", "units", "user_input", "terminal", "markup", "chart", "chart_svg", "compiled", "spawn",
-        "blas_threads", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files",
+        "arrays", "units", "user_input", "terminal", "markup", "chart", "chart_svg", "compiled", "blas_threads",
+        "processes", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files",
         "trim", "optimisation", "study", "validation", "actuator", "reproduce", "command",
     ),
     "explorer": (

@@ -1,30 +1,22 @@
 """A pool of warm worker processes shared by all pages, with progress, stop, time limits and honest queue positions.
 
 One process is kept warm from the start; others are added, up to the size of the pool, once there is work. Each has a
-thread that feeds it through a pipe, so a process that ends or hangs costs only its own job. The processes import this
-file, so it imports nothing of the page.
-
-`concurrent.futures.ProcessPoolExecutor` (and loky, which is built on it) was tried and does not do: it cannot end a
-task that ignores its stop, the interpreter waits for running tasks at exit (8 s measured for a task of 8 s), and the
-processes of a server that was killed go on.
+thread that feeds it through a pipe, so a process that ends or hangs costs only its own job.
 """
 
 import itertools
 import os
-import signal
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection, wait
-from typing import Any, Literal, Protocol
+from typing import Any, Protocol
 
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")  # Before NumPy is loaded: its BLAS then makes no threads, which only hinder.
 
-from rotor.spawn import start_process  # noqa: E402
+from rotor.processes import Stop, Tell, WorkerProcess  # noqa: E402
 
 _NICE = 5
 """Lower priority than the server, so that frames come before searches where processors are short."""
@@ -38,9 +30,6 @@ _POLL = 0.2
 """[s] between the questions whether a result is still awaited: each takes a turn of the interpreter from the frames."""
 _START = 60.0
 """[s] a new process may take to import and compile."""
-
-Tell = Callable[[Any], None]
-Stop = Callable[[], bool]
 
 
 class Task(Protocol):
@@ -228,24 +217,6 @@ class Pool:
             job.tell(JobQueued(ahead))
 
 
-@dataclass(frozen=True)
-class WorkerRequest:
-    """What the process is sent about the task of that number."""
-
-    number: int
-    task: Task | None
-    """None: stop it."""
-
-
-@dataclass(frozen=True)
-class WorkerReply:
-    """What the process sends about the task of that number."""
-
-    number: int
-    kind: Literal["ready", "progress", "done", "failed"]
-    item: Any = None
-
-
 class WorkerThread(threading.Thread):
     """A thread and the process that it feeds: kept warm, killed when it does not stop, replaced when lost."""
 
@@ -253,14 +224,13 @@ class WorkerThread(threading.Thread):
         super().__init__(name=name, daemon=True)
         self.idle = True
         self._pool = pool
-        self._process: Any = None
-        self._pipe: Connection[Any, Any] | None = None
+        self._process: WorkerProcess | None = None
         self._closed = False
 
     @property
     def pid(self) -> int | None:
         process = self._process
-        return process.pid if process is not None and process.is_alive() else None
+        return process.pid if process is not None else None
 
     def run(self) -> None:
         while not self._pool.closed:
@@ -284,30 +254,28 @@ class WorkerThread(threading.Thread):
         self._closed = True
         self._drop()
 
-    def _ready(self) -> "Connection[Any, Any]":
-        """The pipe to a live, warm process."""
-        if self.pid is not None and self._pipe is not None:
-            return self._pipe
+    def _ready(self) -> WorkerProcess:
+        """A live, warm process."""
+        process = self._process
+        if process is not None and process.pid is not None:
+            return process
         self._drop()
-        pipe, theirs = Pipe()
-        process = start_process(serve, (theirs,), self.name)
-        theirs.close()  # So that the pipe ends with the process.
-        self._process, self._pipe = process, pipe
+        process = self._process = WorkerProcess(self.name)
         if self._closed:
             self._drop()
-        if not pipe.poll(_START):
+        process.call(warm)
+        if process.receive(_START) is None:
             raise EOFError
-        pipe.recv()
-        return pipe
+        return process
 
     def _do(self, job: Job) -> None:
-        pipe = self._ready()
+        process = self._ready()
         if job.stopping.is_set():
             job.tell(JobEnded(None, stopped=True))
             return
         job.tell(JobStarted())
         begun, asked, late = time.monotonic(), None, False
-        pipe.send(WorkerRequest(job.number, job.task))
+        process.stream(job.task.run)
         while True:
             now = time.monotonic()
             if now - begun > job.limit and asked is None:
@@ -315,72 +283,35 @@ class WorkerThread(threading.Thread):
                 job.stopping.set()
             if job.stopping.is_set() and asked is None:
                 asked = now
-                pipe.send(WorkerRequest(job.number, None))
+                process.ask_to_stop()
             if asked is not None and now - asked > _PATIENCE:
                 job.tell(JobEnded(None, stopped=True, late=late))
             if asked is not None and now - asked > _GRACE:
                 self._drop()
                 return
-            if not wait([pipe], 0.01):
-                continue
-            reply: WorkerReply = pipe.recv()
-            if reply.number != job.number:
+            reply = process.receive(0.01)
+            if reply is None:
                 continue
             match reply.kind:
-                case "progress":
-                    job.tell(JobProgress(reply.item))
-                case "done":
-                    job.tell(JobEnded(reply.item, stopped=asked is not None, late=late))
+                case "item":
+                    job.tell(JobProgress(reply.value))
+                case "result":
+                    job.tell(JobEnded(reply.value, stopped=asked is not None, late=late))
                     return
-                case _:
-                    job.tell(JobFailed(f"The work failed ({reply.item})."))
+                case "error":
+                    job.tell(JobFailed(f"The work failed ({str(reply.value) or type(reply.value).__name__})."))
                     return
 
     def _drop(self) -> None:
         process, self._process = self._process, None
-        pipe, self._pipe = self._pipe, None
-        if process is not None and process.is_alive():
-            process.kill()
-            process.join(1.0)
-        if pipe is not None:
-            pipe.close()
+        if process is not None:
+            process.close()
 
 
-def serve(pipe: "Connection[Any, Any]") -> None:
-    """The life of the process. It ends when the pipe closes, which it does however the server ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server.
+def warm() -> None:
+    """In a new process: what every solution would wait for."""
     if hasattr(os, "nice"):
         os.nice(_NICE)
     from explorer.workers import solver
 
     solver.warm()
-    with suppress(EOFError, OSError):
-        pipe.send(WorkerReply(0, "ready"))
-        while True:
-            request: WorkerRequest = pipe.recv()
-            if request.task is not None:
-                _run(pipe, request.number, request.task)
-
-
-def _run(pipe: "Connection[Any, Any]", number: int, task: Task) -> None:
-    stopped = False
-
-    def stop() -> bool:
-        nonlocal stopped
-        try:
-            while not stopped and pipe.poll():
-                stopped = pipe.recv() == WorkerRequest(number, None)
-        except (EOFError, OSError):
-            stopped = True
-        return stopped
-
-    def tell(item: Any) -> None:
-        pipe.send(WorkerReply(number, "progress", item))
-
-    try:
-        reply = WorkerReply(number, "done", task.run(tell, stop))
-    except (EOFError, BrokenPipeError):
-        raise
-    except Exception as error:  # The process must survive whatever a task does.
-        reply = WorkerReply(number, "failed", str(error) or type(error).__name__)
-    pipe.send(reply)

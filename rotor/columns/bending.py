@@ -14,7 +14,7 @@ moments of the displaced blade X = ∫ m u dr, Y = ∫ m v dr, Z = ∫ m w dr, u
     F_x: F_r cos ψ + F_x sin ψ − (X cos ψ − Y sin ψ)''        M_x: m_f sin ψ + y0 f_z cos ψ
     F_y: F_r sin ψ − F_x cos ψ − (X sin ψ + Y cos ψ)''        M_y: −m_f cos ψ + y0 f_z sin ψ
 
-m_f is e f_z at an articulated root, where the hinge has no moment, and Σ r F_z − ∫ m r (w'' + w) dr at a hingeless one.
+m_f is e f_z at a hinge without a spring, which has no moment, and Σ r F_z − ∫ m r (w'' + w) dr at any other root.
 The moment about the blade's axis goes into its pitch link and the swashplate, and is not among these. Summed over the
 blades only multiples of N_b remain, N_b times those of one blade.
 """
@@ -106,7 +106,7 @@ class Bending:
         assert b is not None
         self.modes, self.first, self.lag = len(b.mass), b.first, b.lag
         self.twists = 0 if torsion is None else len(torsion.gain)
-        self._hub = problem.design.rotor.blades, b.modes.beam.hingeless
+        self._hub = problem.design.rotor.blades, b.modes.beam.springs[0] > 0.0
         self.key: Hashable = "bending", self.modes, self.first, self.lag, self.twists, self.functions, self._hub
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
@@ -253,8 +253,8 @@ def has_hub_loads(blades: int) -> bool:
 class HubLoadTerms:
     """The terms of a blade; or only their measures, which a structure needs before it is finished."""
 
-    def __init__(self, s: Structure, blades: int, hingeless: bool, bending: BladeBending | None = None) -> None:
-        self._s, self._blades, self._hingeless, self._bending = s, blades, hingeless, bending
+    def __init__(self, s: Structure, blades: int, sprung: bool, bending: BladeBending | None = None) -> None:
+        self._s, self._blades, self._sprung, self._bending = s, blades, sprung, bending
         self.rows = list[tuple[int, int, int, int, float]]()
         for row in range(2 * len(LOADS)):
             wave = wave_number(blades, sine=row % 2 == 1)
@@ -305,7 +305,7 @@ class HubLoadTerms:
         self._moving(row, (wave, across), self._static(3), "at rest", -sign * square)
 
     def _moment(self, row: int, wave: int, about: int, beside: int, sign: float) -> None:
-        if self._hingeless:
+        if self._sprung:
             self._measured(row, (wave, about), FZ, "r", sign)
             self._moving(row, (wave, about), self._static(0, arm=True), "moment of inertia", sign)
         else:
@@ -317,4 +317,4 @@ class HubLoadTerms:
 
 def hub_load_terms(s: Structure, blades: int, bending: BladeBending) -> Terms:
     """Cosine and sine of each of `LOADS` in turn, over ρA(ΩR)² and for moments R."""
-    return Terms.of(HubLoadTerms(s, blades, bending.modes.beam.hingeless, bending).rows, 2 * len(LOADS))
+    return Terms.of(HubLoadTerms(s, blades, bending.modes.beam.springs[0] > 0.0, bending).rows, 2 * len(LOADS))

@@ -1,33 +1,23 @@
-"""`study`: runs a study file on all cores or on Dask; `study show`: best points, effects, failures."""
+"""`study`: runs a study file on all cores or on a cluster; `study show`: best points, effects, failures."""
 
 import argparse
-import hashlib
 import math
 import sys
 import time
 from collections import Counter
-from contextlib import closing
+from collections.abc import Generator
+from concurrent.futures import Executor
+from contextlib import closing, contextmanager
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from tqdm import tqdm
 
-from rotor.assets import commit, package_version
 from rotor.command.common import STOPPED, add_command, interruptible, print_result
-from rotor.study.chunks import (
-    ChunkRun,
-    ClusterLost,
-    FinishedChunk,
-    Store,
-    StoreError,
-    StudyProvenance,
-    connected,
-    evaluate_points,
-    run_chunks,
-)
+from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
+from rotor.study.run import ChunkRun, ExecutorLost, dask_client, open_store, processes_here, run_chunks
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
@@ -177,45 +167,50 @@ def run(args: argparse.Namespace) -> int:
             name = repr(args.folder) if flag == "folder" else f"--{flag}"
             raise ValueError(f"{name} belongs to show: write `study show DIR`")
     file = read_study(args.file)
-    if args.workers is not None and not 1 <= args.workers <= 1024:
-        raise ValueError(f"{args.workers} workers are outside 1…1024: use one per core")
     if args.workers is not None and args.scheduler:
         raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
-    provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
-    with closing(Store(args.out or Path(file.path).stem, file, provenance)) as store:
-        return _run(args, store, provenance)
+    with closing(open_store(file, args.out)) as store:
+        return _run(args, store)
 
 
-def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) -> int:
+def _run(args: argparse.Namespace, store: Store) -> int:
     study = store.study
     missing = store.missing()
-    left = sum(last - first for first, last in map(study.span, missing))
-    print(f"{study.title}: {study.count:,} points, {study.count - left:,} done → {store.folder}", flush=True)
+    done = study.count - study.points_of(missing)
+    print(f"{study.title}: {study.count:,} points, {done:,} done → {store.folder}", flush=True)
     message, ended = "", ChunkRun()
     if missing:
-        if args.scheduler is None:
-            evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
-        with interruptible() as stop, closing(_Progress(study.count, study.count - left)) as progress:
+        with interruptible() as stop, closing(_Progress(study.count, done)) as progress:
 
-            def keep(done: FinishedChunk) -> None:
-                store.keep(done.chunk, done.content)
-                progress.add(done)
+            def keep(chunk: FinishedChunk) -> None:
+                store.keep(chunk.chunk, chunk.content)
+                progress.add(chunk)
 
             try:
-                with connected(args.scheduler, args.workers) as client:
-                    if args.scheduler and not args.scheduler.startswith("tls://"):
-                        print(f"rotor: {args.scheduler} {_PLAIN}", file=sys.stderr)
-                    if not client.nthreads():
-                        words = f"no workers yet; start some with `dask worker {args.scheduler}`"
-                        print(f"rotor: {words}", file=sys.stderr)
-                    ended = run_chunks(client, study, missing, provenance, keep, stop)
-            except (ClusterLost, StoreError) as error:
+                with _executor(args, study) as executor:
+                    ended = run_chunks(executor, study, missing, store.provenance, keep, stop)
+            except (ExecutorLost, StoreError) as error:
                 message = str(error)
         if progress.points:
             print(progress.sentence())
     return _summary(store, ended, message)
+
+
+@contextmanager
+def _executor(args: argparse.Namespace, study: Study) -> Generator[Executor]:
+    """Processes of this machine, or the Dask cluster that is asked for."""
+    if args.scheduler is None:
+        with processes_here(study, args.workers) as executor:
+            yield executor
+        return
+    with dask_client(args.scheduler) as client:
+        if not args.scheduler.startswith("tls://"):
+            print(f"rotor: {args.scheduler} {_PLAIN}", file=sys.stderr)
+        if not client.nthreads():
+            print(f"rotor: no workers yet; start some with `dask worker {args.scheduler}`", file=sys.stderr)
+        yield client.get_executor()
 
 
 class _Progress:
@@ -259,7 +254,7 @@ class _Progress:
 
 def _summary(store: Store, ended: ChunkRun, message: str) -> int:
     missing = store.missing()
-    done = store.study.count - sum(b - a for a, b in map(store.study.span, missing))
+    done = store.study.count - store.study.points_of(missing)
     if done:
         results = read_results(store.folder)
         print(report(results, record(results)))
@@ -269,11 +264,7 @@ def _summary(store: Store, ended: ChunkRun, message: str) -> int:
             file=sys.stderr,
         )
         return STOPPED
-    if ended.lost:
-        message = (
-            f"{len(ended.lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
-        )
-    if message:
+    if message := message or ended.sentence:
         print(f"rotor: {message}", file=sys.stderr)
     return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
 

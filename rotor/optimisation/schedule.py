@@ -9,6 +9,7 @@ JSON per optimum, to resume an interrupted run.
 import json
 import os
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
@@ -18,9 +19,9 @@ from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
-from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
+from rotor.processes import Processes, WorkerLost, run_tasks
 from rotor.user_input import read_text
 
 CHUNK = 4
@@ -148,12 +149,12 @@ def run_plan(
     conditions = range(len(plan.conditions))
     chunks = [tuple(conditions[k : k + CHUNK]) for k in range(0, len(plan.conditions), CHUNK)]
     message = ""
-    with Workers(processes, add, stop) as workers:
+    with Processes(processes) if processes > 1 else nullcontext() as pool:
         try:
-            stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
+            stopped = run_tasks(pool, [(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks], add, stop)
             if not stopped:
                 concepts = [plan.concepts[k : k + CHUNK] for k in range(0, len(plan.concepts), CHUNK)]
-                workers.run([(_work_fixed, (plan, some, dict(cells))) for some in concepts])
+                run_tasks(pool, [(_work_fixed, (plan, some, dict(cells))) for some in concepts], add, stop)
         except WorkerLost as lost:
             message = str(lost)
     order = ((condition, concept.name) for condition in (*conditions, None) for concept in plan.concepts)

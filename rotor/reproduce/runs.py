@@ -6,6 +6,7 @@ to us, so nothing here is compared with them.
 
 import math
 from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
@@ -15,9 +16,9 @@ from rotor.design.design import Design
 from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
-from rotor.optimisation.processes import Workers
 from rotor.optimisation.results import SearchStatus
 from rotor.optimisation.search import Search, run_search
+from rotor.processes import Processes, run_tasks
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -58,17 +59,16 @@ def compute_ahead(
     The longest groups come first. `advance` is called after every call.
     """
     waiting = [tuple(call for call in group if call[1] not in call[0].known) for group in groups]
-    seen: set[tuple[str, tuple[Any, ...]]] = set()
 
     def keep(answered: tuple[Call, Any]) -> None:
         (function, args), answer = answered
+        new = args not in function.known
         function.known[args] = answer
-        if advance is not None and (function.name, args) not in seen:
-            seen.add((function.name, args))
+        if advance is not None and new:
             advance(str(args[0]))
 
-    with Workers(processes, keep, stop) as workers:
-        return workers.run([(_work, (group,)) for group in waiting if group])
+    with Processes(processes) if processes > 1 else nullcontext() as pool:
+        return run_tasks(pool, [(_work, (group,)) for group in waiting if group], keep, stop)
 
 
 def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[tuple[Call, Any]]:

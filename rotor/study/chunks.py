@@ -1,40 +1,33 @@
-"""Chunks of a study: the points of one in order, its Parquet file, the folder of all, and the run of many on Dask.
+"""Chunks of a study: the points of one in order, its Parquet file, and the folder of all.
 
-They run on processes of this machine, one per core, or on a running cluster by its address. A folder has one file per
-chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads them as one table. All other names
-begin with `_` or a dot, which Parquet readers ignore.
+A folder has one file per chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads them as one
+table. All other names begin with `_` or a dot, which Parquet readers ignore.
 """
 
 import ctypes
-import importlib
 import io
 import json
-import logging
 import os
 import random
-import signal
 import socket
 import time
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import CancelledError
-from contextlib import contextmanager, suppress
-from dataclasses import asdict, dataclass, field
+from contextlib import suppress
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from rotor.assets import package_version
+from rotor.blas_threads import one_blas_thread
 from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate
 from rotor.study.study import QUANTITIES, Study, Value, columns_of
 from rotor.study.study_file import StudyFile
-from rotor.user_input import is_file, make_folder, read_bytes, refusing, shorten
+from rotor.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
 """The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
-_LOOK = 0.1
-"""[s] between checks for finished chunks, and for a request to stop."""
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 CONVERGED = "converged"
@@ -73,6 +66,7 @@ def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
     return [{"point": number, **evaluate(values, study, warm)} for number, values in points]
 
 
+@one_blas_thread()
 def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> FinishedChunk:
     """Compute a chunk on a worker. VersionMismatch if its package version differs from the command's."""
     if package_version() != provenance.version:
@@ -93,7 +87,7 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
 def keep_freed_memory() -> None:
     """Keep up to 64 MB of freed memory in this process (glibc only).
 
-    Dask workers return freed memory above 64 kB at once. A trim allocates arrays of 38 kB to 1 MB all the time, and
+    Workers of Dask return freed memory above 64 kB at once. A trim allocates arrays of 38 kB to 1 MB all the time, and
     spent a third of its processor time on page faults.
     """
     with suppress(OSError, AttributeError, TypeError):
@@ -130,10 +124,15 @@ def _models(study: Study) -> dict[str, Value]:
     return {name: value for name, value in models.items() if name not in study.axis_names} | given
 
 
+def arrow_modules() -> tuple[Any, Any]:
+    """`pyarrow` and `pyarrow.parquet`; MissingExtra with one sentence where they are not installed."""
+    what = "the results of a study are Parquet files, which"
+    return extra_module("pyarrow", "study", what), extra_module("pyarrow.parquet", "study", what)
+
+
 def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     """The rows as a Parquet file: units on each column, `about` on the whole, null where a row has no value."""
-    arrow: Any = importlib.import_module("pyarrow")
-    parquet: Any = importlib.import_module("pyarrow.parquet")
+    arrow, parquet = arrow_modules()
     kinds = {"number": arrow.float64(), "count": arrow.int64(), "text": arrow.string()}
     fields = [
         arrow.field(one.name, kinds[one.kind], metadata={"unit": one.unit} if one.unit else None)
@@ -155,7 +154,7 @@ class Store:
 
     def __init__(self, folder: str | Path, file: StudyFile, provenance: StudyProvenance) -> None:
         """Begin or continue a folder. ValueError for one that belongs to another study, or that somebody writes to."""
-        self.folder, self.study = Path(folder), file.study
+        self.folder, self.study, self.provenance = Path(folder), file.study, provenance
         try:
             make_folder(self.folder)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
@@ -181,7 +180,7 @@ class Store:
 
         A file of another study, or one that cannot be read, counts as missing.
         """
-        parquet: Any = importlib.import_module("pyarrow.parquet")
+        _, parquet = arrow_modules()
         found: set[int] = set()
         for path in self.folder.glob("chunk-*.parquet"):
             with suppress(Exception):  # A damaged file counts as missing.
@@ -274,128 +273,3 @@ def _hold(folder: Path) -> int | None:
         os.close(handle)
         raise ValueError(f"another run writes to {str(folder)!r}: wait for it, or give another --out DIR") from None
     return handle
-
-
-class ClusterLost(RuntimeError):
-    """The cluster is gone; finished chunks are kept."""
-
-
-@dataclass
-class ChunkRun:
-    """How a run of chunks ended."""
-
-    stopped: bool = False
-    lost: list[int] = field(default_factory=list[int])
-    """Chunks that repeatedly stopped their workers."""
-
-
-@contextmanager
-def connected(address: str | None, workers: int | None) -> Generator[Any]:
-    """A Dask client of the cluster at `address`, or of one on this machine. ValueError without a cluster there.
-
-    On this machine one worker is a thread of this process. More are processes that talk over 127.0.0.1, with TLS and
-    certificates of this run. A cluster at a tls:// address is reached
-    with the certificates of Dask's own configuration.
-    """
-    distributed: Any = importlib.import_module("distributed")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
-    if address is None:
-        with _local_cluster(workers or os.cpu_count() or 1) as cluster, distributed.Client(cluster) as client:
-            yield client
-        return
-    try:
-        client = distributed.Client(address, timeout="10s")
-    except (OSError, ValueError, TimeoutError) as error:
-        raise ValueError(
-            f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
-            "and give the tcp://host:port that it prints"
-        ) from None
-    try:
-        yield client
-    finally:
-        client.close(timeout=5)
-
-
-def _local_cluster(workers: int) -> Any:
-    """A Dask cluster of so many workers on this machine; nothing of it can be reached from others."""
-    distributed: Any = importlib.import_module("distributed")
-    config: Any = importlib.import_module("dask").config
-    several = workers > 1
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # The processes inherit it: Ctrl-C is left to this one.
-    try:
-        with config.set({"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}):
-            return distributed.LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                processes=several,
-                host="127.0.0.1" if several else None,
-                dashboard_address="127.0.0.1:0",
-                worker_dashboard_address="127.0.0.1:0",
-                memory_limit=0,  # A trim needs little; Dask would stop workers on a machine that is nearly full.
-                silence_logs=logging.CRITICAL,
-                protocol=None if several else "inproc://",
-                security=distributed.Security.temporary() if several else None,
-            )
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def run_chunks(
-    client: Any,
-    study: Study,
-    chunks: Sequence[int],
-    provenance: StudyProvenance,
-    keep: Callable[[FinishedChunk], None],
-    stop: Callable[[], bool],
-) -> ChunkRun:
-    """Compute chunks in any order; `keep` is called with each finished one.
-
-    Dask computes a chunk again whose worker was lost. `stop` is called several times a second; True ends the run.
-    Raises ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version. `keep` must not
-    raise OSError, which is read as a failure of the cluster.
-    """
-    distributed: Any = importlib.import_module("distributed")
-    ended = ChunkRun()
-    under_way: dict[Any, int] = {}
-    try:
-        # A key of its own for each run: another run of the same study may be on this cluster.
-        keys = [f"rotor-study-{study.fingerprint}-{os.getpid()}-{time.time_ns()}-{chunk}" for chunk in chunks]
-        task = partial(evaluate_chunk, study, provenance=provenance)
-        under_way = dict(zip(client.map(task, chunks, key=keys, pure=False), chunks, strict=True))
-        finished = distributed.as_completed(under_way)
-        while under_way:
-            if stop():
-                ended.stopped = True
-                break
-            batch = finished.next_batch(block=False)
-            if not batch:
-                time.sleep(_LOOK)
-            for future in batch:
-                chunk = under_way.pop(future)
-                if future.status != "error":
-                    keep(future.result())  # Computed again where its worker was lost meanwhile.
-                elif type(error := future.exception()).__name__ == "KilledWorker":
-                    ended.lost.append(chunk)
-                else:
-                    raise _explained(error, chunk)
-                future.release()
-        return ended
-    except (OSError, CancelledError):  # Dask's own CommClosedError, and TimeoutError, are among these.
-        raise ClusterLost(
-            "the Dask scheduler is gone: finished chunks are kept; run the same command again to continue"
-        ) from None
-    finally:
-        client.cancel(list(under_way))
-
-
-def _explained(error: BaseException, chunk: int) -> ValueError:
-    """The failure of a whole chunk as one sentence."""
-    if isinstance(error, VersionMismatch):
-        return error
-    if isinstance(error, ImportError) or "deserialization" in str(error):
-        cause = error.__cause__ or error  # Dask wraps the error of a worker without this package.
-        return ValueError(
-            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer, "
-            "the same version, on every worker"
-        )
-    return ValueError(f"chunk {chunk} failed on its worker ({type(error).__name__}: {error})")

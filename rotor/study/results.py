@@ -5,7 +5,6 @@ time: some kilobytes may unpack to gigabytes. Shown are the best point, the robu
 Pareto front of hover and cruise.
 """
 
-import importlib
 import json
 import math
 import pickle
@@ -23,8 +22,8 @@ from numpy.typing import NDArray
 from rotor.arrays import Array, Booleans, Integers
 from rotor.design.design import Design
 from rotor.files.make_design import Tell, warn
-from rotor.spawn import start_process
-from rotor.study.chunks import CONVERGED, read_about
+from rotor.processes import start_process
+from rotor.study.chunks import CONVERGED, arrow_modules, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.user_input import brief, shorten
@@ -102,7 +101,7 @@ def read_results(folder: str | Path, *, texts: bool = True) -> Results:
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
-    parquet: Any = importlib.import_module("pyarrow.parquet")
+    _, parquet = arrow_modules()
     axes = tuple(str(name) for name in about["axes"])
     names = _wanted(parquet.read_schema(paths[0]), axes, texts)
     return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=names)))
@@ -113,8 +112,7 @@ def read_file(content: bytes, name: str) -> Results:
 
     ValueError for any other file, and for one that would fill the memory: some bytes can stand for millions of rows.
     """
-    parquet: Any = importlib.import_module("pyarrow.parquet")
-    arrow: Any = importlib.import_module("pyarrow")
+    arrow, parquet = arrow_modules()
     try:
         file = parquet.ParquetFile(arrow.BufferReader(content))
         metadata: dict[bytes, bytes] = file.schema_arrow.metadata or {}
@@ -149,13 +147,13 @@ def read_file(content: bytes, name: str) -> Results:
 
 def _wanted(schema: Any, axes: tuple[str, ...], texts: bool) -> list[str]:
     """Names of the columns to read: numbers, axes and status, and the other texts on demand."""
-    arrow: Any = importlib.import_module("pyarrow")
+    arrow, _ = arrow_modules()
     return [one.name for one in schema if texts or not arrow.types.is_string(one.type) or one.name in (*axes, "status")]
 
 
 def columns_from(table: Any) -> dict[str, NDArray[Any]]:
     """An Arrow table's columns as arrays; equal texts are one object."""
-    arrow: Any = importlib.import_module("pyarrow")
+    arrow, _ = arrow_modules()
     made: dict[str, NDArray[Any]] = {}
     for name in table.column_names:
         column = table.column(name)
@@ -214,7 +212,7 @@ def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: 
 def _read(answer: Connection, content: bytes, name: str, memory: int) -> None:
     """In the other process: send the results, or a sentence."""
     try:
-        importlib.import_module("pyarrow.parquet")  # Its own code is not counted.
+        arrow_modules()  # Its own code is not counted.
         limit_memory(memory)
         made = pickle.dumps(read_file(content, name))
     except MemoryError:  # Arrow's is one too.

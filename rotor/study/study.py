@@ -6,14 +6,13 @@ is computed, not stored: a study of 10⁹ points needs no memory. A study pickle
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from rotor.aero.switches import SWITCHES
 from rotor.arrays import Array
@@ -196,6 +195,8 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 @cache
 def _spread(sample: Sample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
+    from scipy.stats import qmc  # Here, for it takes 0.4 s to import.
+
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":
         # The sequence is balanced over powers of two; a first part of it is distributed nearly as well.
@@ -269,6 +270,10 @@ class Study:
     def span(self, chunk: int) -> tuple[int, int]:
         """First point of a chunk, and the one after its last."""
         return chunk * self.chunk, min((chunk + 1) * self.chunk, self.count)
+
+    def points_of(self, chunks: Iterable[int]) -> int:
+        """How many points these chunks have together."""
+        return sum(last - first for first, last in map(self.span, chunks))
 
     def values(self, first: int, last: int) -> list[dict[str, Value]]:
         """All values of the points first … last − 1."""

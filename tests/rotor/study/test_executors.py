@@ -1,16 +1,17 @@
-"""Studies on real Dask processes, started as by a user: on loopback, killed without warning, and continued."""
+"""Studies on processes, on a real Dask cluster and on other executors: killed without warning, and continued."""
 
 import importlib
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -18,14 +19,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor.assets import package_version
-from rotor.study.chunks import FinishedChunk, StudyProvenance, connected, evaluate_points, run_chunks
+from rotor.study.chunks import evaluate_points
 from rotor.study.results import Results, read_results
+from rotor.study.run import run_study
 from rotor.study.study_file import read_study
 
 pytestmark = pytest.mark.slow
-linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-
 ROOT = Path(__file__).parent.parent.parent.parent
 DASK = Path(sys.executable).with_name("dask")
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -168,7 +167,7 @@ def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Pa
 
 
 def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[..., Any]):
-    """SIGKILL, then the same command on its own cluster: no finished chunk is computed again."""
+    """SIGKILL, then the same command: no finished chunk is computed again."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out), **QUIET)
     until(lambda: len(files(out)) >= 10, run)
@@ -209,85 +208,6 @@ def group_lives(group: int) -> bool:
     return True
 
 
-def test_another_cluster_on_the_machine_does_not_interfere(tmp_path: Path):
-    """Another program has Dask's default port: no message about it."""
-    file = tmp_path / "two.toml"
-    file.write_text(STUDY.replace('"6000:9000:100"', "[7000]").replace('"0.05:0.34:0.01"', "[0.2]"), encoding="utf-8")
-    with socket.socket() as taken:
-        with suppress(OSError):  # Somebody else has it, which does as well.
-            taken.bind(("127.0.0.1", 8787))
-            taken.listen()
-        done = finished(file, tmp_path / "out", "--workers", "1")
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-def where(_: float) -> tuple[int, set[str]]:
-    """This process, and the local addresses of its TCP sockets that listen, as /proc writes them."""
-    sockets: set[str] = set()
-    for one in Path("/proc/self/fd").iterdir():
-        with suppress(OSError):
-            sockets.add(str(one.readlink()))
-    rows = [line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/net/{name}").read_text().splitlines()]
-    return os.getpid(), {row[1] for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in sockets}
-
-
-def die(_: float) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-@linux
-@pytest.mark.parametrize("workers", [1, 2])
-def test_workers_of_this_machine_are_reached_from_this_machine_only(workers: int):
-    before = where(0.0)[1]  # Other tests of this process may have servers.
-    with connected(None, workers) as client:
-        process, ports = client.submit(where, 0.0).result()
-        assert (process == os.getpid()) == (workers == 1)
-        for port in (ports | where(0.0)[1]) - before:
-            assert port.startswith("0100007F:")  # 127.0.0.1
-        assert client.scheduler.address.startswith("inproc" if workers == 1 else "tls")
-
-
-def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
-    study = read_study(study_file(tmp_path)).study
-    provenance = StudyProvenance(package_version(), None, "")
-    done: list[FinishedChunk] = []
-    with connected(None, 2) as client:
-        assert client.submit(die, 0.0).exception() is not None
-        ended = run_chunks(client, study, [0, 1, 2], provenance, done.append, lambda: False)
-    assert not ended.lost
-    assert sorted(one.chunk for one in done) == [0, 1, 2]
-
-
-_PARENT = """
-import os, signal
-from rotor.study.chunks import connected
-if __name__ == "__main__":
-    with connected(None, 2) as client:
-        print(*client.run(os.getpid).values(), flush=True)
-        os.kill(os.getpid(), signal.SIGKILL)
-"""
-
-
-@linux
-def test_processes_end_with_a_parent_that_was_killed(tmp_path: Path):
-    (tmp_path / "parent.py").write_text(_PARENT, encoding="utf-8")
-    parent = subprocess.run(
-        [sys.executable, tmp_path / "parent.py"], env={**os.environ, "PYTHONPATH": str(ROOT)}, stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL, text=True,
-    )  # fmt: skip
-    assert parent.returncode == -signal.SIGKILL
-    processes = [int(word) for word in parent.stdout.split()]
-    assert len(processes) == 2
-    until(lambda: not any(_alive(process) for process in processes))
-
-
-def _alive(process: int) -> bool:
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
-
-
 def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path):
     address = "tcp://127.0.0.1:9"
     done = finished(study_file(tmp_path), tmp_path / "out", "--scheduler", address)
@@ -304,5 +224,98 @@ def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: 
     cluster.scheduler.kill()
     _, complained = run.communicate(timeout=PATIENCE)
     assert run.returncode == 1
-    assert "the Dask scheduler is gone" in complained.decode()
+    assert "the workers are gone" in complained.decode()
     assert read_results(out).rows >= 125
+
+
+FEW = STUDY.replace('"6000:9000:100"', "[7000, 8000]").replace('"0.05:0.34:0.01"', '"0.1:0.3:0.05"').replace("25", "5")
+"""20 trims in four chunks."""
+
+
+class Fragile(Executor):
+    """Loses the workers of some chunks, so often for each; computes the others here."""
+
+    def __init__(self, losses: dict[int, int]) -> None:
+        self.losses = losses
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        chunk = args[1]
+        if self.losses.get(chunk, 0):
+            self.losses[chunk] -= 1
+            future.set_exception(BrokenExecutor("lost"))
+        else:
+            future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def few(tmp_path: Path) -> Path:
+    path = tmp_path / "few.toml"
+    path.write_text(FEW, encoding="utf-8")
+    return path
+
+
+def test_any_executor_computes_the_same_numbers(tmp_path: Path):
+    """Threads too, at the same time in one process, and processes of the standard library."""
+    file = few(tmp_path)
+    told: list[tuple[int, int]] = []
+    expected = run_study(file, out=tmp_path / "here", workers=1, notify=lambda *points: told.append(points))
+    assert told == [(5, 20), (10, 20), (15, 20), (20, 20)]
+    with ThreadPoolExecutor(4) as threads, ProcessPoolExecutor(2, get_context("spawn")) as processes:
+        for name, executor in {"threads": threads, "processes": processes}.items():
+            results = run_study(file, executor, out=tmp_path / name)
+            for column in ("power_total_w", "collective_deg", "flap_1c_deg", "passes"):
+                assert_array_equal(results.columns[column], expected.columns[column], column)
+
+
+def test_a_chunk_whose_worker_was_lost_is_computed_again_three_times_at_most(tmp_path: Path):
+    file = few(tmp_path)
+    assert run_study(file, Fragile({0: 2, 3: 1}), out=tmp_path / "again").good.all()
+    with pytest.raises(RuntimeError, match="1 chunk stopped their workers"):
+        run_study(file, Fragile({2: 3}), out=tmp_path / "lost")
+    assert read_results(tmp_path / "lost").rows == 15
+    assert run_study(file, Fragile({}), out=tmp_path / "lost").rows == 20
+
+
+def test_an_executor_that_is_gone_or_is_none_is_one_sentence(tmp_path: Path):
+    closed = ThreadPoolExecutor(1)
+    closed.shutdown()
+    with pytest.raises(RuntimeError, match="the workers are gone"):
+        run_study(few(tmp_path), closed, out=tmp_path / "out")
+    client: Any = object()
+    with pytest.raises(TypeError, match=r"client\.get_executor"):
+        run_study(few(tmp_path), client)
+    with pytest.raises(ValueError, match="omit them"):
+        run_study(few(tmp_path), closed, workers=2)
+
+
+def test_workers_of_another_version_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("rotor.study.run.package_version", lambda: "0.0")
+    with ThreadPoolExecutor(1) as threads, pytest.raises(ValueError, match="install the same version on every worker"):
+        run_study(few(tmp_path), threads, out=tmp_path / "out")
+
+
+def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
+    """Every one of them once, in the midst of its chunk."""
+    small = study_file(tmp_path)
+    killed: set[str] = set()
+
+    def kill(done: int, total: int) -> None:
+        for worker in workers_of(tmp_path / "out") - killed:
+            killed.add(worker)
+            if len(killed) < 3:
+                os.kill(int(worker.partition(":")[2]), signal.SIGKILL)
+
+    results = run_study(small, out=tmp_path / "out", workers=2, notify=kill)
+    assert len(killed) >= 3
+    same_as_serial(small, results)
+
+
+@pytest.mark.parametrize(("missing", "words"), [("pyarrow", "rotor-explorer[study]"), ("distributed", "[cluster]")])
+def test_a_missing_extra_is_one_sentence(missing: str, words: str, tmp_path: Path):
+    hide = f"import sys; sys.modules[{missing!r}] = None; from rotor.__main__ import main; sys.exit(main(sys.argv[1:]))"
+    study = ["study", str(few(tmp_path)), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9"]
+    done = subprocess.run([sys.executable, "-c", hide, *study], cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert f"needs {missing}: pip install 'rotor-explorer[" in done.stderr
+    assert words in done.stderr

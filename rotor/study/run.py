@@ -1,0 +1,217 @@
+"""A study run to its end: its chunks on any executor, each stored as soon as it is finished.
+
+By default the executor is processes of this machine. That of a Dask client (`client.get_executor()`), of mpi4py
+(`MPIPoolExecutor`) and any other `concurrent.futures.Executor` compute the same numbers.
+"""
+
+import hashlib
+import logging
+import os
+from collections import Counter
+from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from contextlib import closing, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from rotor.assets import commit, package_version
+from rotor.processes import Processes
+from rotor.study.chunks import (
+    FinishedChunk,
+    Store,
+    StudyProvenance,
+    VersionMismatch,
+    arrow_modules,
+    evaluate_chunk,
+    evaluate_points,
+)
+from rotor.study.results import Results, read_results
+from rotor.study.study import Study
+from rotor.study.study_file import StudyFile, read_study
+from rotor.user_input import extra_module
+
+_LOOK = 0.1
+"""[s] between the questions whether to stop."""
+_TRIES = 3
+"""Workers that a chunk may cost."""
+
+
+class ExecutorLost(RuntimeError):
+    """The executor takes no more work; finished chunks are kept."""
+
+    def __init__(self, reason: object) -> None:
+        super().__init__(
+            f"the workers are gone ({reason}): finished chunks are kept; run the same study again to continue"
+        )
+
+
+@dataclass
+class ChunkRun:
+    """How a run of chunks ended."""
+
+    stopped: bool = False
+    lost: list[int] = field(default_factory=list[int])
+    """Chunks that repeatedly stopped their workers."""
+
+    @property
+    def sentence(self) -> str:
+        """What a user should know; empty where all is well."""
+        if not self.lost:
+            return ""
+        chunks = "1 chunk" if len(self.lost) == 1 else f"{len(self.lost)} chunks"
+        return f"{chunks} stopped their workers, perhaps for lack of memory: run the same study again"
+
+
+def run_study(
+    study: str | Path,
+    executor: Executor | None = None,
+    *,
+    out: str | Path | None = None,
+    workers: int | None = None,
+    notify: Callable[[int, int], None] | None = None,
+) -> Results:
+    """Compute the points of a study file, or those that are still missing in its folder, and return its results.
+
+    study: the study file. executor: where its chunks are computed. out: the folder of its results. workers: processes
+    of this machine. notify: called with the points done and all points after each chunk.
+    """
+    if executor is not None and not isinstance(executor, Executor):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError(
+            f"executor is of type {type(executor).__name__}: give a concurrent.futures.Executor, for example that of a "
+            "Dask client, client.get_executor()"
+        )
+    if executor is not None and workers is not None:
+        raise ValueError("workers are the processes of this machine: omit them, or omit executor")
+    file = read_study(study)
+    with closing(open_store(file, out)) as store:
+        missing, total = store.missing(), store.study.count
+        done = total - store.study.points_of(missing)
+
+        def keep(chunk: FinishedChunk) -> None:
+            nonlocal done
+            store.keep(chunk.chunk, chunk.content)
+            done += chunk.rows
+            if notify is not None:
+                notify(done, total)
+
+        if missing:
+            with nullcontext(executor) if executor is not None else processes_here(file.study, workers) as pool:
+                ended = run_chunks(pool, file.study, missing, store.provenance, keep)
+            if ended.lost:
+                raise RuntimeError(ended.sentence)
+        return read_results(store.folder)
+
+
+def open_store(file: StudyFile, out: str | Path | None) -> Store:
+    """The folder of a study, by default named as its file. ValueError with one sentence where it cannot be used."""
+    arrow_modules()  # Before a folder is made.
+    provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
+    return Store(out or Path(file.path).stem, file, provenance)
+
+
+@contextmanager
+def processes_here(study: Study, workers: int | None) -> Generator[Executor]:
+    """Processes of this machine, by default one per core; they end with the context. ValueError outside 1…1024."""
+    if workers is not None and not 1 <= workers <= 1024:
+        raise ValueError(f"{workers} workers are outside 1…1024: use one per core")
+    evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
+    pool = Processes(workers or os.cpu_count() or 1)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def dask_client(address: str) -> Generator[Any]:
+    """A client of the Dask scheduler at `address`. ValueError with one sentence where none answers.
+
+    A scheduler at a tls:// address is reached with the certificates of Dask's own configuration.
+    """
+    distributed = extra_module("distributed", "cluster", "a study on a Dask cluster")
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
+    try:
+        client = distributed.Client(address, timeout="10s")
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ValueError(
+            f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
+            "and give the tcp://host:port that it prints"
+        ) from None
+    try:
+        yield client
+    finally:
+        client.close(timeout=5)
+
+
+def run_chunks(
+    executor: Executor,
+    study: Study,
+    chunks: Sequence[int],
+    provenance: StudyProvenance,
+    keep: Callable[[FinishedChunk], None],
+    stop: Callable[[], bool] = lambda: False,
+) -> ChunkRun:
+    """Compute chunks in any order; `keep` is called with each finished one, in this thread.
+
+    A chunk whose worker was lost is computed again. `stop` is called several times a second; True ends the run. Raises
+    ExecutorLost where the executor takes no more work, VersionMismatch where a worker has another version.
+    """
+    ended, tries = ChunkRun(), Counter[int]()
+    under_way: dict[Future[FinishedChunk], int] = {}
+    finished: SimpleQueue[Future[FinishedChunk]] = SimpleQueue()
+
+    def submit(chunk: int) -> None:
+        tries[chunk] += 1
+        try:
+            future = executor.submit(evaluate_chunk, study, chunk, provenance)
+        except RuntimeError as error:  # BrokenExecutor, or an executor that was shut down.
+            raise ExecutorLost(error) from None
+        under_way[future] = chunk
+        future.add_done_callback(finished.put)
+
+    try:
+        for chunk in chunks:
+            submit(chunk)
+        while under_way:
+            if stop():
+                ended.stopped = True
+                break
+            try:
+                future = finished.get(timeout=_LOOK)
+            except Empty:
+                continue
+            chunk = under_way.pop(future)
+            if future.cancelled():  # By Dask, when its scheduler is gone.
+                raise ExecutorLost("they were cancelled")
+            match future.exception():
+                case None:
+                    keep(future.result())
+                case BrokenExecutor() if tries[chunk] < _TRIES:
+                    submit(chunk)
+                case BrokenExecutor():
+                    ended.lost.append(chunk)
+                case error if type(error).__name__ == "KilledWorker":  # Of Dask, which has tried several workers.
+                    ended.lost.append(chunk)
+                case OSError() | CancelledError() as error:  # Dask's CommClosedError is among these.
+                    raise ExecutorLost(type(error).__name__)
+                case error:
+                    raise _explained(error, chunk)
+        return ended
+    finally:
+        for future in under_way:
+            future.cancel()
+
+
+def _explained(error: BaseException, chunk: int) -> ValueError:
+    """The failure of a whole chunk as one sentence."""
+    if isinstance(error, VersionMismatch):
+        return error
+    if isinstance(error, ImportError) or "deserialization" in str(error):
+        cause = error.__cause__ or error  # Dask wraps the error of a worker without this package.
+        return ValueError(
+            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer[study], "
+            "the same version, on every worker"
+        )
+    return ValueError(f"chunk {chunk} failed on its worker ({type(error).__name__}: {error})")
