@@ -28,7 +28,7 @@ import numpy as np
 
 from rotor.aero.disk import Disk, element_edges
 from rotor.aero.elastic import MODES as TORSION_MODES
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.bending import (
@@ -91,16 +91,21 @@ class BladeBending:
     """Shapes there, (6, modes, stations)."""
     force: float
     """F [N]"""
+    harmonics: int
 
 
 @lru_cache(maxsize=32)
-def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, int] = MODES) -> BladeBending:
+@read_only
+def build_bending(
+    rotor: Rotor, disk: Disk, density: float, modes: tuple[int, int] = MODES, harmonics: int = HARMONICS,
+    reference: float = REFERENCE_COLLECTIVE,
+) -> BladeBending:  # fmt: skip
     """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
     blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
     assert structure is not None
     hingeless, root, springs = blade.hingeless, _root(rotor), _springs(rotor)
     stations = np.linspace(root, radius, 33)
-    pitch = REFERENCE_COLLECTIVE + rotor.builtin_twist(stations / radius)
+    pitch = reference + rotor.builtin_twist(stations / radius)
     found = blade_bending_modes(
         structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, springs
     )
@@ -146,6 +151,7 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
         strips=strips,
         along=along,
         force=force,
+        harmonics=harmonics,
     )
 
 

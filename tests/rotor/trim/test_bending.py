@@ -16,7 +16,7 @@ from rotor.aero.bent_section import SV, SW
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.columns.bending import bending_work, coordinates_of
+from rotor.columns.bending import coordinates_of
 from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
@@ -69,7 +69,7 @@ def test_energy(inflow: str) -> None:
     solution = _solved(0.3, inflow)
     _, point, b = _at(solution)
     watts = solution.design.power_unit
-    work = sum(share * point.z[i] * point.z[j] * point.q[q] for share, i, j, q in bending_work(point.system.structure))
+    work = float(point.system.structure.sums["motion"].value(point.z, point.q)[0])
     left = solution.power.shaft - solution.power.main_rotor
     assert_allclose(work * watts, left, atol=1e-9 * solution.power.shaft)
     q, _ = coordinates_of(b, point.system.structure, point.z)
@@ -217,7 +217,7 @@ def test_springs_at_the_hinges(inflow: str) -> None:
     _, free = coordinates_of(_at(_solved(0.3, inflow))[2], point.system.structure, _at(_solved(0.3, inflow))[1].z)
     assert 0.2 * free < offset < 0.5 * free  # Less lag; in series with it the blade bends in lag.
     left = solution.power.shaft - solution.power.main_rotor
-    work = sum(share * point.z[i] * point.z[j] * point.q[k] for share, i, j, k in bending_work(point.system.structure))
+    work = float(point.system.structure.sums["motion"].value(point.z, point.q)[0])
     assert_allclose(work * solution.design.power_unit, left, atol=1e-9 * solution.power.shaft)
     loads, blades = _loads(solution), problem.design.rotor.blades
     about, beside = b.r[0] * radius * loads.root_force[2] + held[0], offset * radius * loads.root_force[2]

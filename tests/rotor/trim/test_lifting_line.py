@@ -9,10 +9,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.disk import Disk
-from rotor.aero.elements import disk_sums
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import UP, UT
+from rotor.columns.flight import disk_sums
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
@@ -133,8 +133,7 @@ def test_the_length_of_the_near_wake_decides_nothing(mu: float, azimuths: int):
     for near in (15.0, 30.0, 60.0, 90.0, 120.0):
         found = trim(replace(problem, inflow=FullLattice(math.radians(near))))
         assert found.converged
-        elements = found.linear.elements
-        powers.append(power_budget(problem, elements, disk_sums(problem.disk, elements)).total)
+        powers.append(power_budget(problem, found.elements, disk_sums(found.point)).total)
     assert max(powers) < 1.004 * min(powers)
 
 
@@ -145,8 +144,8 @@ def test_the_wake_along_the_trim_found_changes_little(mu: float, twist: str):
     problem = trim_problem(line(mu, twist))
     first = trim(problem)
     again = trim(replace(problem, course=along(first, problem.course)))
-    elements = [found.linear.elements for found in (first, again)]
-    powers = [power_budget(problem, e, disk_sums(problem.disk, e)).total for e in elements]
+    trims = [found.linear for found in (first, again)]
+    powers = [power_budget(problem, found.elements, disk_sums(found.point)).total for found in trims]
     assert powers[1] == pytest.approx(powers[0], rel=2e-3)
 
 
