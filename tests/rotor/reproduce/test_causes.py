@@ -72,15 +72,15 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "README.md",
-        "moves that most: −7.0 to −7.8° at µ 0.35, −2.1 to −3.0° at 0.2, where drag rise, torsion and section data "
+        "moves that most: −7.0 to −7.9° at µ 0.35, −2.1 to −3.0° at 0.2, where drag rise, torsion and section data "
         "move it as far",
-        lambda: (ends(*TRIM), ends(*TRIM, mu=0.2)) == ((-7.8, -7.0), (-3.0, -2.1))
+        lambda: (ends(*TRIM), ends(*TRIM, mu=0.2)) == ((-7.9, -7.0), (-3.0, -2.1))
         and all(max(abs(way) for way in moves(name, mu=0.2)) > 1.5 for name in ("mach", "elastic", "table")),
     ),
     (
         "README.md",
-        "The best linear twist is −16.5° per radius in hover, −11.2° at µ 0.2 and −11.6° at 0.35 (−9.7 to −12.4° over",
-        lambda: [round(best(ALL, mu), 1) for mu in (0.0, 0.2, FAST)] == [-16.5, -11.2, -11.6]
+        "The best linear twist is −16.5° per radius in hover, −11.2° at µ 0.2 and −11.5° at 0.35 (−9.7 to −12.4° over",
+        lambda: [round(best(ALL, mu), 1) for mu in (0.0, 0.2, FAST)] == [-16.5, -11.2, -11.5]
         and {round(f(least(ALL, FAST, name).rate_deg for name in INFLOW_MODELS), 1) for f in (min, max)}
         == {-12.4, -9.7},
     ),
@@ -91,33 +91,33 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "README.md",
-        "Ours gives −0.2 % with the drag of the UH-60A and +3.1 % (2.9 to 6.4 over models) at the usual propulsive "
+        "Ours gives −0.2 % with the drag of the UH-60A and +3.2 % (3.0 to 6.5 over models) at the usual propulsive "
         "force of a tunnel test; −0.5 % in hover",
         lambda: [round(100 * strong_over_weak(ALL, kmh, None), 1) for kmh in (FAST_KMH, 0.0)] == [-0.2, -0.5]
         and [round(100 * keys_1987().numbers[f"usual_{end}"], 1) for end in ("force", "low", "high")]
-        == [3.1, 2.9, 6.4],
+        == [3.2, 3.0, 6.5],
     ),
     (
         "docs/theory.md",
-        "together they move it by −7.0 to −7.8° at $\\mu$ = 0.35, by −2.1 to −3.0° at 0.2",
-        lambda: (ends(*TRIM), ends(*TRIM, mu=0.2)) == ((-7.8, -7.0), (-3.0, -2.1)),
+        "together they move it by −7.0 to −7.9° at $\\mu$ = 0.35, by −2.1 to −3.0° at 0.2",
+        lambda: (ends(*TRIM), ends(*TRIM, mu=0.2)) == ((-7.9, -7.0), (-3.0, -2.1)),
     ),
     (
         "docs/theory.md",
-        "At 0.35 the lifting line moves it by −0.9 to −2.0°, the section table by −0.2 to +2.7°, drag rise by −0.1 to "
+        "At 0.35 the lifting line moves it by −0.8 to −1.9°, the section table by −0.2 to +2.6°, drag rise by −0.1 to "
         "−1.1°, the elastic blade by +1.7°",
         lambda: (ends("wake"), ends("table"), ends("mach"), ends("elastic"))
-        == ((-2.0, -0.9), (-0.2, 2.7), (-1.1, -0.1), (1.7, 1.7)),
+        == ((-1.9, -0.8), (-0.2, 2.6), (-1.1, -0.1), (1.7, 1.7)),
     ),
     (
         "docs/tutorials/drag.md",
-        "switch *Fuselage drag* off in *Model* at µ 0.35: the best twist goes from −11.6° to −7.3°",
-        lambda: (round(best(ALL), 1), round(without_drag(FAST).rate_deg, 1)) == (-11.6, -7.3),
+        "switch *Fuselage drag* off in *Model* at µ 0.35: the best twist goes from −11.5° to −7.0°",
+        lambda: (round(best(ALL), 1), round(without_drag(FAST).rate_deg, 1)) == (-11.5, -7.0),
     ),
     (
         "docs/tutorials/drag.md",
-        "Without drag rise (*Compressibility*) it stays within 0.1°",
-        lambda: abs(best(ALL) - best(without("mach"))) < 0.1,
+        "Without drag rise (*Compressibility*) it stays within 0.2°",
+        lambda: abs(best(ALL) - best(without("mach"))) < 0.2,
     ),
     (
         "docs/tutorials/drag.md",
@@ -126,8 +126,8 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "docs/tutorials/actuator.md",
-        "−16.5° and −11.6° per radius at µ 0.35",
-        lambda: (round(best(ALL, 0.0), 1), round(best(ALL), 1)) == (-16.5, -11.6),
+        "−16.5° and −11.5° per radius at µ 0.35",
+        lambda: (round(best(ALL, 0.0), 1), round(best(ALL), 1)) == (-16.5, -11.5),
     ),
     (
         "docs/notebooks/05_inflow_models.py",
