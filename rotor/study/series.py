@@ -119,6 +119,7 @@ def sweep(
     mass_kg: Iterable[float] | None = None,
     altitude_m: Iterable[float] | None = None,
     climb_m_s: Iterable[float] | None = None,
+    rotor_speed_percent: Iterable[float] | None = None,
 ) -> SweepTable:
     """Solve the design, or each of several, over one quantity of the flight condition, in order.
 
