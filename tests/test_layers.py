@@ -32,8 +32,8 @@ ORDER = {
         "export", "story", "tabs", "page", "session", "app", "notebook",
     ),
     "explorer/tabs": (
-        "layout", "keys", "display", "stand_controls", "controls", "context", "design_files", "history_panel",
-        "waterfall", "live_charts", "results", "twist_curve", "export_panel", "sensitivity_panel",
+        "layout", "keys", "display", "stand_controls", "controls", "context", "background", "design_files",
+        "history_panel", "waterfall", "live_charts", "results", "twist_curve", "export_panel", "sensitivity_panel",
         "probe", "vibration_panel", "actuator", "views", "optimise", "lecture",
     ),
 }  # fmt: skip
