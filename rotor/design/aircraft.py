@@ -143,8 +143,8 @@ class FlightCondition:
             )
         if self.stand is not None and self.stand.tip_mach is not None and self.rotor_speed_percent != 100.0:
             raise ValueError(
-                f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast the "
-                "rotor turns: give one of them"
+                f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast "
+                "the rotor turns: give one of them"
             )
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
