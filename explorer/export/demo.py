@@ -32,8 +32,8 @@ from explorer.text.readout import part_titles
 from rotor import Design, Solution, load_design, make_design, parse_twist, solve
 from rotor.arrays import Array
 from rotor.terminal import run_command
+from rotor.trim.caveats import LOW_SPEED
 from rotor.trim.low_speed import passes_over
-from rotor.trim.validity import LOW_SPEED
 from rotor.units import KNOT
 from rotor.user_input import write_whole
 

@@ -12,6 +12,7 @@ from rotor.aero.section import stall_margins
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
+from rotor.trim.caveats import caveats
 from rotor.trim.forward import course_of, first_guess, trim_along, trim_on_course
 from rotor.trim.hover import hover
 from rotor.trim.hub_loads import hub_loads
@@ -19,7 +20,7 @@ from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
-from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
+from rotor.trim.validity import failure_sentence, implausible, vortex_ring
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -101,7 +102,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=tuple(caveats(problem, elements, total, fields, stalled, moment, power, elastic)) if converged else (),
+        caveats=tuple(caveats(problem, total, fields, stalled, moment, power, elastic)) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
