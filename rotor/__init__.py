@@ -25,6 +25,7 @@ thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are 
 from rotor import actuator
 from rotor.aero.elements import TrimState
 from rotor.assets import package_version
+from rotor.columns.blade import Freedom
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
@@ -50,6 +51,7 @@ __all__ = (
     "Design",
     "Distribution",
     "FlightCondition",
+    "Freedom",
     "Limits",
     "Models",
     "Optimum",

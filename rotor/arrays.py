@@ -1,4 +1,9 @@
-"""The array types of signatures; docstrings give the shapes."""
+"""The array types of signatures, whose docstrings give the shapes; arrays that nobody may write to."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import is_dataclass
+from functools import cached_property, wraps
+from typing import Any, ParamSpec, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,3 +12,38 @@ Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
+
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
+
+
+def fix(value: Any) -> None:
+    """Make an array read-only, and all arrays in a tuple, list, mapping or dataclass, which may be shared then."""
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif isinstance(value, (tuple, list)):
+        for own in cast(tuple[Any, ...], value):
+            fix(own)
+    elif isinstance(value, Mapping):
+        fix(tuple(cast(Mapping[Any, Any], value).values()))
+    elif is_dataclass(value) and not isinstance(value, type):
+        fix(tuple(vars(value).values()))
+
+
+def read_only(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """A function whose result is read-only: for what a cache or a cached property hands out."""
+
+    @wraps(function)
+    def fixed(*args: _P.args, **kwargs: _P.kwargs) -> _T:
+        found = function(*args, **kwargs)
+        fix(found)
+        return found
+
+    return fixed
+
+
+class fixed_property(cached_property[_T]):
+    """A cached property whose value is read-only."""
+
+    def __init__(self, function: Callable[[Any], _T]) -> None:
+        super().__init__(read_only(function))

@@ -7,7 +7,7 @@ every point, see `rotor.aero.bent_section`). One flap mode takes the place of ri
 coning and first-harmonic flapping. Lengths are over R, forces in units of F = ρπR²(ΩR)²/N_b, one blade's share of C_T.
 
 From L = ½ ∫ m (ẇ² + v̇² + (y0 + v)²) dr − ½ qᵀ K q − ∫ (w'² + v'²) ∫_r^R m v̇ dρ dr, in harmonics, with the air's loads,
-the weight, a damper at the lag hinge and the mass of the swept tip,
+the weight, springs and a damper at the hinges and the mass of the swept tip,
 
     m_k (q_k'' + ν_k² q_k) + Σ_l d_kl q_l' − (∫ E A_k dr)' + ∫ (G_w W_k' + G_v V_k' + M_w W_k'' + M_v V_k'') dr
         = ∫ (W_k F_z − V_k F_x) dr − g ∫ m W_k dr + y0 ∫ m V_k dr + Σ_j ∫ (w/r)(r W_k' + W_k d²/dψ²) Φ_j dr φ_j
@@ -28,7 +28,7 @@ import numpy as np
 
 from rotor.aero.disk import Disk, element_edges
 from rotor.aero.elastic import MODES as TORSION_MODES
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.bending import (
@@ -76,7 +76,7 @@ class BladeBending:
     load: Array
     """Of weight and, on a precone, of tension, (modes,)."""
     in_plane: Array
-    """∫ m V_k dr, (modes,)."""
+    """∫ m V_k dr, and of a spring at the lag hinge K_l V_k'/e, for y0 = e ζ, (modes,)."""
     precone: float
     """[rad]"""
     share: Array
@@ -91,18 +91,23 @@ class BladeBending:
     """Shapes there, (6, modes, stations)."""
     force: float
     """F [N]"""
+    harmonics: int
 
 
 @lru_cache(maxsize=32)
-def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, int] = MODES) -> BladeBending:
+@read_only
+def build_bending(
+    rotor: Rotor, disk: Disk, density: float, modes: tuple[int, int] = MODES, harmonics: int = HARMONICS,
+    reference: float = REFERENCE_COLLECTIVE,
+) -> BladeBending:  # fmt: skip
     """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
     blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
     assert structure is not None
-    hingeless, root = _hingeless(rotor), _root(rotor)
+    hingeless, root, springs = blade.hingeless, _root(rotor), _springs(rotor)
     stations = np.linspace(root, radius, 33)
-    pitch = REFERENCE_COLLECTIVE + rotor.builtin_twist(stations / radius)
+    pitch = reference + rotor.builtin_twist(stations / radius)
     found = blade_bending_modes(
-        structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, hingeless
+        structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, springs
     )
     force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
     scale, first = _scale(found, radius)
@@ -112,12 +117,12 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
     widths = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
     widths[[0, -1]] *= 0.5
     strips = structure.at(r, structure.mass_per_length) * widths * (radius * speed**2 / force)
-    frequency, precone = found.frequency / speed, blade.flap_rest if hingeless else 0.0
+    frequency, precone = found.frequency / speed, blade.flap_rest
     mass = scale**2 * (speed**2 / force / radius)
     tension = np.interp(r, found.beam.r, found.beam.tension) * widths / (force * radius)
     load = -GRAVITY / (radius * speed**2) * (along[0] @ strips) - precone * (along[1] @ tension)
     load[first] += precone * mass[first] * frequency[first] ** 2
-    slope = found.nodal[:, 0, 3] * scale * (0.0 if hingeless else 1.0)
+    slope = found.nodal[:, 0, 3] * scale  # At the root, 0 where it is held.
     lag, flap = (structure.at(disk.r * radius, own) for own in (structure.lag_stiffness, structure.flap_stiffness))
     edges = element_edges(disk.dr) * radius
     outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
@@ -134,7 +139,7 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
         mass_outboard=outboard[-1],
         damping=np.outer(slope, slope) * (structure.lag_damper * speed / (force * radius)),
         load=load,
-        in_plane=along[3] @ strips,
+        in_plane=along[3] @ strips + (0.0 if hingeless else springs[1] / (force * root) * slope),
         precone=precone,
         share=_with_root(along[1, [first]], shapes[1, [first]], widths * (r < edges[0]), edges[1] - edges[0]),
         coupling=0.5
@@ -146,6 +151,7 @@ def build_bending(rotor: Rotor, disk: Disk, density: float, modes: tuple[int, in
         strips=strips,
         along=along,
         force=force,
+        harmonics=harmonics,
     )
 
 
@@ -197,7 +203,7 @@ def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> Blade
     def pitch(r: Array) -> Array:
         return collective + twist(r / rotor.radius)
 
-    beam = bending_beam(structure, rotor.angular_speed, _root(rotor), pitch, hingeless=_hingeless(rotor))
+    beam = bending_beam(structure, rotor.angular_speed, _root(rotor), pitch, _springs(rotor))
     flap, lag = frequencies_by_kind(bending_modes(beam, sum(MODES)))
     torsion = blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
     return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
@@ -206,16 +212,19 @@ def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> Blade
 def can_bend(rotor: Rotor) -> bool:
     """Whether the stiffness of the blade is known, and its root: held, or with its hinges away from the shaft."""
     structure = rotor.blade.structure
-    return structure is not None and structure.bends and (_hingeless(rotor) or rotor.blade.flap_hinge > 0.0)
+    return structure is not None and structure.bends and (rotor.blade.hingeless or rotor.blade.flap_hinge > 0.0)
 
 
-def _hingeless(rotor: Rotor) -> bool:
-    """Whether the blade is held at the root; else it has hinges for flap and lag."""
-    return rotor.blade.flap_spring > 0.0
+def _springs(rotor: Rotor) -> tuple[float, float]:
+    """Of the root of the bending blade in flap and lag [N m/rad]. That of a hingeless blade in flap is in its EI."""
+    blade, structure = rotor.blade, rotor.blade.structure
+    assert structure is not None
+    held = math.inf if blade.hingeless else 0.0
+    return held or blade.flap_spring, held if structure.lag_spring is None else structure.lag_spring
 
 
 def _root(rotor: Rotor) -> float:
     """Where the bending blade begins [m]."""
     structure = rotor.blade.structure
     assert structure is not None
-    return structure.clamp if _hingeless(rotor) else rotor.blade.flap_hinge * rotor.radius
+    return structure.clamp if rotor.blade.hingeless else rotor.blade.flap_hinge * rotor.radius

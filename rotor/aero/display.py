@@ -95,7 +95,7 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     if e.bent is None:
         f, _, s = own.section(flow, problem.grid_data(1), False, True)
         return f, s, None
-    bends = BentState(e.bent.channels @ matrix, e.bent.offset @ matrix, e.bent.lift @ matrix)
+    bends = BentState(e.bent.channels @ matrix, e.bent.lift @ matrix)
     f, _, s = bent(own).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
     return f, s, bends
 

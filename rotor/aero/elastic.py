@@ -27,7 +27,7 @@ import numpy as np
 from rotor.aero.disk import Disk
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.blade import Rotor
 from rotor.dynamics.torsion import TorsionModes, blade_modes
@@ -134,11 +134,15 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
 
 
 @lru_cache(maxsize=32)
+@read_only
 def build_torsion(
-    rotor: Rotor, disk: Disk, density: float, only_mach: float | None, swept: bool, highest: int
+    rotor: Rotor, disk: Disk, density: float, only_mach: float | None, swept: bool, highest: int, count: int = MODES
 ) -> BladeTorsion:
-    """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³]."""
-    made = _at_unit_density(rotor, disk, only_mach, swept, highest)
+    """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³].
+
+    highest: harmonic; count: modes.
+    """
+    made = _at_unit_density(rotor, disk, only_mach, swept, highest, count)
     return replace(
         made,
         gain=made.gain * density,
@@ -152,11 +156,14 @@ def build_torsion(
 
 
 @lru_cache(maxsize=32)
-def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int) -> BladeTorsion:
+@read_only
+def _at_unit_density(
+    rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int, count: int
+) -> BladeTorsion:
     """The same in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
     assert structure is not None
-    modes = blade_modes(structure, rotor.angular_speed, MODES)
+    modes = blade_modes(structure, rotor.angular_speed, count)
     radial, functions = modes.at(disk.r * radius), 1 + 2 * highest
     harmonic = (np.arange(functions) + 1) // 2
     unit = math.pi * radius**5 / rotor.blades  # Times Ω² [N m].

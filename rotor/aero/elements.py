@@ -7,7 +7,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Wake
 from rotor.arrays import Array
 
@@ -65,8 +64,6 @@ class BentState:
 
     channels: Array
     """Slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
-    offset: Array
-    """How far it lies forward of the shaft, y0 + v, (elements, azimuths)."""
     lift: Array
     """d²w/dψ², (elements, azimuths)."""
 
@@ -116,23 +113,11 @@ class DiskSums:
     drag: float
     """C_H, aft in the hub plane: Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ); F_r of a blade that bends holds its lean."""
     torque: float
-    """C_Q: Σ r F_x, of a blade that bends Σ r F_x + (y0 + v) F_r."""
-
-
-def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
-    """Thrust, H-force and torque."""
-    width = disk.dr / len(disk.psi)
-    lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
-    torque = float(disk.r * width @ elements.fx.sum(axis=1))
-    if elements.bent is None:
-        along = along - elements.beta * lift
-    else:
-        torque += float((width @ (elements.bent.offset * elements.fr)).sum())
-    return DiskSums(
-        thrust=float(lift.sum()),
-        drag=float(across @ disk.sin + along @ disk.cos),
-        torque=torque,
-    )
+    """C_Q: Σ r F_x, of a blade that lies forward of its azimuth by y with Σ y F_r."""
+    motion: float = 0.0
+    """Power of the air on the blade's motion, over ρA(ΩR)³."""
+    damping: float = 0.0
+    """That which dampers of further freedoms take."""
 
 
 def over_azimuths(values: Array, azimuths: int) -> Array:

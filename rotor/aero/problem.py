@@ -3,15 +3,16 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
-from rotor.aero.bending import MODES, BladeBending, build_bending, can_bend
+from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_bending, can_bend
 from rotor.aero.bent_section import BentData, bent
 from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
+from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, SectionInterface
@@ -76,6 +77,8 @@ class Problem:
     """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
     course: WakeCourse
     """Along which a wake of vortices lies; see `rotor.trim.forward`."""
+    freedoms: tuple[Any, ...] = ()
+    """Further degrees of freedom of the blade, each a `rotor.columns.blade.Freedom`."""
     joined: tuple[Array, Array] | None = None
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
 
@@ -117,7 +120,22 @@ class Problem:
         )
 
 
-def build_problem(design: Design) -> Problem:
+class Truncation(NamedTuple):
+    """Where the series of an elastic blade end."""
+
+    torsion: int = TORSION_MODES
+    bending: tuple[int, int] = MODES
+    """In flap and in lag."""
+    harmonics: int = BENDING_HARMONICS
+    """Of a blade that bends."""
+    reference: float = REFERENCE_COLLECTIVE
+    """Pitch at 0.75 R of the modes of bending [rad]."""
+
+
+AS_USUAL = Truncation()
+
+
+def build_problem(design: Design, cut: Truncation = AS_USUAL) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
     drag, down = design.drag_parts
@@ -142,8 +160,8 @@ def build_problem(design: Design) -> Problem:
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
     if models.bending and models.flapping and not design.hovering and can_bend(rotor):
-        bending = build_bending(rotor, disk, condition.density, MODES)
-    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
+        bending = build_bending(rotor, disk, condition.density, cut.bending, cut.harmonics, cut.reference)
+    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else cut.harmonics)
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
             rotor,
@@ -152,6 +170,7 @@ def build_problem(design: Design) -> Problem:
             None if models.compressibility else LOW_MACH,
             models.has("swept_tip"),
             highest,
+            cut.torsion,
         )
     return Problem(
         design=design,

@@ -14,7 +14,7 @@ moments of the displaced blade X = ∫ m u dr, Y = ∫ m v dr, Z = ∫ m w dr, u
     F_x: F_r cos ψ + F_x sin ψ − (X cos ψ − Y sin ψ)''        M_x: m_f sin ψ + y0 f_z cos ψ
     F_y: F_r sin ψ − F_x cos ψ − (X sin ψ + Y cos ψ)''        M_y: −m_f cos ψ + y0 f_z sin ψ
 
-m_f is e f_z at an articulated root, where the hinge has no moment, and Σ r F_z − ∫ m r (w'' + w) dr at a hingeless one.
+m_f is e f_z at a hinge without a spring, which has no moment, and Σ r F_z − ∫ m r (w'' + w) dr at any other root.
 The moment about the blade's axis goes into its pitch link and the swashplate, and is not among these. Summed over the
 blades only multiples of N_b remain, N_b times those of one blade.
 """
@@ -33,8 +33,6 @@ from rotor.columns.blade import Freedom, Torsion
 from rotor.engine.terms import ONE, Shape, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, rate_of, times_wave, wave_number
 
-FUNCTIONS = 1 + 2 * HARMONICS
-"""Waves of bending."""
 FLAPPING_STATES = ("coning", "flap_1c", "flap_1s")
 """What the first flap mode's coordinates of the waves 1, cos ψ and sin ψ are called."""
 OFFSET: Hashable = ("bend", "offset")
@@ -61,28 +59,6 @@ def coordinates_of(b: BladeBending, s: Structure, z: Array) -> tuple[Array, floa
     return q, float(z[s.states[OFFSET]]) if OFFSET in s.states else 0.0
 
 
-def torque_terms(s: Structure) -> list[tuple[float, int, int, int]]:
-    """C_Q = Σ r F_x + (y0 + v) F_r, as factor · z_i z_j Q: (factor, z_i, z_j, measure)."""
-    terms = [(1.0, ONE, ONE, s.measure(FX, "r", STEADY))]
-    if bends(s):
-        terms.append((1.0, s.numbers["precone"], ONE, s.measure(FR, ("precone", "V"), STEADY)))
-        if OFFSET in s.states:
-            terms.append((1.0, s.states[OFFSET], ONE, s.measure(FR, "one", STEADY)))
-        terms += [(1.0, atom, ONE, s.measure(FR, ("V", k), h)) for k, h, atom in _all(s)]
-    return terms
-
-
-def bending_work(s: Structure) -> list[tuple[float, int, int, int]]:
-    """Power that the air does on bending, Σ (W_k F_z − V_k F_x) q_k', in the same form."""
-    terms = list[tuple[float, int, int, int]]()
-    for k, h, atom in _all(s):
-        rate, factor = rate_of(h)
-        if factor:
-            terms.append((factor, atom, ONE, s.measure(FZ, ("W", k), rate)))
-            terms.append((-factor, atom, ONE, s.measure(FX, ("V", k), rate)))
-    return terms
-
-
 def _all(s: Structure) -> list[tuple[int, int, int]]:
     """Mode, wave and atom of all coordinates."""
     own = list[tuple[int, int, int]]()
@@ -96,18 +72,21 @@ def _all(s: Structure) -> list[tuple[int, int, int]]:
     return [(first, h, s.states[name]) for h, name in enumerate(FLAPPING_STATES)] + own
 
 
-class Bending:
+class Bending(Freedom):
     """The modal coordinates in flap and lag."""
-
-    functions = FUNCTIONS
 
     def __init__(self, problem: Problem) -> None:
         b, torsion = problem.bending, problem.torsion
         assert b is not None
-        self.modes, self.first, self.lag = len(b.mass), b.first, b.lag
+        self.modes, self.first, self.lag, self.functions = len(b.mass), b.first, b.lag, 1 + 2 * b.harmonics
         self.twists = 0 if torsion is None else len(torsion.gain)
-        self._hub = problem.design.rotor.blades, b.modes.beam.hingeless
-        self.key: Hashable = "bending", self.modes, self.first, self.lag, self.twists, self.functions, self._hub
+        self._hub = problem.design.rotor.blades, b.modes.beam.springs[0] > 0.0
+        self.states = tuple(
+            OFFSET if (k, h) == (self.lag, STEADY) else ("bend", k, h)
+            for k in range(self.modes)
+            for h in range(self.functions)
+            if k != self.first or h >= len(FLAPPING_STATES)  # Coning and first-harmonic flapping are the trim's.
+        )
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
         """Of the equations in the head of this file."""
@@ -141,31 +120,18 @@ class Bending:
                     out["bend damping", k, other, h] = float(damping[k, other, h])
         return out
 
-    def declare(self, s: Structure) -> None:
-        """The coordinates but for coning and first-harmonic flapping, which are the trim's; y0 for steady lag."""
-        for k in range(self.modes):
-            for h in range(self.functions):
-                if k == self.lag and h == STEADY:
-                    s.state(OFFSET)
-                elif k != self.first or h >= len(FLAPPING_STATES):
-                    s.state(("bend", k, h))
-
-    def build(self, s: Structure) -> list[int]:
+    def build(self, s: Structure) -> None:
         """Columns of slopes, curvatures and velocities; equations of bending, and what they add to those of torsion."""
         n, slot = s.numbers, {channel: s.channels + channel for channel in SLOPES}
         for channel, name in ((SW, "W'"), (SV, "V'"), (KW, "W''"), (KV, "V''")):
             s.column(slot[channel], ("precone", name), STEADY, 1.0, n["precone"])
         s.column(UR, ("precone", "V"), STEADY, 1.0, n["precone"])
-        free = list[int]()
         for k in range(self.modes):
             for h in range(self.functions):
                 if k == self.lag and h == STEADY:
                     s.column(UR, "one", STEADY, 1.0, s.states[OFFSET])
-                    free.append(s.states[OFFSET])
                     continue
                 own = coordinate(s, self.first, k, h)
-                if ("bend", k, h) in s.states:
-                    free.append(own)
                 rate, factor = rate_of(h)
                 s.column(UP, ("W", k), rate, factor, own)
                 s.column(UT, ("V", k), rate, factor, own)
@@ -176,9 +142,8 @@ class Bending:
         for k in range(self.modes):
             for h in range(self.functions):
                 self._balance(s, k, h)
-        if has_hub_loads(self._hub[0]):
+        if has_hub_loads(self._hub[0], harmonic_of(self.functions - 1)):
             HubLoadTerms(s, *self._hub)  # Its measures.
-        return free
 
     def _balance(self, s: Structure, k: int, h: int) -> None:
         """The equation of one mode and one wave."""
@@ -245,16 +210,16 @@ OUTBOARD = "mass outboard"
 """∫_r^R m dr, by which E has X."""
 
 
-def has_hub_loads(blades: int) -> bool:
+def has_hub_loads(blades: int, harmonics: int = HARMONICS) -> bool:
     """Whether the harmonics of bending reach those that N_b/rev at the hub comes from."""
-    return blades + 1 <= HARMONICS
+    return blades + 1 <= harmonics
 
 
 class HubLoadTerms:
     """The terms of a blade; or only their measures, which a structure needs before it is finished."""
 
-    def __init__(self, s: Structure, blades: int, hingeless: bool, bending: BladeBending | None = None) -> None:
-        self._s, self._blades, self._hingeless, self._bending = s, blades, hingeless, bending
+    def __init__(self, s: Structure, blades: int, sprung: bool, bending: BladeBending | None = None) -> None:
+        self._s, self._blades, self._sprung, self._bending = s, blades, sprung, bending
         self.rows = list[tuple[int, int, int, int, float]]()
         for row in range(2 * len(LOADS)):
             wave = wave_number(blades, sine=row % 2 == 1)
@@ -305,7 +270,7 @@ class HubLoadTerms:
         self._moving(row, (wave, across), self._static(3), "at rest", -sign * square)
 
     def _moment(self, row: int, wave: int, about: int, beside: int, sign: float) -> None:
-        if self._hingeless:
+        if self._sprung:
             self._measured(row, (wave, about), FZ, "r", sign)
             self._moving(row, (wave, about), self._static(0, arm=True), "moment of inertia", sign)
         else:
@@ -317,4 +282,4 @@ class HubLoadTerms:
 
 def hub_load_terms(s: Structure, blades: int, bending: BladeBending) -> Terms:
     """Cosine and sine of each of `LOADS` in turn, over ρA(ΩR)² and for moments R."""
-    return Terms.of(HubLoadTerms(s, blades, bending.modes.beam.hingeless, bending).rows, 2 * len(LOADS))
+    return Terms.of(HubLoadTerms(s, blades, bending.modes.beam.springs[0] > 0.0, bending).rows, 2 * len(LOADS))

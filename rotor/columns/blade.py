@@ -11,13 +11,13 @@ With the pitch rate θ', the modal frequency ν_k and the moments of `rotor.aero
 in radians, with g_k = 1/(m_k ν_k²). `given`: tension on the built-in twist, and what active twist adds.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Hashable
-from typing import Protocol
 
 from rotor.aero.problem import Problem
-from rotor.aero.section import RATE, TH, UP, M
+from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.engine.terms import Shape, Structure
+from rotor.engine.terms import ONE, Addend, Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY, rate_of
 
 CYCLIC = (("cyclic_1c", COS), ("cyclic_1s", SIN))
@@ -44,36 +44,80 @@ def add_pitch_rates(s: Structure) -> None:
             s.column(RATE, "one", *rate_of(wave), s.states[name])
 
 
-class Freedom(Protocol):
-    """Degrees of freedom of the blade beside rigid flapping: torsion here, and whatever is added to it."""
+_Sum = list[tuple[float, int, int, int]]
+_POWER = {UT: (1.0, FX), UP: (-1.0, FZ), UR: (1.0, FR)}
+"""Sign and force of each velocity in U dD = U_T F_x − U_P F_z + U_R F_r."""
+
+
+def power_of_air(s: Structure) -> tuple[_Sum, _Sum, _Sum]:
+    """H and C_Q of the blade, and the power that the air gives its motion, from the columns that there are by now.
+
+    By virtual power: what a velocity has of µ_x is the place of its force in H; what else U_R has is the arm of F_r
+    about the shaft; what else U_T and U_P have is the blade's own velocity, away from the air and up.
+    """
+    mu_x, drag, motion = s.derived["mu_x"], _Sum(), _Sum()
+    torque = [(1.0, ONE, ONE, s.measure(FX, "r", STEADY))]
+    for channel, row, wave, i, j, factor in s.columns:
+        if channel not in _POWER:
+            continue
+        sign, force = _POWER[channel]
+        measure = s.measure(force, list(s.shapes[channel])[row], wave)
+        if mu_x in (i, j):
+            drag.append((sign * factor, i + j - mu_x, ONE, measure))
+        elif channel == UR:
+            torque.append((factor, i, j, measure))
+        else:
+            motion.append((-sign * factor, i, j, measure))
+    return drag, torque, motion
+
+
+class Freedom(ABC):
+    """Degrees of freedom of the blade beside rigid flapping: torsion, bending, and whatever is added to these.
+
+    A freedom is a value: its class and its fields, which can be hashed, tell its columns and equations; only `numbers`
+    and `shapes` differ from one design to another. Lengths are over R, time is ψ, forces those of all blades over
+    ρA(ΩR)².
+    """
+
+    states: tuple[Hashable, ...]
+    """Names of its states, each with an equation."""
 
     @property
     def key(self) -> Hashable:
-        """The same for the same columns and equations."""
-        ...
+        """The same for the same columns and equations: its class and its fields."""
+        return type(self), *vars(self).items()
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
-        """Values of the numbers in its equations, by name, in the order in which they are declared."""
-        ...
+        """Values of the numbers in its equations, by name; none."""
+        del problem
+        return {}
 
-    def declare(self, s: Structure) -> None:
-        """Add its states."""
-        ...
+    @abstractmethod
+    def build(self, s: Structure) -> None:
+        """Add columns and equations, one for each state.
 
-    def build(self, s: Structure) -> list[int]:
-        """Add columns and equations; returns the states solved for, one for each equation."""
-        ...
+        Columns of U_T and U_P without µ_x are velocities of the blade; those of U_R, how far it lies forward.
+        """
 
     def shapes(self, problem: Problem) -> dict[Shape, Array]:
-        """Functions along the blade by name, (elements,), beside "one", "r" and "arm"."""
-        ...
+        """Functions along the blade by name, (elements,), beside "one", "r" and "arm"; none."""
+        del problem
+        return {}
+
+    def power(self, s: Structure) -> list[Addend]:
+        """What its dampers take of the shaft's power, over ρA(ΩR)³; none.
+
+        The air gives the motion of all blades just this: a solution that says otherwise is refused.
+        """
+        del s
+        return []
 
 
-class Torsion:
+class Torsion(Freedom):
     def __init__(self, modes: int, functions: int, *, bends: bool = False) -> None:
         """bends: whether bending adds the moments of the swept tip's mass."""
         self.modes, self.functions, self._bends = modes, functions, bends
-        self.key: Hashable = "torsion", modes, functions, bends
+        self.states = tuple(("twist", k, h) for k in range(modes) for h in range(functions))
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
         """Of the equations in the head of this file."""
@@ -91,24 +135,15 @@ class Torsion:
                 out |= {("dynamic", k, h): dynamic[k][h], ("given", k, h): given[k][h]}
         return out
 
-    def declare(self, s: Structure) -> None:
-        """The coordinates q_kh."""
-        for k in range(self.modes):
-            for h in range(self.functions):
-                s.state(("twist", k, h))
-
-    def build(self, s: Structure) -> list[int]:
+    def build(self, s: Structure) -> None:
         """Columns of the elastic twist and of all rates of pitch, equations of torsion."""
-        z, free = s.states, list[int]()
         add_pitch_rates(s)
         for k in range(self.modes):
             for h in range(self.functions):
-                own = z["twist", k, h]
-                free.append(own)
+                own = s.states["twist", k, h]
                 s.column(TH, ("mode", k), h, 1.0, own)
                 s.column(RATE, ("mode", k), *rate_of(h), own)
                 self._balance(s, k, h)
-        return free
 
     def _balance(self, s: Structure, k: int, h: int) -> None:
         """The equation of one mode and one wave."""

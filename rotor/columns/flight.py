@@ -9,16 +9,15 @@ tilted disk, as (3.6) prints it, µ_x is µ and µ_z is 0; λ_i is then still sk
 """
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 
 from rotor.aero.bent_section import SLOPES
-from rotor.aero.disk import Disk
-from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, TrimState, TwistState
-from rotor.aero.inflow.interface import InflowTerms, SectionInterface, Wake
+from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState
+from rotor.aero.inflow.interface import InflowTerms, Wake
 from rotor.aero.problem import Problem, in_disk_axes, swirl_of
 from rotor.aero.section import (
     ALPHA,
@@ -38,9 +37,9 @@ from rotor.aero.section import (
     M,
 )  # fmt: skip
 from rotor.arrays import Array
-from rotor.columns.bending import bends, coordinates_of, freedoms_of, torque_terms
-from rotor.columns.blade import Freedom, Torsion, add_pitch_rates, add_rigid_blade
-from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
+from rotor.columns.bending import bends, coordinates_of, freedoms_of
+from rotor.columns.blade import Freedom, Torsion, add_pitch_rates, add_rigid_blade, power_of_air
+from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, wave_grid
@@ -76,39 +75,39 @@ class _StructureKey:
     trim: Trim
     blade: tuple[Hashable, ...]
     """The keys of `freedoms`."""
+    numbers: tuple[Hashable, ...]
     inflow: Hashable
     follows_rate: bool
     """Whether forces follow the rate of pitch."""
-    numbers: tuple[Hashable, ...] = field(compare=False)
+    section: tuple[tuple[tuple[int, int], ...], int, int]
+    """Pairs, channels and forces of the section."""
     freedoms: tuple[Freedom, ...] = field(compare=False)
     terms: InflowTerms = field(compare=False)
-    interface: SectionInterface = field(compare=False)
 
 
 @lru_cache(maxsize=64)
 def _structure(key: _StructureKey) -> Structure:
     """Atoms, columns and equations of a flight; see the head of this file."""
-    terms = key.terms
-    interface, name = key.interface, (key.trim, key.blade, key.inflow, key.follows_rate)
-    s = Structure(interface.pairs, interface.channels, interface.forces, name)
+    terms, s = key.terms, Structure(*key.section, key)
     for number in key.numbers:
         s.number(number)
     for state in STATE_NAMES:
         s.state(state)
-    for freedom in key.freedoms:
-        freedom.declare(s)
+    names = [name for freedom in key.freedoms for name in freedom.states]
+    for name in names:
+        s.state(name)
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
     derived = {name: s.quantity(name) for name in _DERIVED}
+    declare_equations(s, key.trim)
     add_rigid_blade(s, bends=bends(s))
     if key.follows_rate and not any(isinstance(own, Torsion) for own in key.freedoms):
         add_pitch_rates(s)
     s.column(UT, "one", SIN, 1.0, derived["mu_x"])
     s.column(UR, "one", COS, 1.0, derived["mu_x"])
-    s.column(UP, "one", STEADY, 1.0, derived["mu_z"])
-    add_equations(s, key.trim)
-    free = [s.states[name] for name in key.trim.unknowns]
     for freedom in key.freedoms:
-        free += freedom.build(s)
+        freedom.build(s)
+    _add_sums(s, key)
+    s.column(UP, "one", STEADY, 1.0, derived["mu_z"])
     terms.build(s)
     s.column(UT, SWIRL_SLOPE, STEADY, 1.0, derived["change of swirl"])
     for channel, name in terms.live:
@@ -116,10 +115,27 @@ def _structure(key: _StructureKey) -> Structure:
         s.column(channel, (name, "inflow"), STEADY, 1.0, derived["change of lambda0"])
     for channel, name in ((UT, SWIRL), *terms.live):  # Last, for their columns do not change.
         s.column(channel, name, STEADY, 1.0, ONE)
-    for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
-        s.measure(FZ, shape, wave)
-    torque_terms(s)
-    return s.finish(free)
+    return s.finish([s.states[name] for name in (*key.trim.unknowns, *names)])
+
+
+def _add_sums(s: Structure, key: _StructureKey) -> None:
+    """The equations of the trim, and what power is made of: C_H, C_Q, and of parts of the shaft's power those of twist.
+
+    Induced and profile power are C_Q + µ_x C_H − µ_z C_T less the power of the air on the blade's motion: from
+    U dD = U_T dF_x − U_P dF_z + U_R dF_r, r = U_T + u − µ_x sin ψ and U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ.
+    On a stand what the rotor pulls is among the parts too.
+    """
+    drag, torque, motion = power_of_air(s)
+    add_equations(s, key.trim, drag, torque)
+    damping = [term for freedom in key.freedoms for term in freedom.power(s)]
+    parts = torque + [(-share, i, j, q) for share, i, j, q in motion] + damping
+    mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
+    pull = [(share, mu_x, atom, q) for share, atom, _, q in drag] + [(-1.0, mu_z, ONE, s.measure(FZ, "one", STEADY))]
+    for name, terms in (
+        ("drag", drag), ("torque", torque), ("motion", motion), ("damping", damping), ("power", parts + pull),
+        ("power on a stand", parts),
+    ):  # fmt: skip
+        s.sum(name, terms)
 
 
 _DERIVED = (
@@ -131,40 +147,19 @@ SWIRL, SWIRL_SLOPE = "swirl", "swirl slope"
 """Shapes of the channel UT: −u, and its slope by λ0 (µ_z + λ0)."""
 
 
-@dataclass(frozen=True)
-class _ShapesKey:
-    """All that the functions along the blade depend on."""
-
-    structure: Structure
-    disk: Disk
-    hinge: float
-    problem: Problem = field(compare=False)
-    freedoms: tuple[Freedom, ...] = field(compare=False)
-
-    def __hash__(self) -> int:
-        return hash((self.structure, self.disk, self.hinge))
-
-
-@lru_cache(maxsize=32)
-def _shapes(key: _ShapesKey) -> Shapes:
-    problem, disk = key.problem, key.disk
-    values: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
-    for freedom in key.freedoms:
-        values |= freedom.shapes(problem)
-    values |= problem.inflow_terms.shapes()
-    return Shapes(key.structure, values, disk.dr)
-
-
-def flight_system(
-    problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCES, added: Sequence[Freedom] = ()
-) -> System:
-    """The equations of a design in forward flight, with further degrees of freedom of the blade."""
-    terms, freedoms = problem.inflow_terms, (*freedoms_of(problem), *added)
+def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCES) -> System:
+    """The equations of a design in forward flight."""
+    terms, freedoms, disk = problem.inflow_terms, (*freedoms_of(problem), *problem.freedoms), problem.disk
     values: dict[Hashable, float] = {**trim_numbers(problem)}
+    shapes: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
     for freedom in freedoms:
         values |= freedom.numbers(problem)
-    key = trim_of(problem.design), tuple(freedom.key for freedom in freedoms), terms.key, problem.stall is not None
-    structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms, problem.interface))
+        shapes |= freedom.shapes(problem)
+    section, blade = problem.interface, tuple(freedom.key for freedom in freedoms)
+    structure = _structure(_StructureKey(
+        trim_of(problem.design), blade, tuple(values), terms.key, problem.stall is not None,
+        (section.pairs, section.channels, section.forces), freedoms, terms,
+    ))  # fmt: skip
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
     tolerance = np.full(len(structure.equations), wanted.residual_tolerance * problem.scale)
@@ -179,17 +174,41 @@ def flight_system(
         limits = np.concatenate([limits, np.full(points, nodes.limit)])
     return System(
         structure=structure,
-        shapes=_shapes(_ShapesKey(structure, problem.disk, problem.flap.hinge, problem, freedoms)),
+        shapes=Shapes(structure, shapes | terms.shapes(), disk.dr),
         grid=grid,
         thin=grid if step == 1 else _grid(problem, structure, step),
-        section=problem.interface.section,
-        memory=problem.interface.memory,
+        section=section.section,
+        memory=section.memory,
         make=_Flow(problem, structure, terms),
         numbers=np.array([1.0, *values.values()]),
         tolerance=tolerance,
         limits=limits,
         nodes=nodes,
     )
+
+
+def check_freedoms(problem: Problem) -> None:
+    """Raise TypeError or ValueError for further freedoms that this blade cannot have, or that contradict others."""
+    if problem.design.hovering:
+        raise ValueError("There are no further freedoms in hover, which has one azimuth: give a speed.")
+    if problem.bending is not None:
+        raise ValueError("Blades that bend flap and lag by themselves: switch bending off, or give no freedoms.")
+    taken: tuple[set[Hashable], ...] = {*STATE_NAMES}, {*trim_numbers(problem)}, {"one", "r", "arm"}
+    for freedom in (*freedoms_of(problem), *problem.freedoms):
+        if not isinstance(freedom, Freedom):
+            raise TypeError(f"freedoms has {freedom!r:.80}: give instances of classes derived from rotor.Freedom")
+        try:
+            hash(freedom.key)
+        except TypeError as error:
+            raise TypeError(f"A field of {type(freedom).__name__} is no value ({error}): use tuples.") from None
+        for names, own in zip(taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True):
+            if again := names.intersection(own):
+                raise ValueError(f"{type(freedom).__name__} has another {min(again, key=str)!r}: give it another name.")
+            names.update(own)
+    s = flight_system(problem).structure
+    used = {name for own in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in own}
+    if unknown := used - taken[2]:
+        raise ValueError(f"No freedom has a shape {min(unknown, key=str)!r}: add it to shapes.")
 
 
 def _thinning(azimuths: int, least: int) -> int:
@@ -277,11 +296,19 @@ def state_of(structure: Structure, x: Array) -> TrimState:
 
 
 def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array, Array]:
-    """Trim state, coordinates of the elastic twist, those of bending and nodes of the inflow, flat; empty without."""
+    """Trim state, coordinates of the elastic twist, of all other freedoms and nodes of the inflow, flat."""
     first = structure.first_state + len(STATE_NAMES)
-    bending = first + len(structure.equations_of("twist"))
-    end = bending + len(structure.states_of("bend"))
-    return state_of(structure, x), x[first:bending], x[bending:end], x[structure.given :]
+    others = first + len(structure.equations_of("twist"))
+    return state_of(structure, x), x[first:others], x[others : structure.given], x[structure.given :]
+
+
+def disk_sums(point: Point) -> DiskSums:
+    """Thrust, H-force and torque at a point of a flight or of hover."""
+    s, z, q = point.system.structure, point.z, point.q
+    drag, torque, motion, damping = (
+        float(s.sums[name].value(z, q)[0]) for name in ("drag", "torque", "motion", "damping")
+    )
+    return DiskSums(float(q[s.measure(FZ, "one", STEADY)]), drag, torque, motion, damping)
 
 
 def elements_of(problem: Problem, point: Point) -> BladeElements:
@@ -307,11 +334,10 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
     bent = None
     if problem.bending is not None:
-        offset = c[UR] - flow.mu_x * disk.cos
         q, _ = coordinates_of(problem.bending, structure, point.z)
         modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
         lift = modes @ wave_grid(q.shape[1], c.shape[2]).at
-        bent = BentState(c[SLOPES[0] :], offset, lift)
+        bent = BentState(c[SLOPES[0] :], lift)
     beta = state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin
     return BladeElements(
         state=state, flow=flow, theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],

@@ -49,7 +49,7 @@ from rotor.columns.blade import Torsion
 from rotor.columns.trims import trim_numbers
 from rotor.compiled import compiled
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System
-from rotor.engine.terms import Shape, Structure
+from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY, wave_grid
 
 LIFT_CURVE_MACH = 0.3
@@ -208,10 +208,15 @@ def _structure(modes: int, gives_thrust: bool, cones: bool, numbers: tuple[Hasha
         s.number(number)
     collective, coning = s.state("collective"), s.state("coning")
     twist, free, n = Torsion(modes, 1), list[int](), s.numbers
-    twist.declare(s)
+    for name in twist.states:
+        s.state(name)
     s.column(TH, "one", STEADY, 1.0, collective)
     thrust = s.measure(FZ, "one", STEADY)
-    s.measure(FX, "r", STEADY)
+    torque = s.measure(FX, "r", STEADY)
+    for name in ("drag", "motion", "damping"):
+        s.sum(name, [])
+    for name in ("torque", "power", "power on a stand"):
+        s.sum(name, [(1.0, ONE, ONE, torque)])
     if gives_thrust:
         row = s.equation("thrust")
         s.term(row, 1.0, q=thrust)
@@ -223,7 +228,8 @@ def _structure(modes: int, gives_thrust: bool, cones: bool, numbers: tuple[Hasha
         s.term(row, -1.0, n["coning stiffness"], coning)
         s.term(row, -1.0, n["blade weight"])
         free.append(coning)
-    return s.finish(free + twist.build(s))
+    twist.build(s)
+    return s.finish(free + [s.states[name] for name in twist.states])
 
 
 def _nothing_made(x: Array) -> tuple[Array, Array, Live]:

@@ -22,15 +22,16 @@ leaves it out of the unknowns.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rotor.aero.elements import TrimState, Unknown
 from rotor.aero.problem import Problem
-from rotor.aero.section import FR, FX, FZ
-from rotor.columns.bending import FLAPPING_STATES, bends, torque_terms
+from rotor.aero.section import FZ
+from rotor.columns.bending import FLAPPING_STATES, bends
 from rotor.design.design import Design
-from rotor.engine.terms import ONE, Structure
-from rotor.engine.waves import COS, SIN, STEADY, times_wave
+from rotor.engine.terms import Structure
+from rotor.engine.waves import COS, SIN, STEADY
 
 
 @dataclass(frozen=True)
@@ -122,39 +123,37 @@ def trim_numbers(problem: Problem) -> dict[str, float]:
     }
 
 
-def drag_terms(s: Structure) -> list[tuple[float, int, int]]:
-    """H as a sum of factor · z · Q: (factor, atom, measure); F_r of a blade that bends holds its lean."""
-    across, along = s.measure(FX, "one", SIN), s.measure(FR, "one", COS)
-    terms = [(1.0, ONE, across), (1.0, ONE, along)]
-    if bends(s):
-        return terms
-    for wave, name in enumerate(FLAPPING_STATES):
-        terms += [(-share, s.states[name], s.measure(FZ, "one", both)) for both, share in times_wave(wave, COS)]
-    return terms
+def declare_equations(s: Structure, trim: Trim) -> None:
+    """The equations of a trim, without terms, but for those of flapping in the place of which a blade bends."""
+    for name in trim.equations:
+        if not (name in FLAPPING_STATES and bends(s)):
+            s.equation(name)
 
 
-def add_equations(s: Structure, trim: Trim) -> None:
-    """The equations of a trim; see the head of this file."""
-    z, q, drag = {**s.numbers, **s.states, **s.derived}, s.measure, drag_terms(s)
+def add_equations(
+    s: Structure, trim: Trim, drag: Sequence[tuple[float, int, int, int]], torque: Sequence[tuple[float, int, int, int]]
+) -> None:  # fmt: skip
+    """Their terms, see the head of this file; H and C_Q: of `power_of_air`."""
+    z, q = {**s.numbers, **s.states, **s.derived}, s.measure
     thrust = q(FZ, "one", STEADY)
     for name in trim.equations:
-        if name in FLAPPING_STATES and bends(s):  # With the equations of bending.
+        if name not in s.equations:
             continue
-        row = s.equation(name)
+        row = s.equations[name]
         match name:
             case "vertical" | "forward":
                 by_thrust, by_drag, sign, load = (
                     (z["cos"], z["sin"], 1.0, "weight") if name == "vertical" else (z["sin"], z["cos"], -1.0, "drag")
                 )
                 s.term(row, 1.0, by_thrust, q=thrust)
-                for share, atom, measure in drag:
+                for share, atom, _, measure in drag:
                     s.term(row, sign * share, by_drag, atom, measure)
                 s.term(row, -1.0, z[load])
             case "thrust":
                 s.term(row, 1.0, q=thrust)
                 s.term(row, -1.0, z["resultant"])
             case "torque":
-                for share, i, j, measure in torque_terms(s):
+                for share, i, j, measure in torque:
                     s.term(row, share, i, j, measure)
             case "coning":
                 s.term(row, 1.0, q=q(FZ, "arm", STEADY))

@@ -51,9 +51,11 @@ class Blade:
     mass: float
     """[kg]"""
     flap_spring: float = 0.0
-    """K of the spring at the flap hinge [N m/rad], as of an equivalent hinge of a hingeless blade."""
+    """K of the spring at the flap hinge [N m/rad]."""
     flap_rest: float = 0.0
     """Coning angle at which that spring is free of load [rad]: the built-in precone."""
+    hingeless: bool = False
+    """Whether hinge and spring stand for an elastic root; a blade that bends is then held at its clamp."""
     tip_sweep: float = 0.0
     """Sweep of the tip [rad], positive aft."""
     tip_sweep_start: float = 1.0

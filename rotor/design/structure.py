@@ -37,6 +37,8 @@ class BladeStructure:
     """EI in lag [N m²]"""
     lag_damper: float = 0.0
     """Of a linear damper at the lag hinge [N m s/rad]."""
+    lag_spring: float | None = None
+    """Of the root in lag [N m/rad]; None: a hinge is free, a hingeless root is held."""
 
     def __post_init__(self) -> None:
         bending = tuple(own for own in (self.flap_stiffness, self.lag_stiffness) if own)

@@ -7,12 +7,14 @@ the tension T(r) = Ω² ∫_r^R m ρ dρ,
     ½ ∫ m (ẇ² + v̇²) dr                                                                              =  ½ q̇ᵀ M q̇
 
 Source: Houbolt & Brooks, NACA TR 1346 (1958), without torsion, chordwise offsets of mass and tension. At an articulated
-root w = v = 0 and the slopes are free; at a hingeless one they vanish too. The axis is that of the steadily lagged
-blade: a hinge at e holds it at a distance y0 = e sin ζ from the shaft, which shortens the arm r by e (1 − cos ζ) only.
+root w = v = 0 and the slopes are free, or held by springs, ½ (K_f w'² + K_l v'²) more; at a hingeless one they vanish.
+The axis is that of the steadily lagged blade: a hinge at e holds it at a distance y0 = e sin ζ from the shaft, which
+shortens the arm r by e (1 − cos ζ) only.
 
 Finite elements with cubic (Hermite) polynomials; integrals by Gauss' rule.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -52,14 +54,14 @@ class BendingBeam:
     """[rad]"""
     angular_speed: float
     """[rad/s]"""
-    hingeless: bool
-    """Whether the first node holds the slopes too."""
+    springs: tuple[float, float]
+    """Stiffness of the root against slopes in flap and lag [N m/rad]: 0 of a hinge, infinite where they are held."""
 
 
 def bending_beam(
-    structure: BladeStructure, angular_speed: float, root: float, pitch: Pitch, *, hingeless: bool
+    structure: BladeStructure, angular_speed: float, root: float, pitch: Pitch, springs: tuple[float, float]
 ) -> BendingBeam:  # fmt: skip
-    """The blade from its hinge, or from where it is held, at `root` [m].
+    """The blade from its hinge, or from where it is held, at `root` [m]; springs: see `BendingBeam`.
 
     ValueError for a structure without stiffness in flap and lag.
     """
@@ -80,7 +82,7 @@ def bending_beam(
         structure.at(r, structure.lag_stiffness),
         pitch(r),
         angular_speed,
-        hingeless,
+        springs,
     )
 
 
@@ -132,7 +134,7 @@ def bending_modes(beam: BendingBeam, count: int) -> BendingModes:
     """The modes of lowest frequency, each with one unit of modal mass."""
     mass, stiffness = _matrices(beam)
     size = len(mass)
-    fixed = [0, 2, *([1, 3] if beam.hingeless else [])]
+    fixed = [0, 2, *(slope for slope, spring in zip((1, 3), beam.springs, strict=True) if math.isinf(spring))]
     free = np.setdiff1d(np.arange(size), fixed)
     squares, vectors = eigh(
         stiffness[np.ix_(free, free)], mass[np.ix_(free, free)], subset_by_index=[0, count - 1], driver="gvx"
@@ -167,6 +169,8 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
     add(stiffness, -(beam.angular_speed**2) * beam.mass, beam.tension, forward, 2, 2)
     add(stiffness, none, none, both, 0, 2)
     add(stiffness, none, none, both, 2, 0)
+    for slope, spring in zip((1, 3), beam.springs, strict=True):
+        stiffness[slope, slope] += spring if math.isfinite(spring) else 0.0
     return mass, stiffness
 
 
@@ -174,7 +178,7 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
 def blade_bending_modes(
     structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...],
     count: tuple[int, int],
-    hingeless: bool,
+    springs: tuple[float, float],
 ) -> BendingModes:  # fmt: skip
     """The modes of a blade whose pitch [rad] is linear between stations [m], (stations, angles).
 
@@ -185,7 +189,7 @@ def blade_bending_modes(
     def at(r: Array) -> Array:
         return np.interp(r, stations, angles)
 
-    beam = bending_beam(structure, angular_speed, root, at, hingeless=hingeless)
+    beam = bending_beam(structure, angular_speed, root, at, springs)
     return lowest_by_kind(bending_modes(beam, 4 * max(count)), *count)
 
 

@@ -364,10 +364,13 @@ def _field_slopes(point: Point, force: int) -> Array:
 
 def _coefficient_slopes(point: Point) -> csr_matrix:
     """∂ of the wave coefficients that columns have, (states and derived atoms, coefficients)."""
-    by_atom, order = point.system.structure.by_atom
-    _, i, j, factor = point.system.structure.column_arrays
-    by_atom.data = np.concatenate([factor * point.z[j], factor * point.z[i]])[order]
-    return by_atom
+    structure, z = point.system.structure, point.z
+    _, i, j, factor = structure.column_arrays
+    order, indices, first = structure.by_atom
+    values = np.concatenate([factor * z[j], factor * z[i]])[order]
+    own = csr_matrix((len(first) - 1, len(structure.coefficient_places)))
+    own.data, own.indices, own.indptr = values, indices, first  # Their check takes longer than a product.
+    return own
 
 
 def _measure_slopes(point: Point) -> Array:

@@ -5,18 +5,17 @@
     measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
     terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
 
-A structure is made once for each combination of trim, blade and wake. `finish` works out all places in the matrices.
+A structure is made once for each combination of trim, blade and wake, and shared: once finished nothing of it changes.
 """
 
 from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from numpy.typing import NDArray
 
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array, Integers, fix, fixed_property
 from rotor.compiled import compiled
 from rotor.engine.waves import STEADY, products, times_wave
 
@@ -46,52 +45,65 @@ def _slopes(
             by_z[row[k], j - skipped] += factor[k] * z[i] * own
 
 
+Term = tuple[int, int, int, int, float] | tuple[int, int, int, int, float, int]
+"""(equation, measure, z_i, z_j, factor), and a number by which it is multiplied."""
+
+
+Addend = tuple[float, int, int, int] | tuple[float, int, int, int, int]
+"""(factor, z_i, z_j, Q) and a number: of a sum."""
+
+
 @dataclass(frozen=True, eq=False)
 class Terms:
     """A list of terms: what equations and other measures are sums of."""
 
     row: Integers
-    """The equation of each term, (terms,), as the next four."""
+    """The equation of each term, (terms,), as the next five."""
     measure: Integers
     first: Integers
     """z_i"""
     second: Integers
     """z_j"""
+    number: Integers
+    """The atom of a number, or 1: a third factor, which no state changes."""
     factor: Array
     rows: int
     """Number of equations."""
 
     @classmethod
-    def of(cls, terms: Sequence[tuple[int, int, int, int, float]], rows: int) -> "Terms":
-        """terms: (equation, measure, z_i, z_j, factor)."""
-        row, measure, first, second = np.array([term[:4] for term in terms], dtype=np.int64).reshape(-1, 4).T.copy()
-        return cls(row, measure, first, second, np.array([term[4] for term in terms], dtype=np.float64), rows)
+    def of(cls, terms: Sequence[Term], rows: int) -> "Terms":
+        """Their list; rows: number of equations."""
+        places = [(*term[:4], term[5] if len(term) > 5 else ONE) for term in terms]
+        columns = np.array(places, dtype=np.int64).reshape(-1, 5).T.copy()
+        return cls(*columns, factor=np.array([term[4] for term in terms], dtype=np.float64), rows=rows)
 
     def value(self, z: Array, q: Array) -> Array:
         """(rows,)"""
-        weights = self.factor * z[self.first] * z[self.second] * q[self.measure]
+        weights = self.factor * z[self.number] * z[self.first] * z[self.second] * q[self.measure]
         return summed(self.row, weights, self.rows)
 
     def slopes(self, z: Array, q: Array, first_atom: int) -> tuple[Array, Array]:
         """∂ by the measures, (rows, measures), and by the atoms from one on, (rows, atoms)."""
         by_q, by_z = np.zeros((self.rows, len(q))), np.zeros((self.rows, len(z) - first_atom))
-        _slopes(self.row, self.measure, self.first, self.second, self.factor, z, q, first_atom, by_q, by_z)
+        factor = self.factor * z[self.number]
+        _slopes(self.row, self.measure, self.first, self.second, factor, z, q, first_atom, by_q, by_z)
         return by_q, by_z
 
-    @cached_property
+    @fixed_property
     def summing(self) -> Integers:
         """The equations with measures other than 1."""
         return np.unique(self.row[self.measure > 0])
 
     def stacked(self, other: "Terms") -> "Terms":
         """Its rows, then those of another."""
-        pairs = ((getattr(self, name), getattr(other, name)) for name in ("measure", "first", "second", "factor"))
+        names = "measure", "first", "second", "number", "factor"
+        pairs = ((getattr(self, name), getattr(other, name)) for name in names)
         row = np.concatenate([self.row, other.row + self.rows])
         return Terms(row, *(np.concatenate(pair) for pair in pairs), rows=self.rows + other.rows)
 
     def transposed(self, v: Array, z: Array, q: Array) -> tuple[Array, Array]:
         """`slopes` times weights on the rows from the left, (rows,) → (measures,), (atoms,)."""
-        weights = self.factor * v[self.row]
+        weights = self.factor * z[self.number] * v[self.row]
         first, second, own = z[self.first], z[self.second], q[self.measure]
         by_z = summed(self.first, weights * second * own, len(z)) + summed(self.second, weights * first * own, len(z))
         return summed(self.measure, weights * first * second, len(q)), by_z
@@ -137,11 +149,12 @@ class Structure:
         """By channel, and by force."""
         self.columns = list[tuple[int, int, int, int, int, float]]()
         self.measures = dict[tuple[int, int, int], int]()
-        self.terms = list[tuple[int, int, int, int, float]]()
+        self.terms = list[Term]()
         self.equations = dict[Hashable, int]()
+        self.sums = dict[str, Terms]()
         self.free = np.zeros(0, dtype=np.int64)
         """The atoms solved for, (equations,)."""
-        self.waves = 1
+        self.waves, self.finished = 1, False
 
     def number(self, name: Hashable) -> int:
         """The atom of a number that the design gives."""
@@ -168,26 +181,36 @@ class Structure:
                 self.columns.append((channel, row, product, i, j, factor * share))
 
     def measure(self, force: int, shape: Shape, wave: int) -> int:
-        """Q_k: the mean of Σ Ψ w F Δr."""
+        """Q_k: the mean of Σ Ψ w F Δr; of a finished structure one that it has."""
         own = self.weights[force]
+        if self.finished:
+            return self.measures[force, own[shape], wave]
         key = force, own.setdefault(shape, len(own)), wave
         return self.measures.setdefault(key, 1 + len(self.measures))
 
     def equation(self, name: Hashable) -> int:
         """The number of a new equation."""
-        assert name not in self.equations
+        if name in self.equations:
+            raise ValueError(f"There is an equation {name!r} already: give this one another name.")
         return self.equations.setdefault(name, len(self.equations))
 
-    def term(self, equation: int, factor: float, i: int = ONE, j: int = ONE, q: int = 0) -> None:
-        """Add factor · z_i z_j Q_q to an equation."""
-        self.terms.append((equation, q, i, j, factor))
+    def term(self, equation: int, factor: float, i: int = ONE, j: int = ONE, q: int = 0, number: int = ONE) -> None:
+        """Add factor · z_i z_j Q_q to an equation, times a number."""
+        self.terms.append((equation, q, i, j, factor, number))
+
+    def sum(self, name: str, terms: Sequence[Addend]) -> None:
+        """A further measure."""
+        numbers = [term[4] if len(term) > 4 else ONE for term in terms]
+        self.sums[name] = Terms.of([(0, t[3], t[1], t[2], t[0], own) for t, own in zip(terms, numbers, strict=True)], 1)
 
     def finish(self, free: Sequence[int]) -> "Structure":
         """free: the atoms solved for, as many as there are equations."""
-        assert len(free) == len(self.equations), (len(free), self.equations)
+        if len(free) != len(self.equations):
+            raise ValueError(f"{len(free)} states are solved for with {len(self.equations)} equations: give each one.")
         self.free = np.array(free, dtype=np.int64)
         highest = max([0, *(column[2] for column in self.columns), *(key[2] for key in self.measures)])
-        self.waves = highest + 1 + highest % 2
+        self.waves, self.finished = highest + 1 + highest % 2, True
+        fix(self.free)
         return self
 
     @property
@@ -199,15 +222,15 @@ class Structure:
     def atoms(self) -> int:
         return self.given + len(self.derived)
 
-    @cached_property
+    @fixed_property
     def first_state(self) -> int:
         return 1 + len(self.numbers)
 
-    @cached_property
+    @fixed_property
     def residual(self) -> Terms:
         return Terms.of(self.terms, len(self.equations))
 
-    @cached_property
+    @fixed_property
     def kinds(self) -> tuple[list[Hashable], list[Hashable]]:
         """Of every equation and of every state solved for: the first word of its name, or the name."""
         by_atom = {atom: name for name, atom in self.states.items()}
@@ -223,7 +246,7 @@ class Structure:
         """Places of the states of a kind among those solved for."""
         return np.flatnonzero([name == kind for name in self.kinds[1]])
 
-    @cached_property
+    @fixed_property
     def first_row(self) -> Integers:
         """Row of the first shape of each channel among all shapes, (channels + 1,)."""
         return np.cumsum([0, *(len(own) for own in self.shapes)])
@@ -233,54 +256,49 @@ class Structure:
         own = self.shapes[channel]
         return self.first_row[channel] + np.array([own[name] for name in names], dtype=np.int64)
 
-    @cached_property
+    @fixed_property
     def first_weight(self) -> Integers:
         """The same of the measures by force, (forces + 1,)."""
         return np.cumsum([0, *(len(own) for own in self.weights)])
 
-    @cached_property
+    @fixed_property
     def column_arrays(self) -> tuple[Integers, Integers, Integers, Array]:
         """Wave coefficient, z_i, z_j and factor of each column, (columns,) each."""
         columns = np.array(self.columns, dtype=float).reshape(-1, 6)
         channel, row, wave, i, j = columns[:, :5].astype(np.int64).T
         return (self.first_row[channel] + row) * self.waves + wave, i, j, columns[:, 5].copy()
 
-    @cached_property
+    @fixed_property
     def measure_places(self) -> Integers:
         """Place of each measure among all weights times all waves, (measures,)."""
         force, row, wave = self.measure_keys.T
         return (self.first_weight[force] + row) * self.waves + wave
 
-    @cached_property
+    @fixed_property
     def measure_keys(self) -> Integers:
         """Force, number of the weight among its own, and wave of each measure, (measures, 3)."""
         return np.array(list(self.measures), dtype=np.int64).reshape(-1, 3)
 
-    @cached_property
+    @fixed_property
     def _coefficients(self) -> tuple[Integers, Integers]:
         """The wave coefficients that columns have, and which of them each column adds to."""
         return np.unique(self.column_arrays[0], return_inverse=True)
 
-    @cached_property
-    def by_atom(self) -> tuple[csr_matrix, Integers]:
-        """∂(wave coefficients)/∂z in rows of states and derived atoms, whose values change while places do not.
+    @fixed_property
+    def by_atom(self) -> tuple[Integers, NDArray[np.int32], NDArray[np.int32]]:
+        """∂(wave coefficients)/∂z as a sparse matrix in rows of states and derived atoms.
 
-        Beside it where its values stand among the columns by their z_i, then by their z_j.
+        Where its values stand among the columns by their z_i, then by their z_j; its columns; where each row begins.
         """
         _, column = self._coefficients
         _, i, j, _ = self.column_arrays
         atoms, column = np.concatenate([i, j]) - self.first_state, np.tile(column, 2)
         order = np.argsort(atoms, kind="stable")
         order = order[atoms[order] >= 0]
-        rows = self.atoms - self.first_state
-        first = np.searchsorted(atoms[order], np.arange(rows + 1))
-        places = csr_matrix(
-            (np.zeros(len(order)), column[order].astype(np.int32), first.astype(np.int32)),
-            (rows, len(self._coefficients[0])),
-        )
-        return places, order
+        first = np.searchsorted(atoms[order], np.arange(self.atoms - self.first_state + 1))
+        return order, column[order].astype(np.int32), first.astype(np.int32)
 
-    @cached_property
+    @fixed_property
     def coefficient_places(self) -> Integers:
         """The wave coefficients that columns have, among all of all shapes."""
         return self._coefficients[0]
@@ -294,7 +312,7 @@ class Structure:
         rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and (self.shapes[c] or c in further)]
         return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
-    @cached_property
+    @fixed_property
     def blocks(self) -> Blocks:
         """A block for every force with measures and channel with columns that change with the states."""
         number, factor = products(self.waves)

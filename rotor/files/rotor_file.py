@@ -189,7 +189,8 @@ def _rotor(
     precone = None
     if hub == "gimballed" or main.has("precone_deg"):
         precone = math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
-    if precone is not None and hub not in ("gimballed", "teetering", "hingeless"):
+    sprung = hub == "hingeless" or (hub == "articulated" and given.has("flap_spring_nm_rad"))
+    if precone is not None and not sprung and hub not in ("gimballed", "teetering"):
         raise main.fail("precone_deg", f"precone_deg on a hub that is {hub!r}: its blades cone freely, so leave it out")
     blade = _blade(main, given, radius, own, hub)
     chord = float(blade.chord(0.75))
@@ -201,7 +202,7 @@ def _rotor(
         angular_speed=_angular_speed(main, radius),
         reference_chord=main.number("reference_chord_m", chord, low=0.005, high=3.0, unit="m"),
         builtin_twist=_twist(given, twist_name),
-        precone=None if hub == "hingeless" else precone,
+        precone=None if sprung else precone,
     )
 
 
@@ -239,8 +240,11 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
     if len(chords) == 1:
         chords = chords * len(stations)
     _ascending(given, "chord_r", stations, "chord_m", chords)
-    if hub != "hingeless" and given.has("flap_spring_nm_rad"):
-        raise given.fail("flap_spring_nm_rad", f'flap_spring_nm_rad on a hub that is {hub!r}: write hub = "hingeless"')
+    sprung = hub == "hingeless" or given.has("flap_spring_nm_rad")
+    if sprung and hub not in ("articulated", "hingeless"):
+        raise given.fail(
+            "flap_spring_nm_rad", f"flap_spring_nm_rad on a hub that is {hub!r}: write articulated or hingeless"
+        )
     mass, inertia, moment = _masses(given, radius - hinge)
     sweep = given.number("tip_sweep_deg", 0.0, low=-60.0, high=60.0, unit="°")
     return Blade(
@@ -252,12 +256,9 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         flap_inertia=inertia,
         flap_static_moment=moment,
         mass=mass,
-        flap_spring=given.number("flap_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad")
-        if hub == "hingeless"
-        else 0.0,
-        flap_rest=math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
-        if hub == "hingeless"
-        else 0.0,
+        flap_spring=given.number("flap_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad") if sprung else 0.0,
+        flap_rest=math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°")) if sprung else 0.0,
+        hingeless=hub == "hingeless",
         tip_sweep=math.radians(sweep),
         tip_sweep_start=given.number("tip_sweep_start_r", *(() if sweep else (1.0,)), low=0.3, high=1.0, unit="r/R"),
         surface_drag=given.number("surface_drag", 1.0, low=0.5, high=3.0),
@@ -298,6 +299,9 @@ def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure 
         flap_stiffness=columns.get("flap_stiffness_nm2", ()),
         lag_stiffness=columns.get("lag_stiffness_nm2", ()),
         lag_damper=table.number("lag_damper_nm_s_rad", 0.0, low=0.0, high=1e6, unit="N m s/rad"),
+        lag_spring=table.number("lag_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad")
+        if table.has("lag_spring_nm_rad")
+        else None,
     )
     table.finish()
     return structure

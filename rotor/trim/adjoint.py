@@ -19,14 +19,11 @@ from rotor.aero.inflow.local_momentum import BALANCED
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.columns.bending import bending_work, bends, torque_terms
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
-from rotor.columns.trims import drag_terms
 from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
-from rotor.engine.terms import ONE, Structure, Terms
-from rotor.engine.waves import COS, SIN, STEADY
+from rotor.engine.terms import Terms
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
 from rotor.trim.newton import LinearisedTrim, first_point
@@ -97,7 +94,7 @@ class _Linear:
     @property
     def power_terms(self) -> Terms:
         """Induced and profile power in terms of the trim's equations."""
-        return _power_terms(self.point.system.structure)
+        return self.point.system.structure.sums["power"]
 
     @cached_property
     def _linearised(self) -> tuple[Factors, Array]:
@@ -208,46 +205,17 @@ class Adjoint(_Linear):
     def total_terms(self) -> Terms:
         """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
         on_stand = self.problem.design.condition.stand is not None
-        return _stand_terms(self.point.system.structure) if on_stand else self.power_terms
+        return self.point.system.structure.sums["power on a stand"] if on_stand else self.power_terms
 
 
 def _linearised(solution: Solution) -> LinearisedTrim:
     """The equations at a solution that came without them, from another process."""
-    problem = trim_problem(solution.design)
+    problem = trim_problem(solution.design, solution.freedoms)
     if solution.design.hovering:
         return hover(problem, solution.start).linear
     system = flight_system(problem)
     x = first_point(problem, system, solution.start)
     return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
-
-
-@lru_cache(maxsize=64)
-def _power_terms(s: Structure) -> Terms:
-    """Induced and profile power over ρA(ΩR)³ of a trim or a hovering rotor: C_Q + µ_x C_H − µ_z C_T − Σ (r − e) β' F_z,
-    of a blade that bends with its work, Σ (w' F_z − v' F_x) with rates w' and v', in place of the last.
-
-    From U dD = U_T dF_x − U_P dF_z + U_R dF_r, r = U_T + u − µ_x sin ψ and U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ.
-    """
-    rows = [(0, measure, i, j, share) for share, i, j, measure in torque_terms(s)]
-    if "mu_x" in s.derived:
-        mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
-        rows += [(0, measure, mu_x, atom, share) for share, atom, measure in drag_terms(s)]
-        rows += [(0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0)]
-        if bends(s):
-            return Terms.of(rows + [(0, measure, i, j, -share) for share, i, j, measure in bending_work(s)], 1)
-        rows += [
-            (0, s.measure(FZ, "arm", SIN), s.states["flap_1c"], ONE, 1.0),
-            (0, s.measure(FZ, "arm", COS), s.states["flap_1s"], ONE, -1.0),
-        ]
-    return Terms.of(rows, 1)
-
-
-@lru_cache(maxsize=64)
-def _stand_terms(s: Structure) -> Terms:
-    """Induced, profile and propulsive power over ρA(ΩR)³."""
-    work = bending_work(s) if bends(s) else []
-    rows = torque_terms(s) + [(-share, i, j, measure) for share, i, j, measure in work]
-    return Terms.of([(0, measure, i, j, share) for share, i, j, measure in rows], 1)
 
 
 @lru_cache(maxsize=4)

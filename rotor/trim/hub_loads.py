@@ -159,7 +159,7 @@ def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
     """Of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
 
     (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and
-    forward; at a hinge they vanish but for that of the damper, up to what the modes leave and small angles neglect.
+    forward; at a hinge they are those of springs and damper, up to what the modes leave and small angles neglect.
     """
     b, disk, forces = problem.bending, problem.disk, point.forces
     assert b is not None

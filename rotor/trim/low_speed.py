@@ -14,6 +14,7 @@ climb hover is that at the same rate of climb.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -21,6 +22,7 @@ from rotor.aero.inflow import Wake, inflow_model
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
+from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.trim.forward import SLOWEST, with_course
 from rotor.trim.hover import hover
@@ -74,9 +76,9 @@ def inflow_ratio(mu: float) -> float:
     return math.sqrt(1.0 / (math.sqrt(half**2 + 1.0) + half))
 
 
-def trim_problem(design: Design) -> Problem:
-    """The design on its grid, with the inflow that its models choose for low speed."""
-    problem, joined = with_course(build_problem(design)), joined_hover(design)
+def trim_problem(design: Design, freedoms: Sequence[Freedom] = ()) -> Problem:
+    """The design on its grid with further freedoms, and the inflow that its models choose for low speed."""
+    problem, joined = replace(with_course(build_problem(design)), freedoms=tuple(freedoms)), joined_hover(design)
     if joined is None:
         return problem
     share, difference = joined

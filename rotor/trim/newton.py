@@ -58,7 +58,7 @@ class Guess:
     elastic: Array | None = None
     """Coordinates of the elastic twist, (modes, functions)."""
     bending: Array | None = None
-    """Coordinates of bending but for those in `state`, flat."""
+    """Coordinates of bending but for those in `state`, and of further freedoms, flat."""
     inflow: Array | None = None
     """Nodes of an inflow that answers the load."""
     inflow_kind: Hashable = None
@@ -120,6 +120,14 @@ class TrimResult:
         return LinearisedTrim(self.problem, point)
 
     @property
+    def freedom_states(self) -> dict[str, float]:
+        """States of `Problem.freedoms` by name."""
+        states, own = self.point.system.structure.states, dict[str, float]()
+        for freedom in self.problem.freedoms:
+            own |= {str(name): float(self.point.x[states[name]]) for name in freedom.states}
+        return own
+
+    @property
     def guess(self) -> Guess:
         """A start for trims nearby."""
         if self.problem.design.hovering:
@@ -162,9 +170,8 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
         inflow = terms.start()
     given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
-    bends = len(system.structure.states_of("bend"))
-    if start.bending is not None and len(start.bending) == bends:
-        others[:bends] = start.bending
+    if start.bending is not None and len(start.bending) == len(others):
+        others[:] = start.bending
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
 
 

@@ -51,8 +51,9 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     climb = weight * problem.climb * watts
     if design.condition.stand is not None:
         parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
-    tail, _ = tail_power(design, induced + profile + parasite + climb)
-    return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb)
+    damping = total.damping * watts
+    tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
+    return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
 
 
 def _around(one: Array, other: Array) -> Array:

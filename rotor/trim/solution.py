@@ -23,6 +23,7 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array, Booleans
+from rotor.columns.blade import Freedom
 from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
@@ -201,10 +202,12 @@ class PowerBudget:
     """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
     climb: float = 0.0
     """W V_c, negative in descent"""
+    damping: float = 0.0
+    """What the dampers of `Solution.freedoms` take."""
 
     @property
     def main_rotor(self) -> float:
-        return self.induced + self.profile + self.parasite + self.climb
+        return self.induced + self.profile + self.parasite + self.climb + self.damping
 
     @property
     def total(self) -> float:
@@ -264,11 +267,15 @@ class Solution:
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
+    freedoms: tuple[Freedom, ...] = ()
+    """Those of the blade that `solve` was given beside the design's."""
+    freedom_states: dict[str, float] = field(default_factory=dict[str, float])
+    """Their states by name."""
     find_hub_loads: "Callable[[Solution], HubLoads | None] | None" = None
     """What `hub_loads` is computed by: it solves with other wakes."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None)}
+        return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None, structure=None)}
 
     def without_linear(self) -> "Solution":
         """The same without its linearisation, 0.7 MB less: for many that are kept as starts."""
@@ -284,7 +291,8 @@ class Solution:
             state += f" Caveats: {', '.join(caveat.name for caveat in self.caveats)}."
         power = "power: none, the rotor is not in trim"
         if self.converged:
-            parts = ("induced", "profile", "parasite", *(("climb",) if self.power.climb else ()), "tail")
+            others = [name for name in ("climb", "damping") if getattr(self.power, name)]
+            parts = ("induced", "profile", "parasite", *others, "tail")
             kilowatts = ", ".join(f"{part} {getattr(self.power, part) / 1e3:.1f}" for part in parts)
             power = f"power {self.power.total / 1e3:.1f} kW: {kilowatts}"
         return f"{self.design}\n{state}\n{power}"
@@ -376,8 +384,10 @@ class Solution:
                 "profile": power.profile,
                 "parasite": power.parasite,
                 "climb": power.climb,
+                **({"damping": power.damping} if self.freedoms else {}),
                 "tail": power.tail,
             },
+            **({"freedoms": self.freedom_states} if self.freedoms else {}),
             "ct": self.ct,
             "cp": self.cp,
             "ct_over_sigma": self.ct_over_sigma,
@@ -431,9 +441,11 @@ class Solution:
     def save(self, path: str | Path) -> None:
         """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back.
 
-        ValueError for the suffix of another format.
+        ValueError for the suffix of another format, and with freedoms, which no file holds.
         """
         check_suffix(path, ".json")
+        if self.freedoms:
+            raise ValueError("a design file holds no freedoms of the blade: write to_dict() of this solution instead")
         record = {**self.design.to_dict(), "solution": self.to_dict()}
         write_whole(path, json.dumps(record, indent=2, allow_nan=False) + "\n")
 

@@ -2,14 +2,17 @@
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
 from rotor.aero.display import areas, as_asked, unsteady_part
-from rotor.aero.elements import BladeElements, disk_sums
+from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
 from rotor.blas_threads import one_blas_thread
+from rotor.columns.blade import Freedom
+from rotor.columns.flight import check_freedoms, disk_sums
 from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
 from rotor.trim.caveats import caveats
@@ -25,18 +28,29 @@ from rotor.trim.validity import failure_sentence, implausible, vortex_ring
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
 
+_ENERGY = 1e-6
+"""Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
+
 
 @one_blas_thread()
-def solve(design: Design, start: Solution | Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> Solution:
+def solve(
+    design: Design, start: Solution | Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS, *,
+    freedoms: Sequence[Freedom] = (),
+) -> Solution:  # fmt: skip
     """Trim the design; `start` is any earlier solution, or a guess, from which the iteration begins.
 
+    freedoms: of the blade, beside those of the design, in forward flight with blades that do not bend.
+
     Returns for every design: one that does not trim comes back with `Status.NOT_CONVERGED` and one sentence. Among
-    several trims of a design the one of least power is meant. TypeError for a design or a start of another type.
+    several trims of a design the one of least power is meant. TypeError for a design, a start or a freedom of another
+    type; ValueError for freedoms where there can be none, or whose equations and `power` contradict their columns.
     """
     begin = time.perf_counter()
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
-    problem = trim_problem(require_design(design))
+    problem = trim_problem(require_design(design), freedoms)
+    if freedoms:
+        check_freedoms(problem)
     if vortex_ring(design):  # There is no steady wake: a state near it.
         once = replace(DEFAULT_OPTIONS, max_passes=1)
         near = hover(problem) if design.hovering else newton(problem, first_guess(problem), once)
@@ -76,10 +90,16 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
 
 def _assemble(result: TrimResult, begin: float) -> Solution:
     problem, design, elements = result.problem, result.problem.design, result.linear.elements
-    total = disk_sums(problem.disk, elements)
+    total = disk_sums(result.linear.point)
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
     power = power_budget(problem, elements, total)
+    work, said = (1e-3 * own * design.power_unit for own in (total.motion, total.damping))
+    if result.converged and problem.freedoms and 1e3 * abs(work - said) > _ENERGY * abs(power.main_rotor):
+        raise ValueError(
+            f"The air gives the motion of the blades {work:.4g} kW, and the freedoms' power says {said:.4g} kW: make "
+            "their columns, equations and power agree."
+        )
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
@@ -120,6 +140,8 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         start=result.guess,
         wake_course=course_of(problem),
         linear=result.linear,
+        freedoms=problem.freedoms,
+        freedom_states=result.freedom_states,
         find_hub_loads=partial(hub_loads, solve=solve),
     )
 

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
+from rotor.aero.disk import Disk
+from rotor.aero.elements import STATE_NAMES, BladeElements, DiskSums, TrimState
 from rotor.aero.problem import Problem
 from rotor.arrays import Array
 from rotor.columns.flight import elements_of, flight_system
@@ -22,6 +23,14 @@ def point_at(problem: Problem, state: TrimState) -> Point:
 def elements_at(problem: Problem, state: TrimState) -> BladeElements:
     """The blade elements there."""
     return elements_of(problem, point_at(problem, state))
+
+
+def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
+    """Thrust, H-force and torque of a blade that only flaps, summed over its elements."""
+    width = disk.dr / len(disk.psi)
+    lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
+    drag = across @ disk.sin + (along - elements.beta * lift) @ disk.cos
+    return DiskSums(float(lift.sum()), float(drag), float(disk.r * width @ elements.fx.sum(axis=1)))
 
 
 def check_jacobian(problem: Problem, state: TrimState) -> None:

@@ -84,7 +84,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_the_api_is_small():
     assert dir(rotor) == sorted(rotor.__all__)
-    assert len(dir(rotor)) <= 29
+    assert len(dir(rotor)) <= 30
     assert rotor.__version__[0].isdigit()
     assert (ROOT / "rotor" / "py.typed").exists()
     assert (ROOT / "explorer" / "py.typed").exists()

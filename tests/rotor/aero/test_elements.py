@@ -7,19 +7,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import TrimState, disk_sums
+from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
+from rotor.columns.flight import disk_sums as sums_at
 from rotor.columns.flight import elements_of
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.power import hub_moment
-from tests.rotor.check_jacobian import elements_at, point_at
+from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 
@@ -100,7 +101,8 @@ def test_the_residuals_are_sums_over_the_elements():
     """Carried weight, pulled drag and flap moments from the forces of all elements."""
     p = problem(mu=0.2)
     point, e = point_at(p, STATE), elements_at(p, STATE)
-    total = disk_sums(p.disk, e)
+    total, own = disk_sums(p.disk, e), sums_at(point)
+    assert_allclose((own.thrust, own.drag, own.torque), (total.thrust, total.drag, total.torque), rtol=1e-12)
     cos, sin = math.cos(STATE.shaft_tilt), math.sin(STATE.shaft_tilt)
     moment = p.arm * p.disk.dr @ e.fz / len(p.disk.psi)
     flap = p.flap

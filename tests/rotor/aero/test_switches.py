@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import dblquad
 
 from rotor.__main__ import main
-from rotor.aero.elements import TrimState, disk_sums
+from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.local_momentum import GAIN
@@ -30,7 +30,7 @@ from rotor.study.series import PARTS, waterfall, waterfall_steps
 from rotor.trim.newton import SolverOptions
 from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import elements_at, point_at
+from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 

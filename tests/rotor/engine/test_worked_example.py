@@ -19,8 +19,12 @@ def test_the_worked_example_flaps_as_its_loads_say_and_its_jacobian_is_exact():
     assert len(CODE.group(1).splitlines()) <= 40
     names: dict[str, Any] = {}
     exec(compile(CODE.group(1), "CONTRIBUTING.md", "exec"), names)
-    point, problem, system = names["found"], names["problem"], names["system"]
+    linear = names["solution"].require().linear
+    point, problem, system = linear.point, linear.problem, linear.point.system
     assert point.size <= 1.0
+    assert names["beta_2c"] == point.x[system.structure.states["flap_2c"]]
+    power = names["solution"].power
+    assert_allclose(power.shaft, power.main_rotor, rtol=1e-9)
     disk, states = problem.disk, system.structure.states
     moment = problem.arm * disk.dr @ point.forces[FZ]
     for name, wave in (("flap_2c", np.cos), ("flap_2s", np.sin)):

@@ -186,15 +186,35 @@ def test_a_bad_test_is_one_sentence(rotor: str, mu: float, stand: dict[str, floa
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ('hub = "articulated"\nflap_spring_nm_rad = 5.0', "flap_spring_nm_rad on a hub that is 'articulated'"),
+        ('hub = "gimballed"\nflap_spring_nm_rad = 5.0', "flap_spring_nm_rad on a hub that is 'gimballed'"),
+        ('hub = "articulated"\nprecone_deg = 2.5', "precone_deg on a hub that is 'articulated'"),
         ('hub = "hingeless"', "has no flap_spring_nm_rad"),
     ],
 )
-def test_a_spring_belongs_to_a_hingeless_hub(line: str, said: str):
+def test_a_spring_belongs_to_a_hinge_of_its_own(line: str, said: str):
     text = asset_path("bo105.toml").read_text(encoding="utf-8")
     text = re.sub(r"^(flap_spring_nm_rad|precone_deg|hub) = .*\n", "", text, flags=re.M)
     with pytest.raises(ValueError, match=said):
         read_aircraft("own.toml", {"own.toml": text.replace("[main_rotor]", f"[main_rotor]\n{line}", 1)})
+
+
+def test_a_spring_at_the_offset_hinge_of_an_articulated_hub():
+    """ν² = 1 + eS/I + K/IΩ² by hand, and a rigid blade that cones between its rest and where it would without."""
+    text = asset_path("gazelle.toml").read_text(encoding="utf-8")
+    given = "flap_spring_nm_rad = 20000.0\nprecone_deg = 1.0"
+    files = {"own.toml": text.replace("[main_rotor]", f"[main_rotor]\n{given}", 1)}
+    sprung, free = read_aircraft("own.toml", files).rotor, shipped_aircraft("gazelle").rotor
+    blade = sprung.blade
+    assert not blade.hingeless
+    by_hand = 20000.0 / (blade.flap_inertia * sprung.angular_speed**2)
+    assert by_hand > 0.005
+    assert_allclose(sprung.flap_frequency_squared - free.flap_frequency_squared, by_hand, rtol=1e-9)
+    assert_allclose(math.degrees(blade.flap_rest), 1.0)
+    design = make_design(rotor="gazelle", mu=0.2)
+    before, after = solve(design).require(), solve(replace(design, rotor=sprung)).require()
+    square = free.flap_frequency_squared
+    expected = (square * before.controls.coning + by_hand * math.radians(1.0)) / (square + by_hand)
+    assert_allclose(after.controls.coning, expected, rtol=2e-3)
 
 
 def test_masses_agree_with_their_moments():

@@ -15,7 +15,7 @@ from rotor.aero.bent_section import SV, SW
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.columns.bending import bending_work, coordinates_of
+from rotor.columns.bending import coordinates_of
 from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
@@ -68,7 +68,7 @@ def test_energy(inflow: str) -> None:
     solution = _solved(0.3, inflow)
     _, point, b = _at(solution)
     watts = solution.design.power_unit
-    work = sum(share * point.z[i] * point.z[j] * point.q[q] for share, i, j, q in bending_work(point.system.structure))
+    work = float(point.system.structure.sums["motion"].value(point.z, point.q)[0])
     left = solution.power.shaft - solution.power.main_rotor
     assert_allclose(work * watts, left, atol=1e-9 * solution.power.shaft)
     q, _ = coordinates_of(b, point.system.structure, point.z)
@@ -181,6 +181,78 @@ def test_hub_loads_are_the_root_loads_of_all_blades(inflow: str) -> None:
         expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
         exact = name in ("fz", "mx", "my")
         assert_allclose(wave, expected, rtol=1e-9 if exact else 0.03)
+
+
+def _sprung(inflow: str) -> Solution:
+    """The UH-60A with springs at its hinges: in flap 400 kN m/rad that rests at 3°, in lag 300 kN m/rad."""
+    design = _design(0.3, inflow)
+    blade = design.rotor.blade
+    assert blade.structure is not None
+    structure = replace(blade.structure, lag_spring=3e5)
+    blade = replace(blade, structure=structure, flap_spring=4e5, flap_rest=math.radians(3.0))
+    return rotor.solve(replace(design, rotor=replace(design.rotor, blade=blade))).require()
+
+
+@pytest.mark.parametrize("inflow", [LINEAR, LINE])
+def test_springs_at_the_hinges(inflow: str) -> None:
+    """Forces times their distance from the hinge, which know nothing of springs, against K times its angle.
+
+    At 0 to 2/rev within 7 % of the largest: at a free hinge as much is left of cut-off modes and small angles. The work
+    of the air on bending is still all that the shaft gives beside the power. The hub gets the springs' moments: at
+    4/rev within 20 %, for with the modes angles at the hinge converge slower than forces, of which the hub's are made.
+    """
+    solution = _sprung(inflow)
+    problem, point, b = _at(solution)
+    psi, radius = problem.disk.psi, problem.design.rotor.radius
+    (flap, lag), (q, offset) = root_loads(problem, point)[1], coordinates_of(b, point.system.structure, point.z)
+    waves, order = wave_grid(q.shape[1], len(psi)).at, np.arange(len(psi) // 2 + 1)
+    up, forward = (b.along[which][:, 0] @ q @ waves for which in (1, 4))
+    rate = np.fft.irfft(1j * order * np.fft.rfft(forward), len(psi)) * problem.design.rotor.angular_speed
+    up += math.radians(3.0) * (1.0 - b.along[1, b.first, 0])  # The cone in the place of the first mode's.
+    held = 4e5 * (up - math.radians(3.0)), 3e5 * (forward - offset / b.r[0]) + 6000.0 * rate
+    for found, expected in zip((flap, lag), held, strict=True):
+        ours, theirs = (np.fft.rfft(own)[:3] / len(psi) for own in (found, expected))
+        assert_allclose(ours, theirs, atol=0.07 * float(np.abs(theirs).max()))
+    _, free = coordinates_of(_at(_solved(0.3, inflow))[2], point.system.structure, _at(_solved(0.3, inflow))[1].z)
+    assert 0.2 * free < offset < 0.5 * free  # Less lag; in series with it the blade bends in lag.
+    left = solution.power.shaft - solution.power.main_rotor
+    work = float(point.system.structure.sums["motion"].value(point.z, point.q)[0])
+    assert_allclose(work * solution.design.power_unit, left, atol=1e-9 * solution.power.shaft)
+    loads, blades = _loads(solution), problem.design.rotor.blades
+    about, beside = b.r[0] * radius * loads.root_force[2] + held[0], offset * radius * loads.root_force[2]
+    fixed = {"mx": about * np.sin(psi) + beside * np.cos(psi), "my": -about * np.cos(psi) + beside * np.sin(psi)}
+    for name, of_one in fixed.items():
+        wave = 2.0 * blades * (of_one * np.exp(1j * blades * psi)).mean()
+        expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
+        assert_allclose(wave, expected, atol=0.2 * abs(expected))
+
+
+def test_a_hingeless_root_with_a_spring_in_lag() -> None:
+    """Held in flap and sprung in lag: lag slower, flap as before; a stiff spring gives the trim of a held root.
+
+    The forces' mean moment in lag is the spring's. With flap as stiff as lag: else pitch bends the blade inboard of its
+    first element, which that element stands for, and the spring of 2 kN m/rad has half of the moment.
+    """
+    design = rotor.make_design(rotor="hart2", mu=0.2, inflow=LINEAR, bending=True)
+    blade, found = design.rotor.blade, list[Solution]()
+    structure = blade.structure
+    assert structure is not None
+    structure = replace(structure, flap_stiffness=structure.lag_stiffness)
+    for spring in (None, 1e9, 2e3):
+        other = replace(blade, structure=replace(structure, lag_spring=spring))
+        found.append(rotor.solve(replace(design, rotor=replace(design.rotor, blade=other))).require())
+    held, stiff, soft = found
+    assert_allclose(stiff.power.main_rotor, held.power.main_rotor, rtol=1e-6)
+    assert held.blade_frequencies is not None
+    assert soft.blade_frequencies is not None
+    assert_allclose(soft.blade_frequencies.flap[0], held.blade_frequencies.flap[0], rtol=0.02)
+    assert soft.blade_frequencies.lag[0] < 0.97 * held.blade_frequencies.lag[0]
+    problem, point, b = _at(soft)
+    q, _ = coordinates_of(b, point.system.structure, point.z)
+    slope = float(b.along[4][:, 0] @ q[:, 0])
+    mean = float(root_loads(problem, point)[1][1].mean())
+    assert abs(slope) > 1e-3
+    assert_allclose(mean, 2e3 * slope, rtol=0.08)
 
 
 @pytest.mark.parametrize("inflow", [LINEAR, LINE])

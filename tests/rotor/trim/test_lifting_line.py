@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import disk_sums
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS
 from rotor.aero.section import UP, UT
+from rotor.columns.flight import disk_sums
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
@@ -109,8 +109,8 @@ def test_the_wake_along_the_trim_found_changes_little(mu: float, twist: str):
     problem = trim_problem(line(mu, twist))
     first = trim(problem)
     again = trim(replace(problem, course=along(first, problem.course)))
-    elements = [found.linear.elements for found in (first, again)]
-    powers = [power_budget(problem, e, disk_sums(problem.disk, e)).total for e in elements]
+    trims = [found.linear for found in (first, again)]
+    powers = [power_budget(problem, found.elements, disk_sums(found.point)).total for found in trims]
     assert powers[1] == pytest.approx(powers[0], rel=2e-3)
 
 

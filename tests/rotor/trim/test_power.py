@@ -8,14 +8,14 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
 
-from rotor.aero.elements import TrimState, disk_sums
+from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.problem import build_problem
 from rotor.files.make_design import make_design
 from rotor.trim.power import power_budget, profile_power_coefficient
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import elements_at
+from tests.rotor.check_jacobian import disk_sums, elements_at
 
 TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8,-18"]
 
