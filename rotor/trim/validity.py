@@ -7,8 +7,8 @@ import numpy as np
 from rotor.aero.elements import BladeElements, DiskSums
 from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
 from rotor.aero.problem import Problem
+from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand
 from rotor.trim.caveats import STALL_SHARE
 from rotor.trim.forward import easier_condition
 
