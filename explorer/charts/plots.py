@@ -21,9 +21,8 @@ from rotor import Design, Solution, solve
 from rotor.arrays import Array
 from rotor.study.series import between_drag_areas
 from rotor.trim import Guess
-from rotor.trim.caveats import LOW_SPEED
 from rotor.trim.low_speed import passes_over
-from rotor.trim.validity import vortex_ring
+from rotor.trim.validity import LOW_SPEED, vortex_ring
 
 Range = tuple[float, float]
 

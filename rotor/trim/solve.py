@@ -15,7 +15,6 @@ from rotor.columns.blade import Freedom
 from rotor.columns.flight import check_freedoms, disk_sums
 from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
-from rotor.trim.caveats import caveats
 from rotor.trim.forward import course_of, first_guess, trim_along, trim_on_course
 from rotor.trim.hover import hover
 from rotor.trim.hub_loads import hub_loads
@@ -23,7 +22,7 @@ from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
-from rotor.trim.validity import failure_sentence, implausible, vortex_ring
+from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""

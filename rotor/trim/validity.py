@@ -1,16 +1,356 @@
-"""Why a design did not trim, or a trim is refused, in sentences for the user."""
+"""The limits of validity of a solution, and why a design did not trim or a trim is refused, in sentences for the user.
+
+Caveats are a table of name, condition and sentence; it makes the file long, and is read from top to bottom. The
+sentences of failures below share its limits.
+"""
 
 import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from rotor.aero.elements import BladeElements, DiskSums
-from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
+from rotor.aero.momentum import FASTEST_RING, VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
-from rotor.design.aircraft import Stand
+from rotor.aero.switches import switched_off
+from rotor.airfoil.polynomial import THESIS_NAME
+from rotor.arrays import Array
+from rotor.design.aircraft import FIXED_SHARE, Stand
 from rotor.design.design import Design
-from rotor.trim.caveats import STALL_SHARE
 from rotor.trim.forward import easier_condition
+from rotor.trim.low_speed import hover_share
+from rotor.trim.solution import Caveat, DiskFields, ElasticTwist, HubMoment, PowerBudget
+
+LOW_SPEED = 0.075
+"""Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
+LOWEST_SPEED = 0.05
+"""Below it a wake rolls up at once, and no model that leaves this out has been compared with measurement."""
+HIGH_SPEED = 0.40
+"""Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
+HOVER_CAUTION = 0.12
+"""C_T/σ in hover from which maximum lift decides, the least certain part of the section data. Our choice."""
+LARGEST_BUILT_TWIST = math.radians(25.0)
+"""Root to tip, with a margin: the UH-60A has 18° nominal. Only tiltrotor blades, propellers in cruise, have more."""
+STALL_SHARE = 0.02
+"""Stalled part of the disk above which dynamic stall would change the results."""
+CONTROL_SHARE = 0.005
+"""Power of pitch links and actuators over that of the main rotor from which it is named. Our choice."""
+FAST_PITCH = 0.2
+"""Reduced frequency ωc/2V at 0.75 R from which it is named. Our choice: Theodorsen's |C(k)| has fallen to 0.75."""
+
+
+@dataclass(frozen=True)
+class _Trim:
+    """A converged trim, and what several caveats read of it."""
+
+    problem: Problem
+    total: DiskSums
+    fields: DiskFields
+    stalled: float
+    moment: HubMoment
+    power: PowerBudget
+    elastic: ElasticTwist | None
+
+    @property
+    def design(self) -> Design:
+        return self.problem.design
+
+    @property
+    def mu(self) -> float:
+        return self.design.condition.advance_ratio
+
+    @property
+    def on_stand(self) -> bool:
+        return self.design.condition.stand is not None
+
+    @property
+    def fixed_inflow(self) -> bool:
+        """Whether the inflow does not respond to where the lift is."""
+        return not self.problem.inflow.load_dependent
+
+    @property
+    def twist(self) -> float:
+        """From root to tip [rad]."""
+        ends = self.design.twist(np.array([self.design.rotor.blade.root_cutout, 1.0]))
+        return float(ends[1] - ends[0])
+
+    @property
+    def loading(self) -> float:
+        """C_T/σ."""
+        return self.total.thrust / self.design.rotor.solidity
+
+    @property
+    def descent(self) -> tuple[float, float]:
+        """Rate of descent, and that at which the vortex ring state begins, over the induced velocity in hover."""
+        inflow = math.sqrt(0.5 * self.design.weight_coefficient)
+        return -self.design.climb_ratio / inflow, -vortex_ring_edge(self.mu / inflow)
+
+    @property
+    def highest_wave(self) -> int:
+        """The highest harmonic of rotor speed in the pitch."""
+        return max((one.per_rev for wave in self.design.pitch_waves for one in wave.harmonics), default=0)
+
+    @property
+    def reduced_frequency(self) -> float:
+        """ωc/2V of that harmonic at 0.75 R."""
+        return self.highest_wave * self.design.rotor.reference_chord / (1.5 * self.design.rotor.radius)
+
+    @property
+    def control_power(self) -> float:
+        """What pitch links and actuators put into the blades [W]."""
+        return 0.0 if self.elastic is None else self.elastic.control_power
+
+    @property
+    def top_mach(self) -> float:
+        return float(self.fields.mach.max())
+
+    @property
+    def by_polynomials(self) -> bool:
+        """Whether section data are polynomials of one Mach number."""
+        return self.problem.disk.fit_range is not None
+
+    @property
+    def clamped(self) -> float:
+        """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
+        if self.problem.disk.fit_range is None:
+            return 0.0
+        low, high = self.problem.disk.fit_range
+        outside = ((self.fields.alpha < low) | (self.fields.alpha > high)) & (self.fields.u_t >= 0.0)
+        return float(self.fields.cells @ outside.sum(axis=1))
+
+
+@dataclass(frozen=True)
+class _Rule:
+    name: str
+    applies: Callable[[_Trim], object]
+    sentence: Callable[[_Trim], str]
+
+
+_RULES = (
+    _Rule(
+        "teetering",
+        lambda trim: trim.design.aircraft.hub == "teetering" and trim.design.rotor.precone is None,
+        lambda trim: "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
+    ),
+    _Rule(
+        "twist-beyond-built",
+        lambda trim: trim.design.twist != trim.design.rotor.builtin_twist and abs(trim.twist) > LARGEST_BUILT_TWIST,
+        lambda trim: (
+            f"The blade twists by {math.degrees(trim.twist):.0f}° from root to tip; helicopter blades are built with "
+            "about 20° or less. Read the result as an extrapolation."
+        ),
+    ),
+    _Rule(
+        "no-tail-rotor",
+        lambda trim: trim.design.tail_rotor is None and trim.design.models.tail_rotor_solved and not trim.on_stand,
+        lambda trim: (
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
+        ),
+    ),
+    _Rule(
+        "thesis-models",
+        lambda trim: trim.design.preset == "thesis" and trim.design.aircraft.stated is None,
+        lambda trim: (
+            f"The document does not treat the {trim.design.aircraft.name}: these are its models with this rotor's "
+            "blade."
+        ),
+    ),
+    _Rule(
+        "no-blade-structure",
+        lambda trim: trim.design.models.has("elastic_twist") and trim.design.rotor.blade.structure is None,
+        lambda trim: (
+            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "degrees in flight."
+        ),
+    ),
+    _Rule("switched-off", lambda trim: switched_off(trim.design.models), lambda trim: _switches(trim.design)),
+    _Rule(
+        "rigid-blades",
+        lambda trim: not trim.design.models.flapping and trim.mu > 0.0,
+        lambda trim: _rigid(trim.moment),
+    ),
+    _Rule(
+        "rigid-blades-linear-inflow",
+        lambda trim: not trim.design.models.flapping and trim.mu > 0.0 and trim.fixed_inflow,
+        lambda trim: "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
+    ),
+    _Rule(
+        "active-twist-rests",
+        lambda trim: trim.design.active_twist and trim.design.hovering,
+        lambda trim: "Active twist is off in hover, where only the twist law acts.",
+    ),
+    _Rule(
+        "root-pitch-rests",
+        lambda trim: trim.design.pitch_per_rev and trim.design.hovering,
+        lambda trim: "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth.",
+    ),
+    _Rule(
+        "fast-pitch",
+        lambda trim: trim.reduced_frequency > FAST_PITCH and not trim.design.models.dynamic_stall,
+        lambda trim: (
+            f"At {trim.highest_wave}/rev the reduced frequency at 0.75 R is {trim.reduced_frequency:.2f}; section data "
+            "are steady, and only the wake that a lifting line sheds and the damping of the pitch rate answer to it."
+        ),
+    ),
+    _Rule(
+        "control-power",
+        lambda trim: trim.design.pitch_waves and abs(trim.control_power) > CONTROL_SHARE * abs(trim.power.main_rotor),
+        lambda trim: (
+            f"Pitch links and actuators put {trim.control_power / 1e3:.1f} kW into the pitching blades; that is not "
+            "part of the power here."
+        ),
+    ),
+    _Rule(
+        "low-speed-inflow",
+        lambda trim: 0.0 < trim.mu < LOW_SPEED and trim.fixed_inflow,
+        lambda trim: f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {trim.mu:.3f}.",
+    ),
+    _Rule(
+        "low-speed-inflow",
+        lambda trim: 0.0 < trim.mu < LOWEST_SPEED and not trim.fixed_inflow,
+        lambda trim: f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {trim.mu:.3f}.",
+    ),
+    _Rule(
+        "low-speed-not-matched",
+        lambda trim: hover_share(trim.design) and trim.problem.joined is None,
+        lambda trim: (
+            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
+        ),
+    ),
+    _Rule(
+        "vortex-ring",
+        lambda trim: (
+            trim.design.condition.climb_speed < 0.0
+            and trim.descent[0] > -VORTEX_RING_ONSET
+            and trim.descent[1] < math.inf
+        ),
+        lambda trim: (
+            f"The descent is {trim.descent[0]:.2f} of the induced velocity in hover: at this low speed measured inflow "
+            f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {trim.descent[1]:.2f} the vortex "
+            "ring state begins."
+        ),
+    ),
+    _Rule(
+        "beyond-autorotation",
+        lambda trim: trim.power.main_rotor < 0.0 and not trim.on_stand,
+        lambda trim: (
+            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
+            "engine off the rotor turns faster."
+        ),
+    ),
+    _Rule(
+        "installed-power",
+        lambda trim: trim.power.total > (trim.design.aircraft.installed_power or math.inf) and not trim.on_stand,
+        lambda trim: (
+            f"The rotors take {1e-3 * trim.power.total:.0f} kW; the engines give "
+            f"{1e-3 * (trim.design.aircraft.installed_power or 0.0):.0f} kW at sea level, and less at altitude."
+        ),
+    ),
+    _Rule(
+        "high-speed",
+        lambda trim: trim.mu > HIGH_SPEED,
+        lambda trim: (
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
+            "approximation."
+        ),
+    ),
+    _Rule(
+        "blade-loading",
+        lambda trim: trim.design.hovering and trim.loading > HOVER_CAUTION,
+        lambda trim: (
+            f"C_T/σ {trim.loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes "
+            f"out too low. {_nearest_to_stall(trim.fields.stall_margin, trim.problem.disk.r)}"
+        ),
+    ),
+    _Rule(
+        "stall",
+        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is None,
+        lambda trim: (
+            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall."
+        ),
+    ),
+    _Rule(
+        "stall",
+        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is not None,
+        lambda trim: (
+            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; the lags of dynamic stall are those of a NACA 0012."
+        ),
+    ),
+    _Rule(
+        "no-compressibility",
+        lambda trim: trim.by_polynomials and trim.top_mach > 0.5,
+        lambda trim: f"The section polar holds for one Mach number (0.3); the tip reaches Mach {trim.top_mach:.2f}.",
+    ),
+    _Rule(
+        "mixed-section-data",
+        lambda trim: (
+            trim.by_polynomials
+            and any(not span.section.startswith(THESIS_NAME) for span in trim.design.rotor.blade.spans)
+        ),
+        lambda trim: (
+            f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
+            "tables with Mach number: their difference is one of data, not of airfoils."
+        ),
+    ),
+    _Rule(
+        "polynomial-clamped",
+        lambda trim: trim.clamped > 0.0,
+        lambda trim: (
+            f"{100.0 * trim.clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
+        ),
+    ),
+    _Rule(
+        "mach-outside-data",
+        lambda trim: not trim.by_polynomials and trim.top_mach > trim.problem.disk.mach_limit,
+        lambda trim: (
+            f"The tip reaches Mach {trim.top_mach:.2f}; section data end at {trim.problem.disk.mach_limit:.2f} and are "
+            "constant above."
+        ),
+    ),
+)
+"""Caveats in the order in which they are listed."""
+
+
+def caveats(
+    problem: Problem,
+    total: DiskSums,
+    fields: DiskFields,
+    stalled: float,
+    moment: HubMoment,
+    power: PowerBudget,
+    elastic: ElasticTwist | None,
+) -> Iterator[Caveat]:
+    """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
+    for remark in problem.design.aircraft.remarks:
+        yield Caveat("rotor-file", remark)
+    trim = _Trim(problem, total, fields, stalled, moment, power, elastic)
+    for rule in _RULES:
+        if rule.applies(trim):
+            yield Caveat(rule.name, rule.sentence(trim))
+
+
+def _switches(design: Design) -> str:
+    names = ", ".join(switch.title.lower() for switch in switched_off(design.models))
+    return f"Switched off: {names}. The result is for teaching, not for the aircraft."
+
+
+def _nearest_to_stall(margin: Array, r: Array) -> str:
+    """The element of a hovering blade that is nearest to stall, or furthest beyond it."""
+    least = margin.min(axis=1)
+    at = int(least.argmin())
+    side = "below" if least[at] >= 0.0 else "above"
+    return f"At {r[at]:.2f} R the blade is {abs(math.degrees(least[at])):.1f}° {side} its stall angle."
+
+
+def _rigid(moment: HubMoment) -> str:
+    side = "retreating" if moment.roll >= 0.0 else "advancing"
+    nose = "up" if moment.pitch >= 0.0 else "down"
+    return (
+        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
+        f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
+    )
+
 
 HOVER_LIMIT = 0.17
 """Largest C_T/σ: every blade element at its maximum lift, as tests show (Prouty, Helicopter Performance, Stability, and
