@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.dynamics.structure import structure_data
 
 
@@ -55,6 +55,7 @@ class FieldMap:
 
 
 @lru_cache(maxsize=16)
+@read_only
 def field_map(ply: PiezoPly, finger: float = 0.2, points: int = 61, sweeps: int = 4000) -> FieldMap:
     """Potential between two interdigitated fingers (or two plates), by relaxation of Laplace's equation.
 
