@@ -33,7 +33,6 @@ import theory_figures  # noqa: E402
 
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
-from explorer.export import demo  # noqa: E402
 from explorer.export.report import document  # noqa: E402
 from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import build_parser  # noqa: E402
@@ -143,7 +142,6 @@ class Commands(SphinxDirective):
             *rotor_commands.choices.values(),
             page_command._parser(),
             document._parser(),
-            demo._parser(),
             story_file._parser(),
         ):
             text = parser.format_help()

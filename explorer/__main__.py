@@ -6,7 +6,6 @@ import sys
 import webbrowser
 from collections.abc import Sequence
 from importlib import import_module
-from pathlib import Path
 
 from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
 from explorer.hosting.limits import SESSIONS
@@ -18,18 +17,25 @@ _COMMANDS = {
     "report": "explorer.export.report.document",
     "blade": "explorer.export.blade",
     "story": "explorer.story.story_file",
-    "demo": "explorer.export.demo",
 }
 """Modules with commands of their own, loaded when one is asked for."""
+_GONE = {
+    "demo": "the lecture has its rotor to drag: python -m explorer story FILE",
+    "--studies": "open a row of a study by python -m rotor solve --row DIR:N --save FILE and explorer --design FILE",
+}
+"""What version 0.2 had, and what takes its place."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story`, `demo` and `blade`."""
+    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given and given[0] in _COMMANDS:
         return import_module(_COMMANDS[given[0]]).main(given[1:])
 
     def run() -> int:
+        for name, instead in _GONE.items():
+            if any(one.partition("=")[0] == name for one in given):
+                raise ValueError(f"{name} is gone: {instead}")
         try:
             return _run(_parser().parse_args(given))
         except KeyboardInterrupt:
@@ -58,7 +64,6 @@ def _run(options: argparse.Namespace) -> int:
         limits = ServerLimits(
             sessions=options.max_sessions,
             allow_hosts=tuple(options.allow_host),
-            studies=Path(options.studies),
         )
         app = App(options.host, options.port, start, limits)
     except PortBusy as error:
@@ -82,8 +87,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="python -m explorer",
         description="Explore helicopter blade twist in a browser.",
         epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), story "
-        "(the lecture as an HTML file), demo (the rotor in a sweep of twist and speed as an HTML file), blade (shapes "
-        "for CAD).",
+        "(the lecture as an HTML file), blade (shapes for CAD).",
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
@@ -104,9 +108,6 @@ def _parser() -> argparse.ArgumentParser:
         type=_sessions,
         default=SESSIONS,
         help=f"pages at work at once (default {SESSIONS}); further visitors wait in a queue",
-    )
-    parser.add_argument(
-        "--studies", metavar="DIR", default=".", help="folder with results of studies (default: this one)"
     )
     return parser
 

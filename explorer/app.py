@@ -220,7 +220,7 @@ class App:
             connection.wait(self._limits.sessions, ahead)
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
-        shared = SharedServices(self.pool, self.presentations, self._limits.studies)
+        shared = SharedServices(self.pool, self.presentations)
         return Session(client, self._start, facts, shared)
 
     def _warm(self) -> None:

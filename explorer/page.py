@@ -24,7 +24,7 @@ from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.per_rev import PerRevControls
+from explorer.tabs.actuator.per_rev import TwistDial
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
@@ -41,7 +41,6 @@ from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe.probe_panel import ProbePanel
 from explorer.tabs.results import ResultsPanel, beside_labels
 from explorer.tabs.sensitivity_panel import SensitivityPanel
-from explorer.tabs.studies_panel import StudiesPanel
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
@@ -102,7 +101,7 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context)
             self._actuator_inputs = self.actuator.inputs()
-            self.per_rev = PerRevControls(context, self._grabbed)
+            self.dial = TwistDial(context, self._grabbed)
         self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
@@ -113,9 +112,7 @@ class Page:
             self.probe = ProbePanel(context, self.scene)
             self.vibration = VibrationPanel(context, self.scene, self.results.strip)
         with layout.in_drawer("open"):
-            opened = Sections(client.gui, bridge, "opened", ("Studies", "Files", "History"))
-            with opened["Studies"]:
-                studies = StudiesPanel(context, shared.studies)
+            opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
                 RotorUpload(context)
             with opened["History"]:
@@ -129,7 +126,7 @@ class Page:
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.tabs: tuple[Tab, ...] = (
-            self.top, self.probe, self._sensitivity, self.waterfall, studies, settings, self.history, self.file, export,
+            self.top, self.probe, self._sensitivity, self.waterfall, settings, self.history, self.file, export,
             self.lecture, self._presence,
         )  # fmt: skip
         """Everything that only follows."""
@@ -161,7 +158,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.optimise, self.map, self.schedule, self.actuator, self.per_rev, *self.tabs):
+        for part in (self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -206,8 +203,7 @@ class Page:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
-        turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
-        if self._actuator_in_frame and (not only_azimuth or turning):
+        if self._actuator_in_frame and (not only_azimuth or solution.design.active_twist is not None):
             self._show_actuator(reading, solution)
 
     def show_power_number(self, state: SessionState) -> None:
@@ -229,7 +225,7 @@ class Page:
         self._landscape.show(state, self._tasks.now, reading.sliders)
         self.results.show(state, self._pause)
         self.vibration.show(state)
-        self.per_rev.show(state, self.vibration.words, self.vibration.index)
+        self.dial.show(state, self.vibration.words, self.vibration.index)
         self._curve.show(state)
         self._show_hand(state)
         self.context.bridge.set(beside_labels=beside_labels(state))
@@ -312,7 +308,7 @@ class Page:
         inputs, context = reading.inputs, self.context
         self.controls.follow(_on_sliders(reading))
         self.controls.refresh(inputs, context.units)
-        self.per_rev.refresh(inputs)
+        self.dial.refresh(inputs)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
@@ -320,7 +316,7 @@ class Page:
         self._touched = self._touched or inputs != self._start
         self._prompt()
         self.optimise.refresh(reading.sliders)
-        self.map.refresh(reading.sliders)
+        self.map.refresh()
         self.schedule.refresh()
         context.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
         self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
@@ -335,7 +331,7 @@ class Page:
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         self.context.held = held
-        for part in (self.controls, self.per_rev, self.display, self.lecture, self.context.keyboard):
+        for part in (self.controls, self.display, self.lecture, self.context.keyboard):
             part.hold(held)
         self.top.refresh()
 

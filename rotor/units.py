@@ -1,6 +1,7 @@
-"""Units and physical constants used in several folders. Everything inside `rotor` is SI."""
+"""Units, physical constants and numbers in print, as several folders need them. Everything inside `rotor` is SI."""
 
 import math
+import re
 
 KNOT = 1852.0 / 3600.0
 """One knot [m/s], exact."""
@@ -13,6 +14,11 @@ def degrees_text(angle: float) -> str:
     exact = math.degrees(angle)
     rounded = (round(exact, digits) for digits in range(15))
     return digits_text(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
+
+
+def typographic(text: str) -> str:
+    """Replace a hyphen before a number by a minus sign."""
+    return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 
 def digits_text(value: float) -> str:

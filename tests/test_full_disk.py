@@ -31,7 +31,7 @@ COMMANDS = {
     "schedule": ("rotor", "schedule", "--concept", "linear", "--mu", "0.1,0.2", "--csv", "OUT/out.file"),
     "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.file"),
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
-    "demo": ("explorer", "demo", "OUT/out.file"),
+    "story": ("explorer", "story", "OUT/out.file"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
     "save": ("save", "OUT/out.json"),
 }

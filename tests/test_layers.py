@@ -34,7 +34,7 @@ ORDER = {
     "explorer/tabs": (
         "layout", "keys", "display", "stand_controls", "controls", "context", "design_files", "history_panel",
         "waterfall", "live_charts", "results", "twist_curve", "export_panel", "sensitivity_panel",
-        "probe", "vibration_panel", "actuator", "views", "optimise", "study_charts", "studies_panel", "lecture",
+        "probe", "vibration_panel", "actuator", "views", "optimise", "lecture",
     ),
 }  # fmt: skip
 """Folders and files of each package from the ground up: each imports only from itself and those before it."""

@@ -9,7 +9,6 @@ import time
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from rotor.user_input import brief
@@ -70,8 +69,6 @@ class ServerLimits:
     sessions: int = SESSIONS
     """Pages at work at once."""
     allow_hosts: tuple[str, ...] = ()
-    studies: Path = Path()
-    """Results of studies in this folder are offered to every page; nothing else on the disk is."""
     frame_ancestors: tuple[str, ...] = ()
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
 
@@ -117,8 +114,6 @@ class RateLimiter:
 
 LARGEST_FILE = 4 * 2**20
 """[bytes]; ten times the largest published table of section data."""
-_OF_TYPE = {".parquet": 32 * 2**20}
-"""[bytes]; the same for results of a study, which hold some hundred thousand designs."""
 _PARTS = 64
 """The page sends parts of half a megabyte. A million small parts would take a hundred times their size in memory."""
 UPLOADS_AT_ONCE = 2
@@ -130,10 +125,9 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
 
     The page's server keeps every part in memory until the last has come, and accepts whatever size is claimed.
     """
-    most = next((largest for ending, largest in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST_FILE)
     shown = repr(name if len(name) <= 60 else name[:57] + "…")
-    if size > most:
-        return f"{shown} has {size / 2**20:.1f} MB: {most // 2**20} MB are allowed."
+    if size > LARGEST_FILE:
+        return f"{shown} has {size / 2**20:.1f} MB: {LARGEST_FILE // 2**20} MB are allowed."
     if not _is_accepted(name, accepts):
         return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:

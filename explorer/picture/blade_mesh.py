@@ -163,16 +163,6 @@ def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration:
     return np.concatenate((around.reshape(-1, 2, 3), lengthwise.reshape(-1, 2, 3)))
 
 
-def edge_pairs(shape: BladeShape) -> NDArray[np.uint32]:
-    """Leading and trailing edge outside the root cut-out and the section at the tip: pairs of vertices, (n, 2)."""
-    rings, points = shape.rings.shape[:2]
-    starts = np.arange(_SHANK_RINGS, rings) * points
-    along = [starts + corner for corner in (0, points // 2)]
-    around = (rings - 1) * points + np.arange(points)
-    pairs = [*(np.stack((edge[:-1], edge[1:]), 1) for edge in along), np.stack((around, np.roll(around, -1)), 1)]
-    return np.concatenate(pairs).astype(np.uint32)
-
-
 def _turned(shape: BladeShape, angle: Array) -> Array:
     """The rings in space, each turned nose up by its angle; shape (rings, points, 3)."""
     cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]

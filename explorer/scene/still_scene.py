@@ -1,6 +1,5 @@
 """Rotors recorded as scenes, and viser's viewer embedded to show them without a server."""
 
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,9 +13,8 @@ from explorer.model.inputs import ViewState
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
 from explorer.picture.picture import make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
-from explorer.scene.scene import ROTOR, Scene
+from explorer.scene.scene import Scene
 from rotor import Solution
-from rotor.arrays import Array
 
 _SEAMS = re.compile(
     r'(?P<before>.*window\.__VISER_EMBED_DATA__=")(?P<scene>[^"]*)'
@@ -78,32 +76,21 @@ def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tup
     return embedded_viewer([still_page(solution, view, colour_range) for solution in solutions])
 
 
-JIG_EDGES = f"{ROTOR}/blade_0/ghost"
-"""Node with the edges of the jig shape, in the axes of the reference blade."""
-
-
 def still_page(
     solution: Solution,
     view: ViewState,
     colour_range: tuple[float, float],
-    covered: float = 0.0,
-    edges: Array | None = None,
     compared: Solution | None = None,
 ) -> str:
     """One as a page of its own; from a server that nobody else sees, for only servers can record.
 
-    `covered`: the part of the window's width, on the right, that a panel will cover. `edges`: lines of the jig shape,
-    (n, 2, 3) [m], drawn at `JIG_EDGES`. `compared`: a second rotor at the same place, for a page that wipes the two.
+    `compared`: a second rotor at the same place, for a page that wipes the two.
     """
     server = viser_compat.quiet_server("127.0.0.1", 0, "still")
     try:
-        camera = fit("3d", solution.design.rotor.radius, _ASPECT * (1.0 - covered), cover=UNCOVERED)
-        sight = np.subtract(camera.look_at, camera.position)
-        right = np.cross(sight, (0.0, 0.0, 1.0))
-        half_width = np.linalg.norm(sight) * math.tan(0.5 * FIELD_OF_VIEW) * _ASPECT
-        aside = covered * half_width * right / np.linalg.norm(right)
-        server.initial_camera.position = np.add(camera.position, aside)
-        server.initial_camera.look_at = np.add(camera.look_at, aside)
+        camera = fit("3d", solution.design.rotor.radius, _ASPECT, cover=UNCOVERED)
+        server.initial_camera.position = camera.position
+        server.initial_camera.look_at = camera.look_at
         server.initial_camera.fov = FIELD_OF_VIEW
         scene = Scene(server.scene, solution.design.rotor, scene_theme(view.dark))
         # Nothing in the file could say that bending is drawn larger.
@@ -115,11 +102,6 @@ def still_page(
             other = make_picture(compared, view, colour_range, pixels=_PIXELS, bent=False)
             plain = turned_blades(compared, view, each=False, bent=False)
             scene.show_beside(compared.design.rotor, replace(other, blades=plain), np.zeros(3))
-        if edges is not None:
-            colours = np.full(edges.shape, 60, dtype=np.uint8)
-            server.scene.add_line_segments(
-                JIG_EDGES, edges.astype(np.float32), colours, thickness=1.4, thickness_units="screen"
-            )
         return server.scene.as_html()
     finally:
         viser_compat.quiet_stop(server)

@@ -11,14 +11,15 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
 from explorer import web
 from explorer.colours import colour_map, css
-from explorer.export.demo import point_record, shape_record, write_page
 from explorer.export.provenance import PROGRAM, versions
+from explorer.export.still_rotor import point_record, shape_record
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS, Units, number
 from explorer.picture.blade_mesh import blade_shape
@@ -32,6 +33,7 @@ from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, sp
 from rotor import Rotor, Solution, solve
 from rotor.chart import round_ticks, tick_text
 from rotor.terminal import run_command
+from rotor.user_input import write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""
@@ -224,13 +226,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     text = story_html(view=ViewState(dark=options.dark, units=options.units), quiet=not sys.stderr.isatty())
-    return write_page(options.out, "story.html", text, f"{len(STEPS)} steps")
+    target = Path(options.out) / "story.html" if Path(options.out).is_dir() else Path(options.out)
+    try:
+        write_whole(target, text)
+    except OSError as error:
+        raise ValueError(f"cannot write {str(target)!r} ({error.strerror}): give a writable file") from None
+    print(f"{target}: {len(STEPS)} steps, {target.stat().st_size / 1e6:.1f} MB")
+    return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m explorer story",
-        description="The lecture as one HTML file without a server: ten steps with guess, answer and control.",
+        description="The lecture as one HTML file without a server: ten steps with guess, answer and a rotor to drag.",
     )
     parser.add_argument("out", metavar="FILE", help="where to write; in a folder, its story.html")
     parser.add_argument("--dark", action="store_true", help="for a dark room")

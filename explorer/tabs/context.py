@@ -5,7 +5,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import viser
 
@@ -35,7 +34,6 @@ class SharedServices:
 
     pool: Pool
     presentations: Presentations
-    studies: Path = Path()
 
 
 class Tab:

@@ -15,7 +15,7 @@ from explorer.text.readout import open_drag_area
 from rotor import Solution
 from rotor.aero.problem import grid_of
 from rotor.compiled import compiling
-from rotor.reproduce.report import typographic
+from rotor.units import typographic
 from rotor.validation import MeasuredSet, SensitivityRow, TrustRow, sensitivity_rows, sets_of, trust_rows
 from rotor.validation.airloads import PITCH_LINK, REPORTS
 from rotor.validation.flown import POWER_REPORTS

@@ -1,4 +1,4 @@
-"""All JavaScript, CSS and HTML text of the page, the report and the demo, as files.
+"""All JavaScript, CSS and HTML text of the page, the report and the lecture, as files.
 
 What Python computes goes into them in two ways: into the served page as calls of its functions with JSON arguments
 (`explorer.hosting.browser.call`), into a file that is written as `{{name}}` of its HTML (`fill`), data as a JSON block.

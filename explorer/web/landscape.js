@@ -1,5 +1,4 @@
-// The landscape of power: balls roll along what the search recorded, the blade beside them twists along; and the flat
-// map over the stage.
+// The landscape of power: balls roll along what the search recorded, the blade beside them twists along.
 (() => {
   const {text, part} = RX, page = document.documentElement, LASTS = 6000;
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
@@ -84,39 +83,10 @@
     buttons();
   });
   document.addEventListener('click', event => {
-    const near = event.target instanceof Element && event.target.closest('[data-roll], [data-map-large], [data-map-close]');
+    const near = event.target instanceof Element && event.target.closest('[data-roll]');
     if (!near || !RX.state) return;
-    if (near.hasAttribute('data-roll')) { if (running) { running = false; buttons(); } else play(); }
-    else large(near.hasAttribute('data-map-large'));
+    if (running) { running = false; buttons(); } else play();
   });
 
-  // The flat map over the stage, a copy that follows the one in the rail; its presses are passed on there.
-  let watcher = null;
-  function large(open) {
-    const place = part('large'), source = () => document.querySelector('[data-dock-region] [data-explorer=map-box]');
-    watcher?.disconnect();
-    watcher = null;
-    page.toggleAttribute('data-map-open', open);
-    place.hidden = !open;
-    place.innerHTML = '';
-    if (!open || !source()) return;
-    const copy = () => {
-      const map = source();
-      if (!map) return large(false);
-      place.innerHTML = `<div class="rxl-map">${map.outerHTML}</div><button class="rxl-close" data-map-close aria-label="Close" title="Close (Esc)">×</button>`;
-    };
-    copy();
-    watcher = new MutationObserver(copy);
-    watcher.observe(source().closest('[data-dock-region]'), {childList: true, subtree: true});
-  }
-  part('large').addEventListener('click', event => {
-    const image = event.target.closest?.('image[data-write]');
-    if (!image) return;
-    event.stopPropagation();
-    const own = image.getBoundingClientRect(), other = document.querySelector('[data-dock-region] [data-explorer=map] image'), box = other.getBoundingClientRect();
-    other.dispatchEvent(new MouseEvent('click', {bubbles: true, clientX: box.left + (event.clientX - own.left) / own.width * box.width, clientY: box.top + (event.clientY - own.top) / own.height * box.height}));
-  });
-  document.addEventListener('keydown', event => { if (event.key === 'Escape' && page.hasAttribute('data-map-open')) { event.stopPropagation(); large(false); } }, true);
-  RX.also('bar', bar => { if (bar.mode !== 'optimise' && page.hasAttribute('data-map-open')) large(false); });
   RX.landscape = {get at() { return at; }, get running() { return running; }};
 })();

@@ -15,20 +15,14 @@
   }
   const labels = (within, field) => [...within.querySelectorAll('label')].find(one => one.textContent === field);
 
-  // A click on `data-write="FIELD"` writes `data-value`, or its place on `data-x` and `data-y`, each "from to digits",
-  // into the nearest field of that name.
+  // A click on `data-write="FIELD"` writes `data-value` into the nearest field of that name.
   document.addEventListener('click', event => {
     const near = event.target instanceof Element && event.target.closest('[data-write]');
     if (!near) return;
-    const {write, value, x, y} = near.dataset, box = near.getBoundingClientRect();
-    const place = (range, share) => {
-      const [from, to, digits] = range.split(' ').map(Number);
-      return (from + (to - from) * share).toFixed(digits);
-    };
-    const text = value ?? `${place(x, (event.clientX - box.left) / box.width)} ${place(y, 1 - (event.clientY - box.top) / box.height)}`;
+    const {write, value} = near.dataset;
     let within = near, label = null;
     while (within && !(label = labels(within, write))) within = within.parentElement;
-    type(label, text);
+    type(label, value);
   });
 
   Object.assign(RX, {

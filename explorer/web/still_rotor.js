@@ -1,9 +1,9 @@
 // Rotors of a file without a server: blades shaped from harmonics of their pitch, and pictures on the disk, by the points
-// that `explorer/export/demo.py` makes. `data` holds the blade's shape, its rings, faces and edges.
+// that `explorer/export/still_rotor.py` makes. `data` holds the blade's shape, its rings and faces.
 window.stillRotor = data => {
   const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
   const floats = text => new Float32Array(bytes(text));
-  const faces = new Uint32Array(bytes(data.faces)), edges = data.edges ? new Uint32Array(bytes(data.edges)) : null;
+  const faces = new Uint32Array(bytes(data.faces));
   const shape = floats(data.shape), [rings, points] = data.rings;
   const viewer = () => window.__viserMutable, node = name => viewer()?.nodeRefFromName?.[name];
   const waves = new Map(), images = new Map(), wanted = {};
@@ -47,7 +47,7 @@ window.stillRotor = data => {
   const kept = (store, key, make) => { if (!store.has(key)) store.set(key, make()); return store.get(key); };
 
   return {
-    floats, edges, turned, node,
+    node,
     pose(name, [wxyz, position]) { viewer().nodePoseData[name] = {wxyz, position, poseUpdateState: 'needsUpdate'}; },
     // The blades of the rotor below this node, the first one at `angle`.
     shape(root, point, angle) {

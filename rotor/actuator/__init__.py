@@ -18,7 +18,7 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.harmonic import DynamicTwist, PowerMap, phase_sweep, power_map
+from rotor.actuator.harmonic import DynamicTwist, phase_sweep
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
@@ -40,7 +40,6 @@ __all__ = (
     "PaySearch",
     "PiezoPly",
     "Placement",
-    "PowerMap",
     "Programme",
     "TorqueTube",
     "Verdict",
@@ -54,7 +53,6 @@ __all__ = (
     "judge",
     "pay_sentence",
     "phase_sweep",
-    "power_map",
     "programmes",
     "standard_flight",
     "try_actuator",

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_loss
@@ -177,68 +176,6 @@ def phase_sweep(
         drive_loss=loss,
         net_power=heavy.power.total + loss + _pitching(heavy) - _pitching(still) if heavy.converged else None,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class PowerMap:
-    """Change of power over amplitude and phase of one harmonic; between the trims by interpolation.
-
-    In phase by the Fourier series through the trims, in amplitude by the polynomial through them and through zero.
-    """
-
-    per_rev: int
-    shares: Array
-    """Fractions of the full amplitude that were trimmed, ascending, (shares,); no further than every phase trims."""
-    phases: Array
-    """[rad], evenly spaced over a revolution, (phases,)."""
-    changes: Array
-    """Change of total power relative to the same blade, not driven [W], (shares, phases)."""
-
-    def change(self, share: ArrayLike, phase: ArrayLike) -> Array:
-        """Change of power [W] at a fraction of the amplitude and a phase [rad], which broadcast."""
-        at, angle = np.broadcast_arrays(np.asarray(share, dtype=float), np.asarray(phase, dtype=float))
-        count = len(self.phases)
-        series = np.fft.rfft(self.changes, axis=1) / count
-        orders: Array = np.arange(count // 2 + 1, dtype=float)
-        double = np.where((orders == 0) | (2 * orders == count), 1.0, 2.0)
-        waves = double * np.exp(1j * orders * angle[..., None])
-        rings = (waves[..., None, :] * series).real.sum(axis=-1)
-        powers = np.arange(1, len(self.shares) + 1)
-        weights = np.linalg.inv(self.shares[:, None] ** powers)
-        return (at[..., None] ** powers * (rings @ weights.T)).sum(axis=-1)
-
-    def limit(self, phase: float) -> float:
-        """The fraction beyond which more amplitude costs power at this phase; the largest trimmed where none does."""
-        fine = np.linspace(0.0, float(self.shares[-1]), 401)
-        return float(fine[self.change(fine, phase).argmin()])
-
-    def best(self) -> tuple[float, float, float]:
-        """Fraction, phase [rad] and change [W] of least power."""
-        shares, phases = np.linspace(0.0, float(self.shares[-1]), 81), np.linspace(0.0, 2.0 * math.pi, 145)
-        found = self.change(shares[:, None], phases)
-        k, j = np.unravel_index(int(found.argmin()), found.shape)
-        return float(shares[k]), float(phases[j]) % (2.0 * math.pi), float(found[k, j])
-
-
-MAP_SHARES = (1.0 / 3.0, 2.0 / 3.0, 1.0)
-
-
-def power_map(design: Design, made: DynamicTwist) -> PowerMap:
-    """Trim every amplitude and phase of a harmonic. RuntimeError with one sentence where too few of them trim."""
-    off = solve(with_harmonic(design, made, 0.0, 0.0)).require()
-    phases = 2.0 * math.pi * np.arange(PHASES) / PHASES
-    rings: list[list[float]] = []
-    for share in MAP_SHARES:
-        turned = [solve(with_harmonic(design, made, share, phase), off) for phase in phases.tolist()]
-        if not all(solution.converged for solution in turned):
-            break
-        rings.append([solution.power.total - off.power.total for solution in turned])
-    if len(rings) < 2:
-        raise RuntimeError(
-            f"Two thirds of the amplitude at {made.per_rev}/rev do not trim at every phase: lower the speed, the mass "
-            "or the number of plies."
-        )
-    return PowerMap(made.per_rev, np.array(MAP_SHARES[: len(rings)]), phases, np.array(rings))
 
 
 def _pitching(solution: Solution) -> float:

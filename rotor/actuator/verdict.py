@@ -227,21 +227,19 @@ def judge(
     host: Host | None = None,
     *,
     derated: bool = False,
-    counted: float | None = None,
     against: Against = "best-fixed",
 ) -> Verdict:
     """Install the actuator, find the best twist within its range, add its mass, and compute the net saving.
 
-    The segments are those of the concept. `derated` uses the twist measured on a test blade, `counted` any other factor
-    on the nominal twist. `against`: the blade that savings are counted from. Raises ValueError for a blade that cannot
-    be built, RuntimeError where nothing trims.
+    The segments are those of the concept. `derated` uses the twist measured on a test blade. `against`: the blade
+    that savings are counted from. Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims.
     """
     host = host or Host()
     base = baseline(pair, concept)
     rotor, aircraft = pair.design.rotor, pair.design.aircraft
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
-    share = counted if counted is not None else installed.derating if derated else 1.0
+    share = installed.derating if derated else 1.0
     resting, reference_powers = base.fixed, _totals(base.fixed.solutions)
     if host.kind == "retrofit" or against == "as-built":
         built = _totals([solve(design).require() for design in pair.designs()])

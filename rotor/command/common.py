@@ -33,6 +33,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
+from rotor.study.results import design_at
 from rotor.user_input import write_whole
 
 Run = Callable[[argparse.Namespace], int]
@@ -131,7 +132,10 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     """The design that the flags describe; `twist` and `mu` in place of theirs. Raises ValueError with one sentence."""
     given = {name: getattr(args, name, None) for name in _ARGUMENTS if name not in ("stand", *_SPEED)}
     speed = {name: getattr(args, name, None) for name in _SPEED} if mu is None else {"mu": mu}
-    case = load_design(args.case) if args.case else None
+    row = getattr(args, "row", None)
+    if row and args.case:
+        raise ValueError("--row and --case are both a design to begin with: give one of them")
+    case = design_at(row) if row else load_design(args.case) if args.case else None
     rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
     stand = {key: value for key in _STAND if (value := getattr(args, key)) is not None}
     known = case is not None and rotor is None and case.condition.stand is not None

@@ -57,8 +57,9 @@ def run(args: argparse.Namespace) -> int:
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
     from rotor.reproduce.page import write_all, write_report, written
-    from rotor.reproduce.report import Report, typographic
+    from rotor.reproduce.report import Report
     from rotor.reproduce.runs import compute_ahead
+    from rotor.units import typographic
     from rotor.validation.page import SETS, write_trust
     from rotor.validation.sensitivity import sensitivity
 

@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
@@ -14,11 +15,20 @@ from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
+from rotor.user_input import check_writable
 
 
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "solve", run, "trims one design: power, controls and caveats")
     add_design_arguments(parser, speed=True)
+    parser.add_argument(
+        "--row",
+        metavar="DIR:N",
+        help="design of point N of a study's folder, or of one of its files, which other flags change",
+    )
+    parser.add_argument(
+        "--save", type=Path, metavar="FILE", help="write the design as a design file, which the page opens"
+    )
     parser.add_argument(
         "--distribution",
         action="store_true",
@@ -30,7 +40,11 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged."""
-    solution = solve(design_from(args))
+    design = design_from(args)
+    if args.save is not None:
+        check_writable(args.save)
+        design.save(args.save)
+    solution = solve(design)
     found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
         also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}

@@ -21,9 +21,9 @@ from rotor.reproduce.report import (
     Report,
     ReportTable,
     TableCell,
-    typographic,
 )
 from rotor.reproduce.runs import CachedFunction
+from rotor.units import typographic
 
 _STYLE = {
     "font.size": 9.0,

@@ -1,7 +1,6 @@
 """A rebuilt figure: caption, statement of the thesis, our numbers, verdict; and the data of its plots and tables."""
 
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -147,11 +146,6 @@ def table(
 ) -> ReportTable:
     """A table from any rows; numpy numbers become plain ones."""
     return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows), shown)
-
-
-def typographic(text: str) -> str:
-    """Replace a hyphen before a number by a minus sign."""
-    return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 
 def card(

@@ -1,18 +1,12 @@
 """The results of a study, complete or still running, and what they show.
 
-They are read from its folder or from one file. A file that a visitor uploads is read in a process of its own, one at a
-time: some kilobytes may unpack to gigabytes. Shown are the best point, the robust best design, main effects, and the
-Pareto front of hover and cruise.
+They are read from its folder or from one file. Shown are the best point, the robust best design and main effects; any
+row is a design again.
 """
 
 import json
 import math
-import pickle
-import sys
-import threading
 from dataclasses import dataclass
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
 
@@ -22,25 +16,17 @@ from numpy.typing import NDArray
 from rotor.arrays import Array, Booleans, Integers
 from rotor.design.design import Design
 from rotor.files.make_design import Tell, warn
-from rotor.processes import start_process
 from rotor.study.chunks import CONVERGED, arrow_modules, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
-from rotor.user_input import brief, shorten
+from rotor.user_input import is_file, read_bytes, shorten
 
 _LARGEST = 400_000_000
 """Bytes that a single file may unpack to."""
-_MEMORY = 2 * 10**9
-"""[bytes] beyond what the process has after its start; an accepted file unpacks to a fifth of it."""
-_PATIENCE = 60.0
-"""[s]"""
-_one_at_a_time = threading.Lock()
 _MANY = 20
 """Number of values from which an axis is divided into ten parts."""
 _FEW = 10
 """Least mean number of values per part of a sampled axis: with fewer, noise looks like an effect."""
-_MOST_SPEEDS = 100
-"""Speeds of an axis; more than these are sampled, and no two points share one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,49 +174,23 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
     return concept.apply(design, [held[one.name] for one in concept.parameters])
 
 
-def read_bounded(content: bytes, name: str, *, memory: int = _MEMORY, patience: float = _PATIENCE) -> Results:
-    """As `read_file`. ValueError also for a file that needs more memory [bytes] or time [s] to read."""
-    with _one_at_a_time:
-        ours, theirs = Pipe(duplex=False)
-        reader = start_process(_read, (theirs, content, name, memory), "parquet")
-        theirs.close()
-        try:
-            answer = pickle.loads(ours.recv_bytes()) if ours.poll(patience) else "it takes too long to read"
-        except EOFError:
-            answer = "it needs too much memory to read"
-        finally:
-            ours.close()
-            reader.kill()
-            reader.join()
-    if isinstance(answer, Results):
-        return answer
-    if answer.startswith("it "):
-        raise ValueError(f"{shorten(name)!r} cannot be shown ({answer}): give a smaller file, or the study's folder")
-    raise ValueError(answer)
+def design_at(place: str, tell: Tell = warn) -> Design:
+    """The design of a point of a study, from `FOLDER:N` or `chunk-….parquet:N`, N as in the column `point`.
 
-
-def _read(answer: Connection, content: bytes, name: str, memory: int) -> None:
-    """In the other process: send the results, or a sentence."""
-    try:
-        arrow_modules()  # Its own code is not counted.
-        limit_memory(memory)
-        made = pickle.dumps(read_file(content, name))
-    except MemoryError:  # Arrow's is one too.
-        made = pickle.dumps("it needs too much memory to read")
-    except Exception as error:
-        made = pickle.dumps(brief(error))
-    answer.send_bytes(made)
-
-
-def limit_memory(memory: int) -> None:
-    """Bound the address space of this process (Linux; elsewhere the sizes that the file itself gives must do)."""
-    if sys.platform != "linux":
-        return
-    import resource
-
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
-    most = pages * resource.getpagesize() + memory
-    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    ValueError with one sentence for a place that has no such point, and as `read_results` and `design_of_row`.
+    """
+    path, _, number = place.rpartition(":")
+    if not (path and number.isdecimal()):
+        raise ValueError(f"row {shorten(place)!r} is not understood: give a study's folder and a point, as DIR:17")
+    content = read_bytes(path, "result", "give a study's folder", _LARGEST) if is_file(path) else None
+    results = read_results(path) if content is None else read_file(content, Path(path).name)
+    row = results.row_of(int(number))
+    if row is None:
+        points = results.columns["point"]
+        raise ValueError(
+            f"study {shorten(path)!r} has no finished point {number}: give one of {points.min():.0f}…{points.max():.0f}"
+        )
+    return design_of_row(results, row, tell)
 
 
 @dataclass(frozen=True)
@@ -335,58 +295,3 @@ def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Integers]:
         middles = [low + (k + 0.5) * part for k in range(parts)]
         return middles, np.clip(np.floor((at - low) / part), 0, parts - 1).astype(np.int64)
     return levels.tolist(), code.astype(np.int64)
-
-
-@dataclass(frozen=True, eq=False)
-class HoverCruisePairs:
-    """Blades with their power in hover and in cruise; arrays are (blades,)."""
-
-    hover: Array
-    """[W]"""
-    cruise: Array
-    """[W]"""
-    row: Integers
-    """The row of the results that has the cruise."""
-
-    @property
-    def best(self) -> Booleans:
-        """Pareto front: blades that no other one beats in both powers."""
-        order = np.lexsort((self.hover, self.cruise))
-        before = np.minimum.accumulate(np.concatenate([[math.inf], self.hover[order][:-1]]))
-        best = np.zeros(len(self.hover), dtype=bool)
-        best[order] = self.hover[order] < before
-        return best
-
-
-def cruise_speeds(results: Results) -> tuple[float, ...]:
-    """Advance ratios that may have pairs: those on an axis that also has hover, or all where hover is a column."""
-    speeds: list[float] = np.unique(results.columns["mu"][results.good]).tolist()
-    if _has_hover(results):
-        return tuple(speeds)
-    return (
-        tuple(speeds[1:])
-        if "mu" in results.axes and speeds and speeds[0] == 0.0 and len(speeds) <= _MOST_SPEEDS
-        else ()
-    )
-
-
-def hover_cruise_pairs(results: Results, cruise: float) -> HoverCruisePairs:
-    """Pairs at a cruise speed: rows that agree in every axis but speed, or rows with their own hover power."""
-    power, mu = results.columns["power_total_w"], results.columns["mu"]
-    here = np.flatnonzero(results.good & (mu == cruise))
-    if _has_hover(results):
-        hover = results.columns["hover_power_w"][here]
-        known = np.isfinite(hover)
-        return HoverCruisePairs(hover[known], power[here][known], here[known])
-    code = results.codes(tuple(name for name in results.axes if name != "mu"))
-    hovering = np.full(int(code.max(initial=0)) + 1, math.nan)
-    still = results.good & (mu == 0.0)
-    hovering[code[still]] = power[still]
-    hover = hovering[code[here]]
-    known = np.isfinite(hover)
-    return HoverCruisePairs(hover[known], power[here][known], here[known])
-
-
-def _has_hover(results: Results) -> bool:
-    column = results.columns.get("hover_power_w")
-    return column is not None and bool(np.isfinite(column).any())

@@ -45,23 +45,6 @@ def test_the_first_verdict_comes_by_itself(watched: Watched):
     assert watched.page.evaluate("() => RX.state.earns.net") in watched.text("since")
 
 
-@pytest.mark.slow
-def test_electrodes_follow_actuator_and_voltage(watched: Watched):
-    watched.page.get_by_text("Electrodes", exact=True).click()
-    watched.page.wait_for_selector('[data-explorer="electrodes"]', state="visible")
-    assert "+3.00 kV/mm" not in watched.text("field-now")
-    watched.press("Voltage", "End")
-    watched.reads("field-now", r"\+3\.00 kV/mm")
-    kinds = watched.text("electrodes")
-    assert kinds.index("interdigitated") < kinds.index("continuous")
-    watched.choose("Actuator", "MFC P2: d31 sheet")
-    kinds = watched.until_changed(lambda: watched.text("electrodes"), kinds)
-    assert kinds.index("continuous") < kinds.index("interdigitated")
-    watched.choose("Actuator", "SMA tube: heated tube")  # Has none.
-    watched.page.wait_for_selector('[data-explorer="electrodes"]', state="detached")
-    watched.choose("Actuator", "MFC P1: d33 fibres")
-
-
 def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
     blade = watched.node("/rotor/blade_0")
     watched.press("Voltage", "End")
@@ -73,7 +56,6 @@ def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
 def test_another_actuator_gets_another_verdict(watched: Watched):
     unfold(watched, "Placement and blade")
     unfold(watched, "Reach and limits")
-    watched.press("Derating", "ArrowLeft")
     watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
     before = watched.text("verdict")
     assert "Macro fibre composite P1" in before
@@ -152,40 +134,14 @@ def test_the_flight_is_played_and_another_view_lets_the_blade_fly_back(watched: 
     watched.until(lambda: seen(watched, "/lifted"))
 
 
-@pytest.mark.slow
-def test_the_sweep_of_the_harmonic_follows_its_sliders(watched: Watched):
-    """Power over amplitude and phase, with the limit; the sentence follows the phase at once."""
-    watched.mode("explore")
-    watched.type("Adv. ratio", 0.3)
-    watched.mode("actuate")
-    unfold(watched, "Harmonic active twist")
-    watched.choose("Harmonic", "2/rev")
-    watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="swept"]')?.innerText.includes('At this phase')""",
-        timeout=VERDICT,
-    )
-    watched.reads("swept", r"Least power: \d+ % at \d+°: −\d")
-    assert "At this phase more twist saves more" not in watched.text("swept")
-    watched.type("Phase", 180)
-    watched.reads("swept", "At this phase more twist saves more")
-    watched.until(lambda: "flown, with the elastic twist" in watched.text("actuator-now"))
-    watched.choose("Harmonic", "Off")
-
-
-def test_pitch_at_three_per_rev_moves_power_curve_link_and_blades(watched: Watched):
-    """By the sliders of Actuate; undone in one step, and again on a page that opens its link."""
-    power, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
-    watched.type("Pitch ampl.", 2.0)
-    watched.reads("per-rev", "Root pitch of 2.00° at 3/rev")
-    power = watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    watched.type("Pitch phase", 180)
+def test_twist_at_n_per_rev_moves_power_link_and_blades(watched: Watched):
+    """By the dial; undone in one step."""
+    page, power, blade = watched.page, watched.text("total-power"), watched.node("/rotor/blade_0")
+    for change in ("start", [1.0, 30.0], "end"):
+        page.evaluate("change => RX.send('dial', [3, change])", change)
+    watched.reads("per-rev", "Active twist of 1.00° at 3/rev .phase 30°.")
     watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until(lambda: "pitch_per_rev=3:2:180" in watched.page.url)
-    watched.choose("Twist harmonic", "2/rev")
-    watched.type("Twist ampl.", 1.0)
-    watched.reads("per-rev", "Active twist of 1.00° at 2/rev .phase 0°. and root pitch of 2.00° at 3/rev .phase 180°")
-    watched.until(lambda: "twist_per_rev=2:1:0" in watched.page.url)
-    watched.page.keyboard.press("Escape")
-    watched.page.keyboard.press("Control+z")
-    watched.reads("per-rev", "^Root pitch of 2.00° at 3/rev .phase 180°.\\.$")
+    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
+    watched.until(lambda: "twist_per_rev=3:1:30" in page.url)
+    page.keyboard.press("Control+z")
+    watched.reads("per-rev", "^None set.$")

@@ -13,7 +13,6 @@ from PIL import Image
 from watched import Watched, opened, window
 
 from explorer.app import App
-from explorer.export.demo import demo_html
 from explorer.model.inputs import Inputs
 from explorer.story.steps import STEPS
 from explorer.story.story_file import story_html
@@ -166,36 +165,6 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
     path = saved(watched, "Power", tmp_path)
     assert "the sliders have none" in watched.text("export")
     assert "8320 kg, 0 m" in path.read_text(encoding="utf-8")
-
-
-@pytest.mark.slow
-def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path: Path):
-    """Opened as a file: the red blade, the disk and the power change with the twist, and nothing is asked of a host."""
-    (tmp_path / "demo.html").write_text(demo_html(make_design(), (-12.0, 0.0), (0.2,)), encoding="utf-8")
-    page = window(browser).new_page()
-    shown = Watched(page)
-    asked = requests_of(page)
-    page.goto((tmp_path / "demo.html").as_uri())
-    page.wait_for_selector("#demo[data-ready=true]")
-    tip = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0'].traverse(part => {
-        const {position, instanceStart} = part.geometry?.attributes ?? {};
-        if (part.isMesh && !instanceStart) found = Array.from(position.array); }); return found; }"""
-    jig = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0/ghost'].traverse(part => {
-        found ??= part.geometry?.attributes?.instanceStart?.data.array.slice(); }); return Array.from(found); }"""
-    before, jig_before, power = page.evaluate(tip), page.evaluate(jig), page.inner_text("#demo-total")
-    page.locator("#demo-twist").press("ArrowRight")
-    page.wait_for_function("power => document.getElementById('demo-total').textContent !== power", arg=power)
-    for read, earlier in ((tip, before), (jig, jig_before)):
-        shown.until(lambda read=read, earlier=earlier: np.max(np.abs(np.subtract(page.evaluate(read), earlier))) > 0.05)
-    after, jig_after = page.evaluate(tip), page.evaluate(jig)  # [m]
-    # Untwisted as built, the tip lies level; in flight the air turns it nose-down.
-    levels, flown = (np.reshape(points, (-1, 3)) for points in (jig_after, after))
-    tips = [points[points[:, 0] > points[:, 0].max() - 1e-3] for points in (levels, flown)]
-    built, flying = (tip[tip[:, 1].argmax(), 2] - tip[tip[:, 1].argmin(), 2] for tip in tips)
-    assert flying < built - 0.01  # Of a chord of 0.53 m.
-    assert page.inner_text("#demo-total") == f"{solve(make_design(twist='linear:0', mu=0.2)).power.total / 1e3:.0f} kW"
-    assert foreign(asked) == []
-    page.close()
 
 
 @pytest.mark.slow

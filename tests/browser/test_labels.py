@@ -43,7 +43,7 @@ _FAULTS = """() => {
   return [...faults];
 }"""
 MODES = ("explore", "optimise", "actuate")
-SECTIONS = {"optimise": ("Search", "Map", "Schedule"), "open": ("Studies", "Files", "History")}
+SECTIONS = {"optimise": ("Search", "Map", "Schedule"), "open": ("Files", "History")}
 SIZE = (1280, 720)
 
 

@@ -60,8 +60,8 @@ def test_the_index_follows_twist_at_n_per_rev(watched: Watched):
     switch(watched)
     before = float(watched.reads("index", r"^\d\.\d$"))
     watched.mode("actuate")
-    watched.type("Twist ampl. [°]", 1.0)
-    watched.type("Twist phase [°]", 60.0)
+    for change in ("start", [1.0, 60.0], "end"):
+        watched.page.evaluate("change => RX.send('dial', [3, change])", change)
     watched.reads("index-change", r"^−\d+ % vs\. as built")
     assert float(watched.text("index")) < 0.7 * before
     assert watched.reads("per-rev-vibration", r"^Vibration index \d\.\d % of weight, −\d+ % vs\. as built")

@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import rotate
-from explorer.tabs.actuator import actuator_words, electrodes
+from explorer.tabs.actuator import actuator_words
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_controls import reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
@@ -27,13 +27,13 @@ from explorer.tabs.actuator.actuator_inputs import (
     question_of,
     swing_of,
 )
-from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers, lean_verdict, sweep_task, verdict_on, verdict_tasks
-from explorer.tabs.actuator.actuator_words import amplitude_plot, phase_plot, section_svg, sweep_sentence
-from explorer.tabs.actuator.lifted_picture import drive_colour, flown_twist, glow, lifted_picture, voltage_shares
+from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers, lean_verdict, verdict_on, verdict_tasks
+from explorer.tabs.actuator.actuator_words import section_svg
+from explorer.tabs.actuator.lifted_picture import TIMES, drive_colour, flown_twist, glow, lifted_picture
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
-from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.verdict import Verdict, verdict_sentence
+from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 from tests.explorer.test_pictures import on_canvas
@@ -44,19 +44,19 @@ ALL = tuple(actuators())
 
 
 def test_full_voltage_makes_the_twist_that_the_range_gives():
-    """+1500 V of a 2000 V range: three quarters of what the blade at rest gains, derated, on its own blade.
+    """+1500 V of a 2000 V range: three quarters of what the blade at rest gains, on its own blade.
 
     Without voltage the design is the very same.
     """
     assert ActuatorInputs().apply(DESIGN) is DESIGN
-    inputs = ActuatorInputs(drives=FULL, counted=60.0)
+    inputs = ActuatorInputs(drives=FULL)
     applied, installed = inputs.apply(DESIGN), inputs.installed(DESIGN.rotor)
     made = applied.twist
     gained = float(made(1.0) - made(0.0)) - float(DESIGN.twist(1.0) - DESIGN.twist(0.0))
     # The table begins at 0.05 R, a hair outboard of the pitch bearing, and holds its end.
-    assert_allclose(gained, 0.6 * 0.75 * np.abs(installed.rest_shapes[:, -1]).sum(), rtol=5e-3)
+    assert_allclose(gained, 0.75 * np.abs(installed.rest_shapes[:, -1]).sum(), rtol=5e-3)
     assert applied.rotor.blade.structure == installed.blade
-    assert 1.0 < gained / (0.6 * 0.75 * installed.attainable) < 1.15  # Rotation takes some of it.
+    assert 1.0 < gained / (0.75 * installed.attainable) < 1.15  # Rotation takes some of it.
 
 
 def test_crossed_fibres_turn_the_other_way():
@@ -79,7 +79,8 @@ def test_drive_and_swing_are_inverse(id: str):
 
 def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
     rigid = replace(DESIGN, models=replace(DESIGN.models, elastic_twist=False))
-    still, turning = (solve(i.apply(rigid)) for i in (ActuatorInputs(), ActuatorInputs(per_rev=1, amplitude=100.0)))
+    wave = linear_active_twist(read_harmonics("1:2:0", "test"), rigid.rotor.blade.root_cutout)
+    still, turning = (solve(replace(rigid, active_twist=twist)) for twist in (None, wave))
     assert make_picture(still, ViewState(), (0.0, 10.0)).blades.shapes == ()
     shapes = make_picture(turning, ViewState(), (0.0, 10.0)).blades.shapes
     assert len(shapes) == DESIGN.rotor.blades
@@ -89,8 +90,8 @@ def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
 
 
 def test_the_baseline_has_no_actuator():
-    turning = ActuatorInputs(per_rev=2, drives=FULL).apply(DESIGN)
-    assert baseline_of(turning) == baseline_of(DESIGN)
+    driven = ActuatorInputs(drives=FULL).apply(DESIGN)
+    assert baseline_of(driven) == baseline_of(DESIGN)
 
 
 @pytest.mark.parametrize("concept", CONCEPTS)
@@ -102,7 +103,7 @@ def test_the_question_hangs_on_the_baseline_and_not_on_flight_voltage_or_view():
     inputs = ActuatorInputs()
     climbing = make_design(preset="flight", mu=0.3)
     climbing = replace(climbing, condition=replace(climbing.condition, climb_speed=5.0))
-    moved = replace(inputs, drives=FULL, per_rev=1, crossed=True)
+    moved = replace(inputs, drives=FULL, crossed=True)
     assert question_of(inputs, DESIGN) == question_of(moved, climbing)
     others = {
         question_of(replace(inputs, **{key: one}), DESIGN) for key, one in (("plies", 3), ("against", "as-built"))
@@ -116,7 +117,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
     """Small enough to be sent at every step of the flight bar."""
     inputs = ActuatorInputs(actuator=id, blade=blade, concept="three-segment", drives=FULL)
     installed = inputs.installed(DESIGN.rotor)
-    picture = lifted_picture(inputs, installed, DESIGN, 0.0)
+    picture = lifted_picture(inputs, installed, DESIGN)
     for solid in picture.solids.values():
         assert np.isfinite(solid.mesh.vertices).all()
         assert solid.mesh.faces.max() < len(solid.mesh.vertices)
@@ -144,15 +145,15 @@ def test_plies_stand_outside_the_true_contour_where_they_are_placed():
 
 def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
     """By the magnified twist: the trailing edge of the tip goes down, the leading edge up."""
-    inputs = ActuatorInputs(drives=FULL, magnified=10.0)
+    inputs = ActuatorInputs(drives=FULL)
     installed = inputs.installed(DESIGN.rotor)
-    rest, driven = (lifted_picture(each, installed, DESIGN, 0.0) for each in (ActuatorInputs(), inputs))
+    rest, driven = (lifted_picture(each, installed, DESIGN) for each in (ActuatorInputs(), inputs))
     angles = []
     for picture in (rest, driven):
         ring = picture.lines["edges"][-38:, 0]  # The tip section, from its trailing edge over the nose.
         nose, tail = ring[19], ring[0]
         angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
-    assert_allclose(angles[1] - angles[0], 10.0 * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
+    assert_allclose(angles[1] - angles[0], TIMES * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
     assert len(rest.lines["ghost"]) == len(rest.lines["arrow"]) == 0
     assert len(driven.lines["ghost"]) > 0
     assert len(driven.lines["arrow"]) > 0
@@ -192,7 +193,7 @@ def test_what_drives_a_piece_is_seen_in_its_light():
     assert red > blue
     assert drive_colour(0.0) != drive_colour(1.0) != drive_colour(-1.0)
     inputs = ActuatorInputs(drives=FULL)
-    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
+    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN)
     assert {name for name, solid in picture.solids.items() if solid.glow} == {"drive_0", "drive_1"}
 
 
@@ -201,7 +202,7 @@ def test_the_camera_holds_the_whole_lifted_blade_and_the_helicopter_beyond():
     radius = DESIGN.rotor.radius
     pose = lifted.lifted_pose(radius)
     inputs = ActuatorInputs(drives=FULL)
-    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
+    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN)
     vertices = np.concatenate([solid.mesh.vertices for solid in picture.solids.values()])
     world = rotate(pose.wxyz, vertices) + pose.position
     for aspect in (1.2, 1.6, 2.6):
@@ -213,12 +214,6 @@ def test_the_camera_holds_the_whole_lifted_blade_and_the_helicopter_beyond():
         assert np.linalg.norm(camera.position) > 3.0 * np.linalg.norm(world - camera.position, axis=1).max()
 
 
-def test_the_harmonic_moves_the_colour_with_azimuth():
-    inputs = ActuatorInputs(per_rev=1, amplitude=50.0)
-    installed = inputs.installed(DESIGN.rotor)
-    assert voltage_shares(inputs, installed, 0.0)[0] > 0.0 > voltage_shares(inputs, installed, math.pi)[0]
-
-
 @pytest.mark.parametrize("id", ALL)
 def test_the_section_is_drawn_with_its_plies(id: str):
     installed = ActuatorInputs(actuator=id).installed(DESIGN.rotor)
@@ -227,26 +222,17 @@ def test_the_section_is_drawn_with_its_plies(id: str):
     assert "nan" not in svg.lower()
 
 
-def test_more_voltage_than_there_is_is_said():
-    inputs = ActuatorInputs(per_rev=1, amplitude=100.0)
-    installed = inputs.installed(DESIGN.rotor)
-    assert "beyond −500…1\u2009500 V" in actuator_words.over_range(inputs, installed)
-    assert actuator_words.over_range(replace(inputs, amplitude=40.0), installed) == ""
-    assert actuator_words.over_range(replace(inputs, drives=(100.0 / 3.0,)), installed) == ""  # 500 V, the middle.
-
-
 @pytest.fixture(scope="module")
 def verdict() -> Verdict:
     return verdict_on(question_of(ActuatorInputs(), DESIGN))
 
 
 def test_the_verdict_is_told_whole(verdict: Verdict):
-    inputs = ActuatorInputs()
-    question = question_of(inputs, DESIGN)
+    question = question_of(ActuatorInputs(), DESIGN)
     panel = actuator_words.verdict_panel(verdict)
     assert 'data-kind="ready"' in panel
     assert verdict_sentence(verdict)[:40] in panel
-    numbers = actuator_words.fit_panel(inputs, verdict.installed, verdict)
+    numbers = actuator_words.fit_panel(verdict.installed, verdict)
     assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
     limits = actuator_words.limits_panel(verdict)
     assert all(actuator_words.limit_words(limit.name) in limits for limit in verdict.limits)
@@ -264,19 +250,11 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
     assert table_panel({}, question).count("computing…") == len(ALL)
 
 
-@pytest.mark.slow
-def test_derating_of_ones_own_counts(verdict: Verdict):
-    half = verdict_on(replace(question_of(ActuatorInputs(), DESIGN), share=0.5))
-    assert_allclose(half.ratio, 2.0 * verdict.ratio, rtol=1e-9)
-    assert half.gross_saving < verdict.gross_saving
-
-
 def test_the_chart_shows_need_and_reach(verdict: Verdict):
     plot = reach_plot(ActuatorInputs(drives=FULL), verdict.installed, verdict, 0.13, None)
-    r, limit, counted, required, used, now = plot.data
+    r, limit, required, used, now = plot.data
     assert len({len(values) for values in plot.data}) == 1
     assert_allclose(abs(required[-1]), math.degrees(verdict.required), rtol=1e-6)
-    assert_allclose(counted, limit)
     assert (np.abs(used) <= np.abs(limit) + 0.01).all()
     assert now[-1] > 0.0
     assert plot.y_range[0] <= min(map(np.min, plot.data[1:]))
@@ -365,58 +343,9 @@ def test_nothing_is_begun_while_somebody_drags():
     until(lambda: pool.asked == [task])
 
 
-def bowl(depth: float) -> PowerMap:
-    """ΔP = −2 depth·a cos φ + b a²: least at φ = 0, a = depth/b, with b = 4 kW."""
-    shares, phases = np.array([0.5, 1.0]), 2.0 * np.pi * np.arange(12) / 12
-    changes = -2.0 * depth * shares[:, None] * np.cos(phases) + 4000.0 * shares[:, None] ** 2
-    return PowerMap(2, shares, phases, changes)
-
-
-def test_the_limit_beyond_which_more_twist_costs():
-    found = bowl(1000.0)
-    assert_allclose(found.best(), (0.25, 0.0, -250.0), atol=1e-9)
-    assert_allclose(found.change(0.3, np.pi), 600.0 + 360.0)
-    turning = ActuatorInputs(per_rev=2, amplitude=40.0)
-    assert sweep_sentence(found, turning, DESIGN).endswith("At this phase twist beyond 25 % costs power again.")
-    assert "25 % at 0°: −0.2 kW" in sweep_sentence(found, turning, DESIGN)
-    assert "every amplitude costs" in sweep_sentence(found, replace(turning, phase=180.0), DESIGN)
-    assert "more twist saves more, up to 100 %" in sweep_sentence(bowl(5000.0), turning, DESIGN)
-    assert sweep_sentence(bowl(0.0), turning, DESIGN).startswith("No amplitude saves power at 2/rev.")
-    x, _, here, limit, now = amplitude_plot(found, turning, None).data
-    assert_allclose(x[np.isfinite(limit)], 25.0, atol=0.7)
-    assert_allclose(np.nanmin(here), -0.25, atol=1e-3)
-    assert_allclose(x[np.isfinite(now)], 40.0, atol=0.7)
-    x, full, here, now = phase_plot(found, replace(turning, phase=90.0), None).data
-    assert_allclose(x[np.isfinite(now)], 90.0)
-    assert_allclose((full.min(), here.min()), (2.0, -0.16), atol=1e-9)
-
-
-def test_a_sweep_is_asked_for_once_for_all_amplitudes_and_phases():
-    turning = ActuatorInputs(per_rev=2)
-    task = sweep_task(turning, DESIGN)
-    assert task == sweep_task(replace(turning, amplitude=80.0, phase=90.0), DESIGN)
-    assert task != sweep_task(replace(turning, drives=FULL), DESIGN)
-    assert pickle.loads(pickle.dumps(task)) == task
-    assert sweep_task(ActuatorInputs(), DESIGN) is None
-    assert sweep_task(turning, make_design(mu=0.0)) is None
-
-
-@pytest.mark.slow
-def test_a_sweep_agrees_with_the_slider():
-    """The map at an amplitude and phase, and the change of power that the page shows there."""
-    turning = ActuatorInputs(per_rev=2, amplitude=70.0, phase=200.0)
-    task = sweep_task(turning, DESIGN)
-    assert task is not None
-    found = task.run()
-    assert isinstance(found, PowerMap)
-    alone = solve(replace(turning, amplitude=1e-6).apply(DESIGN)).power.total
-    shown = solve(turning.apply(DESIGN)).power.total - alone
-    assert_allclose(found.change(0.7, math.radians(200.0)), shown, atol=20.0)
-
-
 def test_the_lifted_blade_is_drawn_as_flown():
     """The part that voltage moves: zero at the root, and at the tip what the two trims differ by."""
-    inputs = ActuatorInputs(drives=FULL, per_rev=2, amplitude=50.0)
+    inputs = ActuatorInputs(drives=FULL)
     driven, rest = solve(inputs.apply(DESIGN)), solve(DESIGN)
     flown = flown_twist(driven, rest, 0.5)
     assert flown is not None
@@ -426,9 +355,9 @@ def test_the_lifted_blade_is_drawn_as_flown():
     pitch = driven.disk.theta[:, at] - rest.disk.theta[:, at]  # Collective and cyclic move every station alike.
     assert_allclose(flown.moved, pitch - pitch[0], atol=math.radians(0.03))
     installed = inputs.installed(DESIGN.rotor)
-    labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, 0.5, flown).labels if kind == "tip"]
+    labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, flown).labels if kind == "tip"]
     tip = math.degrees(inputs.tip(installed, DESIGN))
-    assert labels == [f"{tip:+.2f}° at the tip, drawn × {inputs.magnified:g}"]
+    assert labels == [f"{tip:+.2f}° at the tip, drawn × {TIMES:g}"]
     assert f">{tip:+.2f}°<" in actuator_words.now_panel(inputs, installed, driven)  # One number on the page.
     rigid = make_design(preset="thesis", mu=0.2)
     assert flown_twist(solve(rigid), solve(rigid), 0.5) is None
@@ -442,8 +371,8 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     page = [
         (
             actuator_words.verdict_panel(one),
-            actuator_words.fit_panel(ActuatorInputs(), one.installed, one),
-            actuator_words.segments_panel(one.installed, 1.0, one),
+            actuator_words.fit_panel(one.installed, one),
+            actuator_words.segments_panel(one.installed, one),
             actuator_words.limits_panel(one),
             table_panel({"MFC_P1": one}, question),
         )
@@ -453,42 +382,3 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     plots = (reach_plot(ActuatorInputs(), one.installed, one, 0.13, None) for one in (verdict, small))
     for full, left in zip(*(plot.data for plot in plots), strict=True):
         assert_allclose(left, full)
-
-
-SHEETS = [one for one in actuators().values() if isinstance(one, PiezoPly)]
-
-
-@pytest.mark.parametrize("sheet", SHEETS, ids=lambda sheet: sheet.id)
-def test_strain_follows_the_voltage(sheet: PiezoPly):
-    """Along the fibres it is what the catalogue says at both ends; the present voltage is a point on that line."""
-    low, high = sheet.voltage_range
-    x, other, across, along, analogy, now = electrodes.strain_plot(sheet, (0.5 * high, 0.0), None).data
-    assert (x[0], x[-1]) == (low, high)
-    assert_allclose(along[-1] - along[0], 1e6 * sheet.swing[0], rtol=1e-9)
-    assert_allclose(across[-1] - across[0], 1e6 * sheet.swing[1], rtol=1e-9)
-    assert_allclose(analogy, along, rtol=0.08, atol=1.0)
-    here = np.isfinite(now)
-    assert_allclose(x[here], [0.0, 0.5 * high])
-    assert_allclose(now[here], along[here])
-    assert np.isfinite(other).any()
-    against = electrodes.other_kind(sheet)  # d33 grows where d31 shrinks, so that the two lines cross at 0 V.
-    assert against.electrodes != sheet.electrodes
-    assert np.sign(against.d_along) != np.sign(sheet.d_along)
-
-
-@pytest.mark.parametrize("sheet", SHEETS, ids=lambda sheet: sheet.id)
-def test_cuts_and_ranges_are_whole(sheet: PiezoPly):
-    panel = electrodes.field_panel(sheet)
-    assert panel.count("<image") == 2
-    assert panel.count("<polyline") == 18
-    assert panel.count("<rect") == 6  # Four fingers and two plates.
-    assert f"{1e6 * sheet.d_along / sheet.electrode_gap:.2f}·10⁻⁶ /V".replace("-", "−") in panel
-    ranges = electrodes.ranges_panel(sheet, (sheet.voltage_range[1],))
-    assert ranges.count("rxa-track") == len(SHEETS)
-    assert "nan" not in (panel + ranges).lower()
-
-
-def test_the_field_now_is_voltage_over_gap():
-    text = re.sub(r"<[^>]+>", " ", electrodes.ranges_panel(SHEETS[0], (900.0, 100.0)))
-    assert "Now, segment 1" in text
-    assert "+900 V · +1.80 kV/mm · +810 µε" in text

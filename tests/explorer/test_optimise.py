@@ -1,6 +1,5 @@
 """What the optimiser's tabs show, without a browser: runs, charts, maps, drawings and words."""
 
-import io
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -8,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from explorer.charts.plots import Plot
 from explorer.model.inputs import baseline_of
@@ -247,44 +245,17 @@ class TestMap:
         assert not task.run(lambda item: None, lambda: True)  # Stopped between two points.
         assert fine.powers[1][2] == pytest.approx(solve(task.at(0.5, 0.25)).power.total, rel=1e-7)
 
-    def test_picture_and_drawing(self, levels: tuple[MapTask, list[MapLevel]]):
+    def test_the_least_is_said_with_what_is_held(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
         drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
         x, y, power = drawn.least
         assert solve(task.at(x, y)).power.total == pytest.approx(power, rel=1e-7)
-        picture = Image.open(io.BytesIO(power_map.picture(drawn.powers))).convert("RGBA")
-        assert picture.getpixel((3, 3))[3] > 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
-        svg = ET.fromstring(power_map.drawing(drawn, (0.5, 0.5), exact=True).replace("&nbsp;", " "))
-        assert svg.find("image") is not None
-        assert "Fixed: Inboard rate" in power_map.legend(drawn, exact=True)
-        marks = [
-            [mark for mark in ("● design on", "○ nearest to") if mark in power_map.legend(drawn, exact)]
-            for exact in (True, False, None)
-        ]
-        assert marks == [["● design on"], ["○ nearest to"], []]
-
-    def test_the_example_beside_the_field_is_the_best_point(self, levels: tuple[MapTask, list[MapLevel]]):
-        task, told = levels
-        drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
-        example = power_map.least_text(drawn)
-        assert f"such as {example}." in power_map.legend(drawn, exact=True)
-        x, y, _ = drawn.least
-        for axis, place in zip(task.axes, (x, y), strict=True):
-            parameter = task.concept.parameters[axis]
-            typed = (power_map.point_of(example, drawn)[axis] - parameter.low) / (parameter.high - parameter.low)
-            assert typed == pytest.approx(place, abs=2e-3)
-
-    def test_the_colour_bar_has_the_colours_of_the_picture(self):
-        bar = ET.fromstring(power_map.colour_bar())
-        left, width = (float(bar.findall("rect")[0].get(name) or "") for name in ("x", "width"))
-        stops = [stop.get("stop-color") or "" for stop in bar.iter("stop")]
-        for mark in bar.findall("g/text")[1:-1]:  # Without 0, which is within the band, and the caption.
-            excess = float(mark.text or "") / 100.0
-            place = (float(mark.get("x") or "") - left) / width
-            shown = np.array([int(part) for part in stops[round(24 * place)][4:-1].split(",")])
-            powers = 1.0 + 1.02 * excess * np.linspace(0.0, 1.0, 5)[:, None] * np.ones(5)  # Beyond the white line.
-            drawn = np.array(Image.open(io.BytesIO(power_map.picture(powers))).convert("RGBA"), dtype=float)
-            assert np.abs(drawn[0, 5, :3] - shown).max() < 16
+        across, up = drawn.parameters
+        division, rate = across.low + x * (across.high - across.low), math.degrees(up.low + y * (up.high - up.low))
+        shown = f"{division:.2f} R, {rate:.1f} °/R".replace("-", "−")
+        assert power_map.least_words(drawn, SI) == (
+            f"Least {SI.watts(power, 1)} at {shown}. Fixed: Inboard rate −11.5 °/R."
+        )
 
     def test_designs_that_do_not_trim_are_left_blank(self):
         powers = np.full((5, 5), 1e6) + np.arange(5.0)
@@ -292,17 +263,6 @@ class TestMap:
         values = refined(powers, 40, 30)
         assert np.isnan(values[-1, -1])
         assert np.isfinite(values[:20, :20]).all()
-        picture = np.array(Image.open(io.BytesIO(power_map.picture(powers))).convert("RGBA"))
-        assert picture[2, -3, 3] == 0
-
-    def test_a_point_is_read_within_the_map_only(self, levels: tuple[MapTask, list[MapLevel]]):
-        drawn = power_map.Map(levels[0], np.ones((3, 3)))
-        values = power_map.point_of("0.6, −12.5", drawn)
-        assert values == pytest.approx((-0.2, math.radians(-12.5), 0.6))
-        with pytest.raises(ValueError, match="outside the map"):
-            power_map.point_of("0.1 -12", drawn)
-        with pytest.raises(ValueError, match="two numbers"):
-            power_map.point_of("here", drawn)
 
 
 def test_each_start_has_its_trace_and_running_best(run: SearchRun):

@@ -15,17 +15,16 @@ import viser
 from numpy.testing import assert_allclose
 
 from explorer import web
-from explorer.export.demo import flown_pitch
 from explorer.export.provenance import provenance_lines
+from explorer.export.still_rotor import flown_pitch
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.poses import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from explorer.tabs.actuator.per_rev import (
-    PerRevControls,
+    TwistDial,
     dial_matrix,
     front_dots,
     programme_table,
@@ -76,13 +75,6 @@ def test_another_rotor_and_the_baseline_have_none():
     assert baseline_of(MOVED.design()).pitch_waves == ()
 
 
-def test_the_actuators_harmonic_and_the_twist_are_not_both():
-    inputs = ActuatorInputs(per_rev=2)
-    assert inputs.apply(replace(OPENING, pitch_per_rev=PITCH).design()).pitch_per_rev == PITCH
-    with pytest.raises(ValueError, match="cannot both be set"):
-        inputs.apply(MOVED.design())
-
-
 def test_a_pinned_design_with_twist_at_n_per_rev_is_on_the_sliders():
     solution = solve(MOVED.design()).require()
     assert not Pinned(MOVED, solution).driven
@@ -127,7 +119,7 @@ def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     assert np.ptp([pitched[1][1], pitched[2][1]]) > np.ptp([elastic[1][1], elastic[2][1]]) + 1.0
 
 
-def test_the_demo_holds_all_harmonics_of_a_blade():
+def test_a_file_holds_all_harmonics_of_a_blade():
     pitch = flown_pitch(solve(MOVED.design()).require(), blade_shape(OPENING.aircraft.rotor), 1.0)
     assert len(pitch) == 1 + 2 * 5
 
@@ -142,62 +134,19 @@ def test_words():
     assert "collective and cyclic alone" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
 
 
-class TestWidgets:
-    @pytest.fixture
-    def parts(
-        self, server: viser.ViserServer, controls_from: Callable[[Inputs], DesignControls]
-    ) -> tuple[DesignControls, PerRevControls]:
-        controls = controls_from(OPENING)
-        bridge = SimpleNamespace(set=lambda **_: None, on=lambda *_: None)
-        context: Any = SimpleNamespace(
-            gui=server.gui, controls=controls, inputs=controls.inputs, bridge=bridge, pool=None, wake=lambda: None
-        )
-        return controls, PerRevControls(context, lambda _: None)
-
-    def test_a_hand_on_them(self, parts: tuple[DesignControls, PerRevControls]):
-        page, panel = parts
-
-        def slide(handles: dict[str, Any], name: str, value: Any) -> None:
-            handles[name].value = value
-            (panel._chosen if handles is panel._orders else panel._slid)(name)
-            panel.refresh(page.inputs())  # As the page does after every change.
-
-        def waves(name: str) -> list[tuple[float, ...]]:
-            found: tuple[Harmonic, ...] = getattr(page.inputs(), name)
-            return [(n.per_rev, round(math.degrees(n.amplitude), 9), round(math.degrees(n.phase), 9)) for n in found]
-
-        slide(panel._phases, "pitch_per_rev", 90.0)
-        assert page.inputs() == OPENING  # Nothing yet.
-        slide(panel._sizes, "pitch_per_rev", 1.25)
-        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
-        slide(panel._orders, "pitch_per_rev", "2/rev")
-        assert panel._sizes["pitch_per_rev"].value == 0.0
-        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
-        slide(panel._sizes, "pitch_per_rev", 0.5)
-        assert waves("pitch_per_rev") == [(2, 0.5, 90.0), (3, 1.25, 90.0)]
-        slide(panel._sizes, "pitch_per_rev", 0.0)
-        assert panel._orders["pitch_per_rev"].value == "2/rev"  # The menu stays under the hand.
-        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
-        slide(panel._sizes, "twist_per_rev", 2.0)
-        assert waves("twist_per_rev") == [(3, 2.0, 0.0)]
-        assert "Active twist of 2.00° at 3/rev" in panel._words.content
-        assert "root pitch of 1.25° at 3/rev (phase 90°)" in panel._words.content
-        page.reset()
-        panel.refresh(page.inputs())
-        assert page.inputs() == OPENING
-        assert panel._sizes["pitch_per_rev"].value == panel._sizes["twist_per_rev"].value == 0.0
-
-    def test_a_design_file_on_them(self, parts: tuple[DesignControls, PerRevControls]):
-        page, panel = parts
-        brought = replace(MOVED, twist_per_rev=read_harmonics("8:15:20", "test"), active_shape=((0.3, 1.0), (0.0, 1.0)))
-        page.set_inputs(brought)
-        panel.refresh(page.inputs())
-        assert page.inputs() == brought
-        assert panel._orders["twist_per_rev"].value == "8/rev"
-        assert (panel._sizes["twist_per_rev"].value, panel._phases["twist_per_rev"].value) == (15.0, 20.0)
-        assert "shape of its design file" in panel._words.content
-        panel.hold(True)
-        assert all(handle.disabled for handle in panel._sizes.values())
+def test_the_dial_says_what_is_set(server: viser.ViserServer, controls_from: Callable[[Inputs], DesignControls]):
+    """By a file too, at harmonics that the dial does not have."""
+    controls = controls_from(OPENING)
+    bridge = SimpleNamespace(set=lambda **_: None, on=lambda *_: None)
+    context: Any = SimpleNamespace(gui=server.gui, inputs=controls.inputs, bridge=bridge, pool=None, wake=lambda: None)
+    dial = TwistDial(context, lambda _: None)
+    assert "None set." in dial._set.content
+    brought = replace(MOVED, twist_per_rev=read_harmonics("8:15:20", "test"), active_shape=((0.3, 1.0), (0.0, 1.0)))
+    controls.set_inputs(brought)
+    dial.refresh(controls.inputs())
+    assert controls.inputs() == brought
+    for words in ("Active twist of 15.00° at 8/rev", "root pitch of 1.50° at 3/rev", "shape of its design file"):
+        assert words in dial._set.content
 
 
 BENDING = make_design(twist="builtin", mu=0.3, bending=True)

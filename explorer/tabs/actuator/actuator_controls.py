@@ -9,22 +9,19 @@ import numpy as np
 import viser
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.colours import BASELINE, LIMIT, NOW, THIS
+from explorer.colours import BASELINE, NOW, THIS
 from explorer.model.units import number
-from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_inputs import (
     AGAINST,
     BLADES,
     CONCEPTS,
-    HARMONICS,
     MOST_SEGMENTS,
     ActuatorInputs,
     Question,
     drive_of,
 )
 from explorer.tabs.actuator.actuator_tasks import Outcome
-from explorer.tabs.actuator.electrodes import ElectrodesPanel
-from explorer.tabs.live_charts import PanelChart, line, points
+from explorer.tabs.live_charts import PanelChart, line
 from explorer.text.glossary import hint
 from rotor.actuator import (
     Actuator,
@@ -44,7 +41,7 @@ from rotor.optimisation import find_concept
 def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> str:
     """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
     rows = "".join(_row(id, outcomes.get(id), id == question.actuator) for id in actuators())
-    titles = ("Actuator", "avail.<br>°", "derated<br>°", "kg", "net<br>kW", "verdict")
+    titles = ("Actuator", "avail.<br>°", "kg", "net<br>kW", "verdict")
     head = f"<tr>{''.join(f'<th>{title}</th>' for title in titles)}</tr>"
     first, second = question.pair.advance_ratios
     return (
@@ -57,14 +54,13 @@ def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> str:
 def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
     actuator = find_actuator(id)
     care = ' <span title="some data not verified" class="rxa-bad">▲</span>' if actuator.provenance.recalled else ""
-    cells = '<td class="rx-num rx-dim" colspan="5">computing…</td>'
+    cells = '<td class="rx-num rx-dim" colspan="4">computing…</td>'
     if isinstance(outcome, str):
-        cells = f'<td class="rx-num rxa-bad" colspan="5" title="{escape(outcome)}">cannot be built</td>'
+        cells = f'<td class="rx-num rxa-bad" colspan="4" title="{escape(outcome)}">cannot be built</td>'
     elif outcome is not None:
         words, kind = short_verdict(outcome)
         numbers = (
             number(math.degrees(outcome.attainable), 1),
-            number(math.degrees(outcome.attainable_derated), 1),
             number(outcome.installed.masses.aircraft),
             number(1e-3 * outcome.net_saving, 1, sign=True),
         )
@@ -107,7 +103,7 @@ _STATIONS = 61
 def reach_plot(
     inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
 ) -> Plot:
-    """Series: attainable, attainable as counted, required, used by the best twist within reach, now [°].
+    """Series: attainable, required, used by the best twist within reach, now [°].
 
     Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
     """
@@ -120,7 +116,7 @@ def reach_plot(
         required, used = twist_comparison(verdict, _STATIONS)
         if required[np.argmax(np.abs(required))] < 0.0:
             limit = -limit
-    series = tuple(np.degrees(values) for values in (limit, inputs.share * limit, required, used, now))
+    series = tuple(np.degrees(values) for values in (limit, required, used, now))
     seen = np.concatenate([values[np.isfinite(values)] for values in series])
     return Plot((r, *series), held_range(previous, min(0.0, float(seen.min())), max(0.2, float(seen.max()))))
 
@@ -153,8 +149,6 @@ class ActuatorControls:
             self._menu("blade", "Blade type", BLADES, "blade_type")
             self._slider("stiffness", "New blade GJ ×", 0.2, 1.5, 0.05)
             self._handles["crossed"] = self._watched(gui.add_checkbox("Fibres at −45°", False, hint=hint("crossed")))
-            self._slider("counted", "Derating [%]", 40.0, 100.0, 1.0, "derating")
-            self._slider("magnified", "Deformation ×", 1.0, 20.0, 1.0)
         with gui.add_folder("Mission conditions", expand_by_default=False):
             titles = {find_concept(name).title: name for name in CONCEPTS}
             self._menu("concept", "Concept", titles, "actuator_concept")
@@ -166,8 +160,7 @@ class ActuatorControls:
                 gui,
                 "Δtwist [°]",
                 (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
-                # Attainable, the same as counted, required, used, now.
-                (line(BASELINE, 1.5), line(BASELINE, 1.5, (5, 3)), line(NOW), line(_USED, 1.5), line(THIS)),
+                (line(BASELINE, 1.5), line(NOW), line(_USED, 1.5), line(THIS)),
                 (0.1, 1.02),
             )
             self.segments = gui.add_html("")
@@ -175,27 +168,6 @@ class ActuatorControls:
             self.limits = gui.add_html("")
         with gui.add_folder("All actuators on this blade", expand_by_default=False):
             self.table = gui.add_html("")
-        self.electrodes = ElectrodesPanel(gui)
-        with gui.add_folder("Harmonic active twist", expand_by_default=False):
-            gui.add_html(words.unmeasured())
-            self._menu("per_rev", "Harmonic", HARMONICS, "harmonic")
-            self._slider("amplitude", "Amplitude [%]", 0.0, 100.0, 1.0)
-            self._slider("phase", "Phase [°]", 0.0, 360.0, 5.0)
-            self.swept = gui.add_html("")
-            self.over_phase = PanelChart(
-                gui,
-                "ΔkW over phase [°]",
-                (("full", BASELINE, True), ("as set", NOW), ("now", THIS)),
-                (line(BASELINE, 1.5, (5, 3)), line(NOW), points(THIS, 8.0)),
-                (0.0, 360.0),
-            )
-            self.over_amplitude = PanelChart(
-                gui,
-                "ΔkW over amplitude [%]",
-                (("best", BASELINE, True), ("as set", NOW), ("limit", LIMIT)),
-                (line(BASELINE, 1.5, (5, 3)), line(NOW), points(LIMIT, 9.0), points(THIS, 8.0)),
-                (0.0, 100.0),
-            )
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
@@ -213,27 +185,19 @@ class ActuatorControls:
             handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
         self._handles["plies"].label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies per side"
         passive = isinstance(installed.actuator, ExtensionTwist)
-        ply, turning = isinstance(installed.actuator, PiezoPly), inputs.per_rev > 0
+        ply = isinstance(installed.actuator, PiezoPly)
         seen = {
             "plies": not passive, "span": not passive, "chord": ply, "crossed": ply,
-            "stiffness": inputs.blade == "new", "amplitude": turning, "phase": turning,
+            "stiffness": inputs.blade == "new",
         }  # fmt: skip
         for name, visible in seen.items():
             self._handles[name].visible = visible
         self._handles["span"].label = "Span {:.2f}–{:.2f}".format(*inputs.span)
         self._handles["chord"].label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
         self._handles["advance_ratios"].label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
-        self.swept.visible = turning
-        for chart in (self.over_phase, self.over_amplitude):
-            chart.set_visible(turning)
-
-    def reset(self) -> None:
-        """Nothing driven."""
-        self._handles["per_rev"].value = next(iter(HARMONICS))
-        self.undrive()
 
     def undrive(self) -> None:
-        """No steady voltage."""
+        """No voltage."""
         self.drive((0.0,) * MOST_SEGMENTS)
 
     def other_baseline(self) -> None:

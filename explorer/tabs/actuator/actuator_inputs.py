@@ -1,6 +1,5 @@
 """What is set on the Actuator tab, as a value; per cent, degrees and volts end here."""
 
-import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -11,7 +10,6 @@ from rotor import Design, Rotor
 from rotor.actuator import (
     Actuator,
     ConditionPair,
-    DynamicTwist,
     ExtensionTwist,
     Host,
     InstalledActuator,
@@ -21,7 +19,6 @@ from rotor.actuator import (
     find_actuator,
     install,
 )
-from rotor.actuator.harmonic import dynamic_twist, with_harmonic
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, divisions_of, twisted
 from rotor.actuator.section import BladeKind
 from rotor.actuator.verdict import Against
@@ -35,7 +32,6 @@ MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
 BLADES: dict[str, BladeKind] = {"Existing blade (retrofit)": "retrofit", "New blade, softer in torsion": "new"}
 AGAINST: dict[str, Against] = {"Best fixed blade": "best-fixed", "Blade as built": "as-built"}
 """The blade that savings count from."""
-HARMONICS = {"Off": 0, "1/rev": 1, "2/rev": 2}
 
 
 @dataclass(frozen=True)
@@ -51,8 +47,6 @@ class ActuatorInputs:
     blade: BladeKind = "retrofit"
     stiffness: float = 0.5
     """GJ of a new blade over that of the flown one."""
-    counted: float = 100.0
-    """Per cent of the nominal twist to count on."""
     concept: str = "linear"
     against: Against = "best-fixed"
     advance_ratios: tuple[float, float] = (0.0, 0.3)
@@ -60,13 +54,6 @@ class ActuatorInputs:
     """Per cent of the positive or of the negative voltage, segments from the root."""
     crossed: bool = False
     """Fibres laid the other way, so that positive voltage turns the tip down."""
-    per_rev: int = 0
-    amplitude: float = 50.0
-    """Per cent of half the voltage range."""
-    phase: float = 0.0
-    """[°]"""
-    magnified: float = 8.0
-    """How much the actuator's part of the twist is exaggerated in the lifted blade."""
 
     @property
     def host(self) -> Host:
@@ -75,10 +62,6 @@ class ActuatorInputs:
     @property
     def placement(self) -> Placement:
         return Placement(self.span, self.chord, self.plies)
-
-    @property
-    def share(self) -> float:
-        return 0.01 * self.counted
 
     def installed(self, rotor: Rotor) -> InstalledActuator:
         """The actuator on the blade; ValueError with one sentence where that cannot be built."""
@@ -103,57 +86,24 @@ class ActuatorInputs:
         return tuple(0.01 * drive for drive in self._segments(installed))
 
     def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
-        """The steady twist that the actuator adds at r/R, as counted on [rad]."""
-        return self.share * installed.change(self.swings(installed), r)
+        """The twist that the actuator adds at r/R [rad]."""
+        return installed.change(self.swings(installed), r)
 
     def tip(self, installed: InstalledActuator, design: Design) -> float:
-        """Steady twist of the tip, as counted on [rad]: of the blade at rest where the trim is elastic."""
-        return self.share * float(np.asarray(self.swings(installed)) @ installed.shapes_in(design)[:, -1])
-
-    def turning(self, installed: InstalledActuator, elastic: bool = False) -> DynamicTwist | None:
-        """What the whole range makes at the chosen harmonic, as counted on; at rest for an elastic trim."""
-        if not self.per_rev:
-            return None
-        response = dynamic_twist(installed, self.per_rev, elastic=elastic)
-        return replace(
-            response,
-            amplitude=self.share * response.amplitude,
-            static=self.share * response.static,
-            at_rest=self.share * response.at_rest,
-        )
-
-    def harmonic_twist(self, installed: InstalledActuator, psi: float, r: ArrayLike) -> Array:
-        """The part of a rigid trim that follows the azimuth, at one azimuth [rad]."""
-        response = self.turning(installed)
-        stations = np.asarray(r, dtype=float)
-        if response is None:
-            return np.zeros_like(stations)
-        wave = 0.01 * self.amplitude * response.amplitude * math.cos(self.per_rev * psi - math.radians(self.phase))
-        return wave * np.interp(stations, response.stations, response.shape)
+        """Twist of the tip [rad]: of the blade at rest where the trim is elastic."""
+        return float(np.asarray(self.swings(installed)) @ installed.shapes_in(design)[:, -1])
 
     def apply(self, design: Design) -> Design:
         """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
         if not self.driven or design.aircraft.key != KNOWN_BLADE:
             return design
         installed = self.installed(design.rotor)
-        if any(self.swings(installed)):
-            shapes = installed.shapes_in(design)
-            steady = self.share * np.asarray(self.swings(installed)) @ shapes
-            design = installed.on(
-                replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady)))
-            )
-        response = self.turning(installed, design.elastic)
-        if response is not None and response.amplitude > 0.0 and self.amplitude > 0.0:
-            if design.active_twist is not None:
-                raise ValueError(
-                    "The actuator's harmonic and the twist at n/rev cannot both be set: take one to zero under Actuate."
-                )
-            design = with_harmonic(design, response, 0.01 * self.amplitude, math.radians(self.phase))
-        return design
+        steady = np.asarray(self.swings(installed)) @ installed.shapes_in(design)
+        return installed.on(replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady))))
 
     @property
     def driven(self) -> bool:
-        return any(self.drives) or (self.per_rev > 0 and self.amplitude > 0.0)
+        return any(self.drives)
 
     def _segments(self, installed: InstalledActuator) -> tuple[float, ...]:
         return self.drives[: len(installed.shapes)]
@@ -168,7 +118,6 @@ class Question:
     actuator: str
     placement: Placement
     host: Host
-    share: float
     against: Against = "best-fixed"
 
 
@@ -176,7 +125,7 @@ def question_of(inputs: ActuatorInputs, design: Design) -> Question:
     """What the tab asks about a design; ValueError for a pair of equal conditions."""
     start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
     pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
-    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.share, inputs.against)
+    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.against)
 
 
 def swing_of(actuator: Actuator, drive: float) -> float:

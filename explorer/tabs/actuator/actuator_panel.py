@@ -3,14 +3,14 @@
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.actuator_tasks import Call, Outcome, PoolAnswers, flight_of, sweep_task, verdict_tasks
+from explorer.tabs.actuator.actuator_tasks import Call, Outcome, PoolAnswers, flight_of, verdict_tasks
 from explorer.tabs.actuator.flight_bar import FlightBar
-from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture, voltage_shares
+from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture
 from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor import Design, Solution
-from rotor.actuator import InstalledActuator, PowerMap, Verdict
+from rotor.actuator import InstalledActuator, Verdict
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
 
@@ -32,9 +32,8 @@ class ActuatorPanel:
         self._opened = False
         """Whether it ever was."""
         self._radius = 1.0
-        # Verdicts come behind searches, maps and schedules, the map of the harmonic before them.
+        # Verdicts come behind searches, maps and schedules.
         self._verdicts = PoolAnswers(context.pool, 5, context.wake)
-        self._maps = PoolAnswers(context.pool, 3, context.wake)
         self._verdict: Verdict | None = None
         """The last one that was shown."""
         self._undriven = solver.BaselineCache()
@@ -50,7 +49,6 @@ class ActuatorPanel:
     def stop(self) -> None:
         """The browser has left."""
         self._verdicts.stop()
-        self._maps.stop()
         self._flights.stop()
         self._blade.stop()
         self._pay.stop()
@@ -91,7 +89,6 @@ class ActuatorPanel:
                 self._controls.arrange(inputs, inputs.installed(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
             installed = inputs.installed(design.rotor)
-            inputs.turning(installed, design.elastic)  # Resonance of a rigid trim is reported here.
             question = question_of(inputs, design)
         except ValueError as error:
             self._blade.release(self._radius)
@@ -102,26 +99,12 @@ class ActuatorPanel:
         alone = self._undriven.solve(design) if inputs.driven else None
         self._draw(inputs, installed, design, psi, solution, alone or solution)
         self._controls.now.content = words.now_panel(inputs, installed, solution)
-        self._show_sweep(inputs, design)
-        shares = voltage_shares(inputs, installed, psi)
-        self._controls.section.content = words.section_svg(installed, shares)
-        self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
+        self._controls.section.content = words.section_svg(installed, inputs.drive_shares(installed))
         self._controls.bar.content = words.voltage_bar(installed.actuator)
         tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
         self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
         self._pay.show(question.pair, self._show_verdict(inputs, installed, question, design))
-
-    def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
-        task = sweep_task(inputs, design)
-        self._maps.ask(() if task is None else (task,), _STILL)
-        if not inputs.per_rev:
-            return
-        answer = self._maps.answer(task)
-        self._controls.swept.content = words.sweep_panel(answer, inputs, design)
-        charts = (self._controls.over_phase, words.phase_plot), (self._controls.over_amplitude, words.amplitude_plot)
-        for chart, plot in charts:
-            chart.show(plot(answer, inputs, chart.y_range) if isinstance(answer, PowerMap) else None)
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
@@ -129,7 +112,7 @@ class ActuatorPanel:
 
     def reset(self) -> None:
         """Nothing driven."""
-        self._controls.reset()
+        self._controls.undrive()
 
     def _show_verdict(
         self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
@@ -139,8 +122,8 @@ class ActuatorPanel:
         verdict = outcome if isinstance(outcome, Verdict) else None
         places = self._controls
         places.verdict.content = words.verdict_panel(outcome, self._verdict)
-        places.numbers.content = words.fit_panel(inputs, installed, verdict)
-        places.segments.content = words.segments_panel(installed, inputs.share, verdict)
+        places.numbers.content = words.fit_panel(installed, verdict)
+        places.segments.content = words.segments_panel(installed, verdict)
         places.limits.content = words.limits_panel(verdict)
         places.table.content = table_panel(outcomes, question)
         task = None if verdict is None else Call(flight_of, (verdict,))
@@ -165,12 +148,11 @@ class ActuatorPanel:
             self._blade.release(self._radius)
             self._drawn = None
             return
-        turning = inputs.per_rev > 0 or design.elastic
-        frame = (inputs, solution.design, psi if turning else 0.0)
+        frame = (inputs, solution.design, psi if design.elastic else 0.0)
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = lifted_picture(inputs, installed, design, psi, flown_twist(solution, alone, psi))
+        picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi))
         with self._context.client.atomic():
             self._blade.hold(self._radius)
             self._blade.show(picture)

@@ -1,4 +1,4 @@
-"""What Actuate asks of the worker processes: verdicts, flights and power maps; a known answer serves every page."""
+"""What Actuate asks of the worker processes: verdicts and flights; a known answer serves every page."""
 
 import threading
 from collections import OrderedDict
@@ -8,19 +8,17 @@ from functools import lru_cache
 from itertools import chain, pairwise
 from typing import Any
 
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question
+from explorer.tabs.actuator.actuator_inputs import Question
 from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, Pool
 from rotor import Design
 from rotor.actuator import (
     ActuatorFlight,
     FlightLeg,
-    PowerMap,
     Verdict,
     actuators,
     find_actuator,
     fly,
     judge,
-    power_map,
     standard_flight,
 )
 from rotor.optimisation import find_concept
@@ -53,7 +51,6 @@ def verdict_on(question: Question) -> Verdict:
         find_concept(question.concept),
         question.placement,
         question.host,
-        counted=question.share,
         against=question.against,
     )
 
@@ -92,23 +89,6 @@ def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
         for a, b in pairwise(legs)
     ]
     return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])
-
-
-def sweep_task(inputs: ActuatorInputs, design: Design) -> Call | None:
-    """What must be trimmed, whatever amplitude and phase are set; None with the harmonic off and in hover."""
-    if not inputs.per_rev or design.hovering:
-        return None
-    plain = ActuatorInputs()
-    steady = replace(inputs, amplitude=0.0, phase=0.0, magnified=plain.magnified, advance_ratios=plain.advance_ratios)
-    return Call(sweep, (replace(steady.apply(design), active_twist=None), steady))
-
-
-def sweep(design: Design, inputs: ActuatorInputs) -> PowerMap:
-    """Power over amplitude and phase of the harmonic of a design that a steady voltage has twisted already."""
-    response = inputs.turning(inputs.installed(design.rotor), design.elastic)
-    if response is None or not response.amplitude:
-        raise ValueError(f"This actuator cannot respond at {inputs.per_rev}/rev.")
-    return power_map(design, response)
 
 
 _KEPT = 64

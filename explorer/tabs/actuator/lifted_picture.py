@@ -51,6 +51,8 @@ FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
+TIMES = 8.0
+"""By how much the actuator's part of the twist is exaggerated; the numbers stay true."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +104,9 @@ def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwis
 
 
 def lifted_picture(
-    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float, flown: FlownTwist | None = None
+    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, flown: FlownTwist | None = None
 ) -> LiftedPicture:
-    """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator.
+    """The blade with the actuator's part of its twist `TIMES` as large; `design` is without actuator.
 
     With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage.
     """
@@ -118,12 +120,12 @@ def lifted_picture(
     def moved(r: Array) -> Array:
         if flown is not None:
             return np.interp(r, flown.r, flown.moved)
-        return inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
+        return inputs.change(installed, r)
 
     def twist(r: Array) -> Array:
-        return still(r) + inputs.magnified * moved(r)
+        return still(r) + TIMES * moved(r)
 
-    shares = voltage_shares(inputs, installed, psi)
+    shares = inputs.drive_shares(installed)
     solids: dict[str, Solid] = {}
     fibres: list[Array] = []
     for part in blade.parts:
@@ -157,20 +159,6 @@ def lifted_picture(
 
 
 _NONE = np.zeros((0, 2, 3))
-
-
-def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: float) -> tuple[float, ...]:
-    """Of each segment, −1…1 of its positive or negative side, with the harmonic at this azimuth."""
-    steady = inputs.drive_shares(installed)
-    if not inputs.per_rev or not isinstance(installed.actuator, PiezoPly):
-        return steady
-    wave = 0.01 * inputs.amplitude * math.cos(inputs.per_rev * psi - math.radians(inputs.phase))
-    low, high = installed.actuator.voltage_range
-    shares = []
-    for volts in inputs.volts(installed):
-        now = volts + 0.5 * installed.actuator.voltage_swing * (-wave if inputs.crossed else wave)
-        shares.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
-    return tuple(min(max(share, -1.0), 1.0) for share in shares)
 
 
 def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
@@ -227,8 +215,8 @@ def _labels(
         text = f"{_what(inputs, installed)}: {drive}" if not k else f"{k + 1}: {drive}"
         put(text, low + 0.56 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
-        times = f" at the tip, drawn × {inputs.magnified:g}" if inputs.magnified != 1.0 else " at the tip"
-        put(f"{number(math.degrees(tip), 2, sign=True)}°{times}", 1.0, -0.52, 0.0, -0.45, "tip")
+        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TIMES:g}"
+        put(words, 1.0, -0.52, 0.0, -0.45, "tip")
     lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
     return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
 

@@ -24,7 +24,7 @@ from explorer.picture.scene_theme import scene_theme
 from explorer.picture.solids import Mesh
 from explorer.tabs.actuator.lifted_blade import segments_of
 from explorer.tabs.context import TabContext
-from explorer.tabs.optimise.map_panel import COLOURS_END, Map, MapPanel, place_on
+from explorer.tabs.optimise.map_panel import Map, MapPanel, place_on
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
 from rotor import Design
@@ -41,6 +41,8 @@ _TIMES = 4.0
 """Exaggeration of the blade's twist, as on the rest of the page."""
 _BLADE_SCALE = 1.4
 _WATER, _NOW, _PINNED = (38, 110, 235), (214, 40, 24), (104, 64, 220)
+_COLOURS_END = 0.08
+"""Power above the least, as part of it, at which the colours end."""
 _FLAT = 2.0
 """Half a valley this wide [°/R] is called flat."""
 
@@ -175,7 +177,7 @@ class LandscapePanel:
                 "balls": balls,
                 "blade": blade,
                 "colours": [css(rgb) for rgb in colour_map("sequential", 12)],
-                "ends": f"{100 * COLOURS_END:g}",
+                "ends": f"{100 * _COLOURS_END:g}",
                 "water": f"within {100 * BAND:g} % ({units.watts(BAND * land.least, 1)})",
                 "least": f"{units.watts(land.least, 1)}",
                 "words": valley_words(drawn, land, units),
@@ -191,7 +193,7 @@ class LandscapePanel:
 
     def _solids(self, land: Landscape, wall: tuple[int, int, int], dark: bool) -> None:
         api = self._api
-        surface, colours = land.surface(), land.colours(COLOURS_END)
+        surface, colours = land.surface(), land.colours(_COLOURS_END)
         mesh = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
         # Colours of vertices are linear in the file, those of the map are sRGB.
         linear = np.round(255.0 * (colours / 255.0) ** 2.2).astype(np.uint8)

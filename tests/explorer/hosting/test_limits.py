@@ -98,14 +98,12 @@ class TestUploads:
         assert refuse_upload("A.JSON", 1000, 1, 0, ".toml, .json") is None
         assert refuse_upload("deck.c81", LARGEST_FILE, 8, 1, "*/*") is None
         assert refuse_upload("empty.json", 0, 0, 0, ".json") is None
-        assert refuse_upload("study.parquet", 8 * LARGEST_FILE, 64, 0, ".parquet") is None
 
     @pytest.mark.parametrize(
         ("sent", "sentence"),
         [
             (("film.json", 2 * LARGEST_FILE, 16, 0, ".json"), "8.0 MB: 4 MB are allowed"),
-            (("study.parquet", 9 * LARGEST_FILE, 64, 0, ".parquet"), "36.0 MB: 32 MB are allowed"),
-            (("large.parquet", 8 * LARGEST_FILE, 64, 0, ".json"), "choose a .json file"),
+            (("large.parquet", 1000, 1, 0, ".json"), "choose a .json file"),
             (("film.mp4", 1000, 1, 0, ".json,.toml"), "choose a .json or .toml file"),
             (("third.json", 1000, 1, 2, ".json"), "must wait"),
             (("crumbs.json", 1000, 1000, 0, ".json"), "1000 parts"),

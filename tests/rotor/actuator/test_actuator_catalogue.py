@@ -10,8 +10,6 @@ from numpy.testing import assert_allclose
 from rotor.actuator.catalogue import PiezoPly, Programme, actuators, derating, find_actuator, programmes
 from rotor.actuator.electrical import (
     electric_field,
-    field_map,
-    thermal_coefficients,
 )
 from rotor.assets import asset_path
 
@@ -37,12 +35,9 @@ def test_mfc_data_are_consistent():
     assert_allclose(strain / mfc.voltage_swing, 0.9e-6, rtol=1e-12)
 
 
-def test_thermal_analogy():
-    """α = d/ΔES: 460 pm/V over 0.5 mm is 9.2e-7 per volt; the sheet measures 7.5e-7…9.0e-7."""
+def test_low_end_and_derating():
+    """The sheet measures 7.5e-7 per volt at the low end of its range."""
     mfc = ply("MFC_P1")
-    along, across = thermal_coefficients(mfc)
-    assert_allclose(along, 9.2e-7, rtol=1e-12)
-    assert_allclose(across, -3.68e-7, rtol=1e-12)
     low = mfc.low_swing * mfc.swing[0] / mfc.voltage_swing
     assert_allclose(low, 7.5e-7, rtol=1e-3)
     assert_allclose(derating(mfc), 0.833 * 0.74, rtol=1e-12)  # The low end, times the ratio of test to model.
@@ -54,24 +49,6 @@ def test_strain_is_coefficient_times_field(sheet: PiezoPly):
     field = np.ptp(electric_field(sheet, sheet.voltage_range))
     assert_allclose(sheet.swing[0], sheet.d_along * field, rtol=0.06)
     assert_allclose(sheet.swing[1], sheet.d_across * field, rtol=0.06)
-
-
-def test_field_between_electrodes():
-    """Uniform between plates. Between fingers it is below V/gap deep in the sheet and much higher at their edges."""
-    even = field_map(ply("PZT5H"), points=21)
-    assert_allclose(even.strength, 1.0, rtol=1e-12)
-    finger = field_map(ply("MFC_P1"), points=41, sweeps=1500)
-    rows, columns = finger.potential.shape
-    middle = finger.strength[rows // 2, columns // 2]
-    assert 0.7 < middle < 1.0
-    assert finger.strength.max() > 2.0
-    # Along the fibre, not through the sheet.
-    assert abs(np.gradient(finger.potential[:, columns // 2], finger.z)[rows // 2]) < 0.01 * middle
-    # Mirror symmetry; and by Gauss, no charge between the fingers: the same flux through every cut there.
-    assert_allclose(finger.potential + finger.potential[:, ::-1], 1.0, atol=1e-6)
-    slope = np.gradient(finger.potential, finger.x, axis=1)
-    flux = np.array([np.trapezoid(column, finger.z) for column in slope.T])
-    assert_allclose(flux[(finger.x > 0.2) & (finger.x < 0.8)], flux[columns // 2], rtol=0.02)
 
 
 def test_grades_of_the_file_are_those_of_the_lists():

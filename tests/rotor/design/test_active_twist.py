@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import dynamic_twist, phase_sweep, power_map, tip_response, with_harmonic
+from rotor.actuator.harmonic import dynamic_twist, phase_sweep, tip_response, with_harmonic
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -93,29 +93,6 @@ def test_resonance_is_flown_by_an_elastic_blade_and_refused_by_a_rigid_one():
     made = dynamic_twist(installed, 4, elastic=True)
     solution = solve(with_harmonic(design, made, 0.2, 0.0)).require()
     assert 0.8 < tip_response(solution, 4)[0] / (0.2 * made.at_rest) < 1.6
-
-
-@pytest.mark.slow
-def test_the_map_of_power_is_that_of_trims_between_its_points():
-    """Amplitudes and phases off the grid; and where the map says that more twist costs, trims say so too."""
-    design = make_design(mu=0.2)
-    installed = install(find_actuator("MFC_P1"), default_placement(2), Host("new", 0.4), design.rotor)
-    made = dynamic_twist(installed, 2, elastic=True)
-    found = power_map(design, made)
-    off = solve(with_harmonic(design, made, 0.0, 0.0)).require().power.total
-
-    def trimmed(share: float, phase: float) -> float:
-        return solve(with_harmonic(design, made, share, phase)).require().power.total - off
-
-    scale = np.abs(found.changes).max()
-    for share, phase in ((0.15, 1.0), (0.5, 3.3), (0.9, 5.1)):
-        assert_allclose(found.change(share, phase), trimmed(share, phase), atol=0.005 * scale)
-    best, phase, change = found.best()
-    assert 0.1 < best < 0.9
-    assert_allclose(found.limit(phase), best, atol=0.02)
-    assert_allclose(trimmed(best, phase), change, atol=0.005 * scale)
-    assert trimmed(min(1.0, best + 0.2), phase) > trimmed(best, phase) < trimmed(best - 0.1, phase)
-    assert found.limit(phase + math.pi) == 0.0  # At the opposite phase every amplitude costs.
 
 
 @pytest.mark.slow

@@ -9,8 +9,8 @@ import pytest
 
 from rotor.__main__ import main
 from rotor.reproduce.catalogue import DRAWINGS, ENTRIES, find_entry, searches_of
-from rotor.reproduce.report import typographic
 from rotor.reproduce.runs import FULL, VARIANTS, CachedFunction, best, compute_ahead
+from rotor.units import typographic
 
 THESIS = {
     *(f"{chapter}.{k}" for chapter, last in ((2, 9), (3, 15), (4, 13), (5, 10)) for k in range(1, last + 1)),

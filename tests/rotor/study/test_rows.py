@@ -1,0 +1,123 @@
+"""A row of a study is a design again: in Python, and by `solve --row`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.assets import asset_path, package_version
+from rotor.files.design_file import load_design
+from rotor.study.chunks import Store, StudyProvenance, evaluate_chunk
+from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
+from rotor.study.study_file import StudyFile, parse_study
+from rotor.trim.solve import solve
+
+TRIMS = """
+chunk = 3
+[axes]
+mu = [0, 0.2]
+outboard_rate_deg = [-16, -8]
+division = [0.4, 0.6]
+[fixed]
+concept = "two-segment"
+inboard_rate_deg = -12
+[models]
+inflow = "pitt-peters"
+elements = 12
+azimuths = 24
+"""
+OPTIMA = """
+[axes]
+concept = ["linear", "two-segment-two-airfoils"]
+[fixed]
+hover_share = 0.5
+[models]
+inflow = "pitt-peters"
+elements = 12
+azimuths = 24
+[optimum]
+starts = 1
+"""
+WHENCE = StudyProvenance(package_version(), None, "0")
+
+
+def computed(folder: Path, text: str, *chunks: int) -> Results:
+    """The results of a study of which these chunks are finished; all without."""
+    store = Store(folder, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
+    for chunk in chunks or range(store.study.chunks):
+        store.keep(chunk, evaluate_chunk(store.study, chunk, WHENCE).content)
+    store.close()
+    return read_results(folder)
+
+
+@pytest.fixture(scope="module")
+def trims(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Results]:
+    folder = tmp_path_factory.mktemp("rows") / "trims"
+    return folder, computed(folder, TRIMS)
+
+
+@pytest.mark.parametrize("row", range(8))
+def test_a_row_is_a_design_again(trims: tuple[Path, Results], row: int):
+    _, results = trims
+    design = design_of_row(results, row)
+    assert_allclose(solve(design).power.total, results.columns["power_total_w"][row], rtol=1e-8)
+
+
+def test_an_optimum_brings_its_blade_with_it(tmp_path: Path):
+    optima = computed(tmp_path / "optima", OPTIMA)
+    for row in range(2):
+        design = design_of_row(optima, row)
+        assert_allclose(solve(design).power.total, optima.columns["power_total_w"][row], rtol=1e-7)
+    assert {span.section for span in design_of_row(optima, 1).rotor.blade.spans} == {"sc1094r8", "sc1095"}
+
+
+def test_a_single_file_says_enough(trims: tuple[Path, Results]):
+    folder, results = trims
+    file = folder / "chunk-000001.parquet"
+    alone = read_file(file.read_bytes(), file.name)
+    point = int(alone.columns["point"][0])
+    assert design_of_row(alone, 0) == design_at(f"{folder}:{point}") == design_at(f"{file}:{point}")
+    row = results.row_of(point)
+    assert row is not None
+    assert design_of_row(results, row) == design_of_row(alone, 0)
+
+
+def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
+    results = computed(tmp_path / "some", TRIMS, 0, 2)
+    assert [results.row_of(point) for point in (0, 3, 6)] == [0, None, 3]
+    with pytest.raises(ValueError, match="no finished point 3: give one of 0…7"):
+        design_at(f"{tmp_path / 'some'}:3")
+
+
+def test_the_command_solves_and_saves_a_row(
+    trims: tuple[Path, Results], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    folder, results = trims
+    file = tmp_path / "row.json"
+    assert main(["solve", "--row", f"{folder}:5", "--save", str(file), "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    row = results.row_of(5)
+    assert_allclose(answer["power_w"]["total"], results.columns["power_total_w"][row], rtol=1e-8)
+    assert solve(load_design(file)).power.total == solve(design_at(f"{folder}:5")).power.total
+    assert main(["solve", "--row", f"{folder}:5", "--mass-kg", "9000", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["power_w"]["total"] > answer["power_w"]["total"]
+
+
+@pytest.mark.parametrize(
+    ("flags", "sentence"),
+    [
+        (["--row", "{study}"], "give a study's folder and a point, as DIR:17"),
+        (["--row", "{study}:9999"], "no finished point 9999: give one of 0…527"),
+        (["--row", "nowhere:1"], "holds no study"),
+        (["--row", "{study}:1", "--case", "a.json"], "give one of them"),
+        (["--save", "a.toml"], "a.toml"),
+    ],
+)
+def test_bad_input_gets_one_sentence(flags: list[str], sentence: str, capsys: pytest.CaptureFixture[str]):
+    study = str(asset_path("studies") / "hover_cruise_264")
+    assert main(["solve", *(flag.replace("{study}", study) for flag in flags)]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1
