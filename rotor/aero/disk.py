@@ -101,7 +101,6 @@ def azimuths_of(count: int) -> Array:
 
 
 @lru_cache(maxsize=16)
-@read_only
 def build_disk(
     rotor: Rotor,
     elements: int,

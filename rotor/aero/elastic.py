@@ -157,7 +157,6 @@ def build_torsion(
 
 
 @lru_cache(maxsize=32)
-@read_only
 def _at_unit_density(
     rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int, count: int
 ) -> BladeTorsion:

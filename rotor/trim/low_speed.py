@@ -50,10 +50,7 @@ class HoverDifference:
 
 @lru_cache(maxsize=32)
 def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifference | None:
-    """The difference for a hovering design; None where hover does not converge.
-
-    course: of the wake of the same design at `SLOWEST`, where it has one.
-    """
+    """The difference for a hovering design with the course of its wake at `SLOWEST`; None where it does not hover."""
     problem = build_problem(design)
     hovering = hover(problem)
     if not hovering.converged:
