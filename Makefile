@@ -42,9 +42,11 @@ slow-code: setup-dev
 slow-page: setup-dev browser $(WARM)
 	$(BIN)/python -m pytest -n 2 -m 'slow and browser and not nightly' $(ARGS) $(NONE)
 
-# Pages by themselves: some tests measure times.
+# The second and third time in another order, and as on an older processor. Pages by themselves: some tests measure times.
 nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
+	$(BIN)/python -m pytest -p randomly --randomly-dont-reset-seed $(ARGS)
+	NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=Nehalem $(BIN)/python -m pytest $(ARGS)
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 	$(BIN)/python -m tests.tools.mutation
 

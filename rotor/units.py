@@ -5,6 +5,10 @@ import re
 
 KNOT = 1852.0 / 3600.0
 """One knot [m/s], exact."""
+FOOT = 0.3048
+"""[m], exact."""
+POUND = 0.45359237
+"""[kg], exact."""
 GRAVITY = 9.80665
 """Standard gravity [m/s²] (ISO 2533)."""
 

@@ -22,7 +22,7 @@ from PIL import Image
 import explorer
 import rotor
 import rotor.validation
-from rotor.aero.switches import SWITCHES
+from rotor.design.quantities import BY_INPUT
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent
@@ -95,7 +95,7 @@ def test_notebooks_import_nothing_private(path: Path):
 
 def names_of_the_page() -> set[str]:
     """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its HTML."""
-    found = {switch.title for switch in SWITCHES.values()}
+    found = {row.title for row in BY_INPUT.values()} | {row.slider.label for row in BY_INPUT.values() if row.slider}
     page = ROOT / "explorer"
     for path in (*(page / "tabs").rglob("*.py"), *(page / "model").glob("*.py"), page / "page.py"):
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))

@@ -16,10 +16,11 @@ import numpy as np
 from explorer.model.inputs import LAWS, Inputs, mass_range
 from explorer.model.pinned import FLIGHT
 from explorer.model.undo import differing
-from explorer.model.units import AVIATION, FOOT, FOOT_PER_MINUTE, POUND, SI, Unit, Units, number
+from explorer.model.units import AVIATION, POUND, SI, Unit, Units, number
 from rotor import Aircraft, Solution, solve
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.aircraft import FASTEST_CLIMB
+from rotor.design.quantities import BY_INPUT
+from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation import CONCEPTS, Concept
 from rotor.trim import PitchGradient
@@ -38,28 +39,6 @@ _HALVINGS = 6
 """Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
 """Part of a step by which flight conditions are moved for the differences."""
-_OF_CONDITION = {
-    "advance_ratio": ("advance_ratio", 1.0), "mass_t": ("mass", 1e3), "altitude_m": ("altitude", 1.0),
-    "climb_m_s": ("climb_speed", 1.0),
-}  # fmt: skip
-"""Field of a condition that an input of `FLIGHT` is, and what one of it is there."""
-
-
-@dataclass(frozen=True)
-class Slider:
-    label: str
-    low: float
-    high: float
-    step: float
-    natural: float = 1.0
-    """The step that an engineer thinks in, in the unit of the field of `Inputs`."""
-    per: str = "/°"
-    """What follows the power for a natural step."""
-
-    @property
-    def digits(self) -> int:
-        """Decimals that tell two steps apart."""
-        return max(0, -math.floor(math.log10(self.step)))
 
 
 def _weight(aircraft: Aircraft, units: Units) -> Slider:
@@ -81,6 +60,7 @@ def _division(label: str) -> Slider:
 
 
 _FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
+_FLIGHT = {name: BY_INPUT[name] for name in FLIGHT}
 SLIDERS: dict[str, Slider] = {
     "built_inner": Slider("Δ inboard [°/R]", -20.0, 20.0, 0.1),
     "built_outer": Slider("Δ outboard [°/R]", -20.0, 20.0, 0.1),
@@ -96,17 +76,10 @@ SLIDERS: dict[str, Slider] = {
     "three_outer": _rate("Outboard [°/R]"),
     "three_first": _division("Break 1 [r/R]"),
     "three_second": _division("Break 2 [r/R]"),
-    "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
-    "mass_t": _weight(_FIRST, SI),
-    "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
-    "climb_m_s": Slider("Climb [m/s]", -FASTEST_CLIMB, FASTEST_CLIMB, 0.1, 1.0, "/(m/s)"),
+    **{name: row.slider for name, row in _FLIGHT.items() if row.slider},
 }
 """By the field of `Inputs`, in SI; the weight is the first rotor's."""
-_AVIATION = {
-    "mass_t": _weight(_FIRST, AVIATION),
-    "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT.size, "/500 ft"),
-    "climb_m_s": Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT_PER_MINUTE.size, "/(100 ft/min)"),
-}
+_AVIATION = {name: row.aviation for name, row in _FLIGHT.items() if row.aviation}
 
 
 def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
@@ -122,14 +95,14 @@ def shown(name: str, value: float, units: Units) -> float:
     """The place of an input on its slider."""
     if name not in _AVIATION:
         return value
-    return _unit(name, units).of(value * _OF_CONDITION[name][1])
+    return _unit(name, units).of(value * BY_INPUT[name].input_size)
 
 
 def meant(name: str, place: float, units: Units) -> float:
     """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
     if name not in _AVIATION:
         return place
-    return round(place * _unit(name, units).size / _OF_CONDITION[name][1], 9)
+    return round(place * _unit(name, units).size / BY_INPUT[name].input_size, 9)
 
 
 def _unit(name: str, units: Units) -> Unit:
@@ -206,7 +179,7 @@ def flight_sensitivities(
     for name in FLIGHT[:1] if tested else FLIGHT:
         if name == "advance_ratio" and solution.design.hovering:
             continue
-        if name == "climb_m_s" and not solution.design.models.disk_axial_flow:
+        if not BY_INPUT[name].applies(tested=tested, axial=solution.design.models.disk_axial_flow):
             continue
         points = [(0.0, solution.power.total)]
         for direction in (-1.0, 1.0):
@@ -224,15 +197,15 @@ def flight_sensitivities(
 
 def _moved(solution: Solution, name: str, step: float) -> float | None:
     """Total power [W] with one flight input moved; None where there is no trim or no such condition."""
-    condition, (field, size) = solution.design.condition, _OF_CONDITION[name]
-    changed: dict[str, Any] = {field: getattr(condition, field) + size * step}
-    if name == "advance_ratio" and changed[field] <= 0.0:
+    row = BY_INPUT[name]
+    value = row.of(solution.design) + row.input_size * step
+    if name == "advance_ratio" and value <= 0.0:
         return None  # Hover is another model.
     try:
-        moved = replace(condition, **changed)
+        moved = row.put(solution.design, value)
     except ValueError:
         return None
-    answer = solve(replace(solution.design, condition=moved), solution)
+    answer = solve(moved, solution)
     return answer.power.total if answer.converged and np.isfinite(answer.power.total) else None
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 from rotor import Aircraft, Design, Solution, make_design
 from rotor.design import Flapping, Harmonic, Stand
-from rotor.design.stand import LOAD_KEYS, StandTrim, read_stand
+from rotor.design.aircraft import read_stand
+from rotor.design.quantities import LOAD_KEYS, StandTrim
 from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.flown import MeasuredPower, measured_powers

@@ -27,6 +27,7 @@ from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from rotor import Design, make_design
+from rotor.design.quantities import BY_KEY
 from rotor.files.design_file import design_from_record, parse_design
 from rotor.files.make_design import Tell, warn
 from rotor.user_input import refusing
@@ -50,7 +51,7 @@ _PLUS = "~"
 _LOST_PLUS = re.compile(r"(?<=[\w.]) (?=[a-z\d])")
 """The space that a link of an earlier version arrives with in place of a plus sign."""
 
-_SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt", "climb_m_s": "climb"}
+_SHORT = {key: row.word for key, row in BY_KEY.items() if row.word}
 _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)

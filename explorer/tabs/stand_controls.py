@@ -24,7 +24,7 @@ from explorer.tabs.layout import by_hand, key_of
 from explorer.text.glossary import hint
 from rotor import Aircraft, FlightCondition
 from rotor.design import Flapping
-from rotor.design.stand import STAND_TRIMS
+from rotor.design.quantities import STAND_TRIMS
 
 _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""

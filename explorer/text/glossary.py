@@ -1,6 +1,6 @@
 """One sentence for every control and every read-out, with its equation or its section of docs/theory.md.
 
-The sentences are in `glossary.toml`; those of the switches come from `rotor`.
+The sentences are in `glossary.toml`; those of the quantities of a design come from their table.
 """
 
 import tomllib
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from rotor.aero.switches import SWITCHES
+from rotor.design.quantities import BY_INPUT
 
 
 @dataclass(frozen=True)
@@ -42,16 +42,7 @@ def _terms(entries: Mapping[str, str]) -> dict[str, Term]:
 
 
 _FILE = tomllib.loads((Path(__file__).parent / "glossary.toml").read_text(encoding="utf-8"))
-_SWITCH_SOURCES = {
-    "flapping": ("2.39", "3.20"),
-    "tip_loss": ("3.16",),
-    "hub_loss": ("3.17",),
-    "reverse_flow": ("3.5", "3.15"),
-    "fuselage": ("3.19",),
-}
-CONTROLS: dict[str, Term] = _terms(_FILE["controls"]) | {
-    name: Term(f"{one.on} Off: {one.off}", _SWITCH_SOURCES.get(name, ()), 5) for name, one in SWITCHES.items()
-}
+CONTROLS: dict[str, Term] = _terms({name: row.tooltip for name, row in BY_INPUT.items()}) | _terms(_FILE["controls"])
 """By the field of `Inputs` or `ViewState`, or a name of the widget's own."""
 READOUTS: dict[str, Term] = _terms(_FILE["readouts"])
 

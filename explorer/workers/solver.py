@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rotor import Design, Optimum, Solution, make_design, solve
-from rotor.design.design import PRESETS
+from rotor.design.quantities import PRESETS
 from rotor.optimisation import (
     Cell,
     Concept,

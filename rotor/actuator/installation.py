@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
 from rotor.actuator.section import Host, Placement, active_section, section_spec, skin
 from rotor.arrays import Array, read_only
-from rotor.design.blade import Rotor
+from rotor.design.blade import BladeStructure, Rotor
 from rotor.design.design import Design
-from rotor.design.structure import BladeStructure
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure, uh60a_torsion
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness

@@ -1,114 +1,20 @@
 """The effects that can be switched off to see their cost in power. For teaching: every aircraft has all of them."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from rotor.aero.inflow import inflow_model
 from rotor.design.design import BEYOND_DOCUMENT, Design, Models
+from rotor.design.quantities import OPTIONS, QUANTITIES, SWITCHES
+from rotor.design.quantity import Quantity
 from rotor.user_input import did_you_mean
 
 
-@dataclass(frozen=True)
-class Switch:
-    """One effect that can be switched off."""
-
-    name: str
-    """The field of `Models`."""
-    title: str
-    on: str
-    """The effect, one sentence."""
-    off: str
-    """The model without the effect, one sentence."""
-
-    @property
-    def flag(self) -> str:
-        """As on the command line."""
-        return self.name.replace("_", "-")
-
-
-_SWITCHES = (
-    Switch(
-        "flapping",
-        "Flapping",
-        "The blades flap about their hinges, and cyclic removes the remaining first-harmonic flapping.",
-        "Rigid blades, β = 0, and no cyclic: the hub carries the moment of the unequal lift.",
-    ),
-    Switch(
-        "tip_loss",
-        "Tip loss",
-        "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a lifting line keeps the tips of its blades.",
-    ),
-    Switch(
-        "hub_loss",
-        "Hub loss",
-        "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
-        "F_hub = 1.",
-    ),
-    Switch(
-        "reverse_flow",
-        "Reverse flow",
-        "On the retreating side, inside r < −µ sin ψ, air meets the blade from behind and adds drag.",
-        "No load inside the circle r < −µ sin ψ.",
-    ),
-    Switch(
-        "compressibility",
-        "Compressibility",
-        "Section data depend on the Mach number: steeper lift, earlier stall, wave drag on the advancing tip.",
-        "Section data at Mach 0.3 everywhere.",
-    ),
-    Switch(
-        "surface_drag",
-        "Surface drag",
-        "Drag is multiplied by the factor that the rotor file states for the surface of its blades.",
-        "Drag is that of the section data.",
-    ),
-    Switch(
-        "swept_tip",
-        "Swept tip",
-        "A swept tip sees the Mach number of the flow normal to its quarter chord.",
-        "The tip sees Mach numbers as if it were straight.",
-    ),
-    Switch(
-        "radial_friction",
-        "Radial friction",
-        "Skin friction follows the yawed velocity: air flows along the blade at the front and the rear of the disk.",
-        "Friction of the flow across the blade only.",
-    ),
-    Switch(
-        "elastic_twist",
-        "Elastic twist",
-        "The blade twists under its own loads: the air meets the flown twist, not the jig twist that is built.",
-        "The blade is rigid in torsion: flown and jig twist are the same.",
-    ),
-    Switch(
-        "swirl",
-        "Swirl",
-        "The rotor turns the air it works in, which takes power and meets the blade more slowly.",
-        "The air in the disk moves along the shaft only.",
-    ),
-    Switch(
-        "fuselage",
-        "Fuselage drag",
-        "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward.",
-        "Drag area 0: no parasite power.",
-    ),
-    Switch(
-        "download",
-        "Download",
-        "The wake presses on the airframe: in hover the thrust exceeds the weight by what the rotor file states.",
-        "Thrust carries the weight alone.",
-    ),
-)
-SWITCHES: dict[str, Switch] = {switch.name: switch for switch in _SWITCHES}
-"""By field name, in the order in which a waterfall adds them."""
-
-
-def switched_off(models: Models) -> tuple[Switch, ...]:
+def switched_off(models: Models) -> tuple[Quantity, ...]:
     """The effects that these models leave out."""
-    return tuple(switch for switch in _SWITCHES if not getattr(models, switch.name))
+    return tuple(switch for name, switch in SWITCHES.items() if not getattr(models, name))
 
 
 def with_switches(design: Design, off: Collection[str]) -> Design:
@@ -116,14 +22,10 @@ def with_switches(design: Design, off: Collection[str]) -> Design:
     return replace(design, models=replace(design.models, **{name: name not in off for name in SWITCHES}))
 
 
-OPTIONS = ("bending", "dynamic_stall")
-"""Effects that are off unless they are asked for, by field name: for a design file that has them."""
-
-
 def parse_switches(text: str) -> tuple[str, ...]:
     """Field names from `tip-loss,reverse-flow`; ValueError for a name that is not known."""
     names = tuple(part.strip() for part in text.split(",") if part.strip())
-    flags = {switch.flag: switch.name for switch in _SWITCHES} | {name.replace("_", "-"): name for name in OPTIONS}
+    flags = {QUANTITIES[name].flag: name for name in (*SWITCHES, *OPTIONS)}
     for name in names:
         if name.replace("_", "-") not in flags:
             hint = did_you_mean(name, flags) or ":"

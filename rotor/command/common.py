@@ -2,7 +2,6 @@
 
 import argparse
 import csv
-import inspect
 import io
 import json
 import math
@@ -14,7 +13,7 @@ import time
 from collections.abc import Callable, Generator, Iterable
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any, get_args
+from typing import Any
 
 from tqdm import tqdm
 
@@ -22,12 +21,11 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import change_limit, install
 from rotor.actuator.section import Host, default_placement
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.switches import SWITCHES
-from rotor.airfoil.sections import TABLE_NAMES
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic
-from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
-from rotor.design.stand import Flapping
+from rotor.design.design import Design
+from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, SPEED, STAND
+from rotor.design.quantity import Quantity
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
@@ -46,68 +44,41 @@ def add_command(commands: Any, name: str, run: Run, words: str, description: str
     return parser
 
 
-_LISTED: dict[str, Iterable[str]] = {
-    "rotor": (*SHIPPED_ROTORS, *MEASURED_ROTORS),
-    "inflow": (*INFLOW_MODELS, *HOVER_INFLOWS),
-    "airfoils": TABLE_NAMES,
-    "off": [one.flag for one in SWITCHES.values()],
-    "trim": TRIMS,
-}
-_SPEED = ("mu", "speed_kt", "hover")
-_ARGUMENTS = {
-    name: one.annotation for name, one in inspect.signature(make_design).parameters.items() if name != "models"
-}
-"""Arguments of `make_design` that have a flag, with their types."""
-_STAND = {
-    "shaft_tilt_deg": "tilt of the shaft, positive forward (default 0; a free rotor finds its own)",
-    "ct_over_sigma": "blade loading",
-    "thrust_n": "thrust along the shaft",
-    "collective_deg": "pitch at 0.75 R",
-    "cyclic_1c_deg": "given cyclic, with free flapping",
-    "cyclic_1s_deg": "the same, sine part",
-    "hub_roll_nm": "given hub moment, towards the retreating side, with flapping hub-moments",
-    "hub_pitch_nm": "the same, nose up",
-    "tip_mach": "tip speed over the speed of sound",
-    "density_kg_m3": "air density",
-    "flapping": "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
-}
+_FLAGS = {name: row for name, row in ARGUMENTS.items() if name not in ("models", "stand")}
+"""Arguments of `make_design` that have one flag."""
+_INFLOWS = (*INFLOW_MODELS, *HOVER_INFLOWS)
 
 
 def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False) -> None:
     """A flag for every argument of `make_design`; those of the speed on demand, and more than one twist."""
-    words = re.findall(r"^(\w+): (.+(?:\n    .+)*)", inspect.getdoc(make_design) or "", re.MULTILINE)
-    helps = {name: " ".join(text.split()).removesuffix(".") for name, text in words}
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
     _add_allow_outside(parser)
-    for name, hint in _ARGUMENTS.items():
-        if name == "stand" or (name in _SPEED and not speed):
+    for name, row in (_FLAGS | STAND).items():
+        if name in SPEED and not speed:
             continue
-        listed = f"; {', '.join(_LISTED[name])}" if name in _LISTED else ""
-        to = speeds if name in _SPEED else stand if name == "trim" else parser
-        how = _how(name, hint)
+        to = speeds if name in SPEED else stand if name in ("trim", *STAND) else parser
+        how = _how(row)
         if name == "twist" and twists:
             how["nargs"] = "+"
-        to.add_argument(f"--{name.replace('_', '-')}", help=f"{helps[name]}{listed}", **how)
-    for key, text in _STAND.items():
-        flag = f"--{key.removesuffix('_kg_m3').replace('_', '-')}"
-        if key == "flapping":
-            stand.add_argument(flag, choices=get_args(Flapping), help=text)
-        else:
-            stand.add_argument(flag, dest=key, type=finite, metavar=_unit(key), help=text)
+        to.add_argument(f"--{row.flag}", dest=name, **how)
 
 
-def _how(name: str, hint: Any) -> dict[str, Any]:
-    """How argparse reads a flag of this type."""
-    if hint is bool:
-        return {"action": "store_true"}
-    if name == "low_speed":
-        return {"choices": LOW_SPEEDS}
-    if int in get_args(hint):
-        return {"type": int, "metavar": "N"}
-    if float in get_args(hint):
-        return {"type": finite, "metavar": _unit(name)}
-    return {"metavar": name.upper().replace("_", "-")}
+def _how(row: Quantity) -> dict[str, Any]:
+    """How argparse reads its flag, and what it says of it."""
+    choices = _INFLOWS if row.name == "inflow" else row.choices
+    match row.kind:
+        case "switch":
+            return {"help": row.help, "action": "store_true"}
+        case "choice":
+            return {"help": row.help, "choices": choices}
+        case "whole":
+            return {"help": row.help, "type": int, "metavar": "N"}
+        case "number":
+            return {"help": row.help, "type": finite, "metavar": _unit(row.name)}
+        case _:
+            listed = "; ".join(filter(None, (row.help, ", ".join(choices))))
+            return {"help": listed, "metavar": row.flag.upper()}
 
 
 def _unit(name: str) -> str:
@@ -118,7 +89,7 @@ def _unit(name: str) -> str:
 
 def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
     """`--rotor` without the rest of a design."""
-    parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(_LISTED['rotor'])} or a rotor file")
+    parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(ARGUMENTS['rotor'].choices)} or a rotor file")
     _add_allow_outside(parser)
 
 
@@ -130,14 +101,14 @@ def _add_allow_outside(parser: argparse.ArgumentParser) -> None:
 
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
     """The design that the flags describe; `twist` and `mu` in place of theirs. Raises ValueError with one sentence."""
-    given = {name: getattr(args, name, None) for name in _ARGUMENTS if name not in ("stand", *_SPEED)}
-    speed = {name: getattr(args, name, None) for name in _SPEED} if mu is None else {"mu": mu}
+    given = {name: getattr(args, name, None) for name in _FLAGS if name not in SPEED}
+    speed = {name: getattr(args, name, None) for name in SPEED} if mu is None else {"mu": mu}
     row = getattr(args, "row", None)
     if row and args.case:
         raise ValueError("--row and --case are both a design to begin with: give one of them")
     case = design_at(row) if row else load_design(args.case) if args.case else None
     rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
-    stand = {key: value for key in _STAND if (value := getattr(args, key)) is not None}
+    stand = {key: value for key in STAND if (value := getattr(args, key)) is not None}
     known = case is not None and rotor is None and case.condition.stand is not None
     isolated = (rotor or (case and case.aircraft) or find_aircraft(SHIPPED_ROTORS[0])).isolated
     if stand and (args.trim in ("propulsive", "thrust") or not (args.trim or known or isolated)):

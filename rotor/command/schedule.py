@@ -23,6 +23,7 @@ from rotor.command.common import (
     write_table,
 )
 from rotor.command.optimise import named
+from rotor.design.aircraft import told
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
@@ -32,7 +33,7 @@ from rotor.user_input import check_writable, parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
-COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist", "met")
+COLUMNS = ("hours", "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist", "met")
 
 
 def add_parser(commands: Any) -> None:
@@ -76,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
         schedule = run_plan(plan, found, add, stop, processes if total - len(found) > 2 else 1)
         stopped = stop()
     if args.csv:
-        write_table(args.csv, [COLUMNS, *_rows(schedule)])
+        write_table(args.csv, [(*_quantities(plan), *COLUMNS), *_rows(schedule)])
     print_result(args, lambda: record(schedule), lambda: report(schedule))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
@@ -118,6 +119,7 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 def record(schedule: Schedule) -> dict[str, Any]:
     """The JSON of `schedule --json`; values not found are null."""
     plan = schedule.plan
+    quantities = _quantities(plan)
     gains = {concept.name: schedule.in_flight_gain(concept.name) for concept in plan.concepts}
     return {
         "status": "converged" if schedule.converged else "not-converged" if schedule.complete else "stopped",
@@ -125,10 +127,7 @@ def record(schedule: Schedule) -> dict[str, Any]:
         "objective": plan.quantity,
         "conditions": [
             {
-                "mu": condition.flight.advance_ratio,
-                "mass_kg": condition.flight.mass,
-                "altitude_m": condition.flight.altitude,
-                "climb_m_s": condition.flight.climb_speed,
+                **{name: condition.flight.numbers[name] for name in quantities},
                 "hours": condition.hours,
                 "baseline_power_w": _baseline(schedule, k),
                 "optima": {one.name: _entry(schedule.at(k, one.name), one) for one in plan.concepts},
@@ -149,6 +148,11 @@ def record(schedule: Schedule) -> dict[str, Any]:
             for name, one in gains.items()
         },
     }
+
+
+def _quantities(plan: Plan) -> tuple[str, ...]:
+    """Quantities of the flight conditions that tables and JSON have."""
+    return told(condition.flight for condition in plan.conditions)
 
 
 def _baseline(schedule: Schedule, condition: int) -> float | None:
@@ -198,8 +202,9 @@ def _where(schedule: Schedule, condition: int | None) -> str:
     if condition is None:
         return "One fixed blade for all"
     flight = schedule.plan.conditions[condition].flight
-    climb = f", climb {flight.climb_speed:g} m/s" if flight.climb_speed else ""
-    return f"µ {flight.advance_ratio:.4g}, {flight.mass:.6g} kg, {flight.altitude:.4g} m{climb}"
+    return ", ".join(
+        (f"µ {flight.advance_ratio:.4g}", f"{flight.mass:.6g} kg", f"{flight.altitude:.4g} m", *flight.beside)
+    )
 
 
 def _kilowatts(power: float | None) -> str:
@@ -220,12 +225,14 @@ def _line(cell: Cell, width: int) -> str:
 
 def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
+    quantities = _quantities(schedule.plan)
     for cell in schedule.cells:
         condition, one = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
-        where = ("all", "", "", "", "") if condition is None else (
-            f"{condition.flight.advance_ratio:.4g}", f"{condition.flight.mass:.6g}", f"{condition.flight.altitude:.4g}",
-            f"{condition.flight.climb_speed:.4g}", f"{condition.hours:.4g}",
-        )  # fmt: skip
+        where = ("all", *[""] * len(quantities))
+        if condition is not None:
+            numbers = condition.flight.numbers
+            cells = (f"{numbers[name]:.{6 if name == 'mass_kg' else 4}g}" for name in quantities)
+            where = (*cells, f"{condition.hours:.4g}")
         rows.append((
             *where, cell.concept, one.status.value,
             "" if one.baseline_power is None else f"{one.baseline_power / 1e3:.2f}",

@@ -78,9 +78,8 @@ def _load(design: Design) -> str:
     """What the rotor carries: weight at an altitude, or the inputs of a test."""
     condition = design.condition
     if condition.stand is None:
-        climb = f", climb {condition.climb_speed:g} m/s" if condition.climb_speed else ""
-        return f"{condition.mass:.1f} kg, {condition.altitude:.0f} m{climb}"
-    return f"{design.models.trim}: {condition.stand}"
+        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *condition.beside))
+    return ", ".join((f"{design.models.trim}: {condition.stand}", *condition.beside))
 
 
 def report(solution: Solution) -> str:

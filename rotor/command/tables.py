@@ -31,11 +31,12 @@ from rotor.command.common import (
 )
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
+from rotor.design.quantities import CONDITION
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.ideal_bound import Bound, find_bound
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
-from rotor.study.series import COLUMNS, PARTS, VIBRATION, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.study.series import PARTS, SHARED_COLUMNS, Waterfall, WaterfallStep, sweep, sweep_columns, waterfall
 from rotor.terminal import wrapped
 from rotor.user_input import check_writable, parse_range
 
@@ -58,8 +59,7 @@ def run_sweep(args: argparse.Namespace) -> int:
         check_writable(args.csv)
     rows: list[tuple[str, ...]] = []
     converged = True
-    bends = any(design.models.bending for design in designs)
-    columns = (*COLUMNS, *VIBRATION) if bends else COLUMNS
+    columns = tuple(name for name in sweep_columns(designs) if name not in SHARED_COLUMNS)
     level = all(design.condition.climb_speed == 0.0 for design in designs)
     shown = [name for name in columns if name != "message" and not (level and name.startswith("climb"))]
     widths = {name: len(name) + 2 for name in shown} | {"mu": 7}
@@ -84,7 +84,7 @@ def _text(name: str, cell: float | str | None, digits: int = 2) -> str:
     """A cell: powers with these decimals, loads and shares with two, nothing where there is no value."""
     if cell is None or isinstance(cell, str):
         return cell or ""
-    if name in ("mu", "climb_m_s"):
+    if name in CONDITION:
         return f"{cell:.4g}"
     return f"{cell:.{1 if name == 'speed_kt' else digits if name.endswith('_kw') else 2}f}"
 

@@ -1,7 +1,7 @@
 """Data types: twist laws, blade, rotor, aircraft, flight condition, and the `Design` that holds them. No arrays."""
 
 from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.stand import Flapping, Stand
+from rotor.design.aircraft import Flapping, Stand
 from rotor.design.twist import (
     REFERENCE_RADIUS,
     IdealTwist,

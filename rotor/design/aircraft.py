@@ -1,17 +1,19 @@
 """An aircraft as far as its rotor needs it, and its flight condition.
 
 An aircraft is a main rotor, a tail rotor, drag area and mass: the contents of a rotor file. A flight condition is the
-standard atmosphere, weight, advance ratio, and the drag of the airframe.
+standard atmosphere, weight, advance ratio, and the drag of the airframe; or a test stand, on which the rotor is fixed
+to its mount. There shaft tilt, thrust or collective, and flapping are given in place of weight and drag, and tip Mach
+number and air density are those of the test.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from numbers import Real
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
-from rotor.design.stand import Stand
+from rotor.design.quantities import BESIDE, CONDITION, LOAD_KEYS, QUANTITIES, STAND, Flapping
 from rotor.design.twist import TwistLaw
 from rotor.units import GRAVITY, KNOT
 
@@ -26,10 +28,85 @@ GAS_CONSTANT = 287.05287
 RATIO_OF_SPECIFIC_HEATS = 1.4
 
 
-LEAST_MASS = 100.0
-"""[kg] of an aircraft."""
-FASTEST_CLIMB = 20.0
-"""[m/s], 3900 ft/min, up and down."""
+_BY_FIELD = {row.field: row for row in STAND.values()}
+"""Quantities by field."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """The inputs of a test; exactly one of thrust, ct_over_sigma and collective is given."""
+
+    shaft_tilt: float | None = None
+    """α [rad], positive forward; left out it is 0. A free rotor finds its tilt: there it is where the search
+    starts."""
+    thrust: float | None = None
+    """Along the shaft [N]."""
+    ct_over_sigma: float | None = None
+    """The same over ρA(ΩR)²σ."""
+    collective: float | None = None
+    """Pitch at 0.75 R [rad]."""
+    cyclic_1c: float = 0.0
+    """Given cyclic [rad], used where the flapping is free."""
+    cyclic_1s: float = 0.0
+    flapping: Flapping = "trimmed"
+    """`trimmed`: cyclic keeps first-harmonic flapping at its given value; `free`: the blades flap as they like;
+    `hub-moments`: they do, and cyclic gives the hub the moments below."""
+    hub_roll: float = 0.0
+    """Moment of the rotor on its hub [N m], towards the retreating side."""
+    hub_pitch: float = 0.0
+    """The same nose up."""
+    tip_mach: float | None = None
+    """ΩR over the speed of sound; left out, that of the standard atmosphere."""
+    density: float | None = None
+    """Air density [kg/m³]; left out, that of the standard atmosphere."""
+
+    def __post_init__(self) -> None:
+        given = [name for name in LOAD_KEYS if getattr(self, STAND[name].field) is not None]
+        if len(given) != 1:
+            named = " and ".join(given) or "none of them"
+            raise ValueError(f"a test stand is given {named}: give one of thrust_n, ct_over_sigma and collective_deg")
+        for name, row in _BY_FIELD.items():
+            value = getattr(self, name)
+            if row.kind == "choice":
+                row.check_choice(value)
+            elif value is not None:
+                row.check(row.shown(value))
+        if self.flapping != "free" and (self.cyclic_1c or self.cyclic_1s):
+            trims = "flapping" if self.flapping == "trimmed" else "hub moments"
+            raise ValueError(f"cyclic is given, but it trims the {trims}: leave it out, or give flapping free")
+        if self.flapping != "hub-moments" and (self.hub_roll or self.hub_pitch):
+            raise ValueError("hub moments are given, but do not trim the rotor: give flapping hub-moments as well")
+
+    def __str__(self) -> str:
+        given = self.record().items()
+        return ", ".join(f"{key} {value}" if isinstance(value, str) else f"{key} {value:.5g}" for key, value in given)
+
+    @property
+    def tilt(self) -> float:
+        """The shaft tilt given [rad]."""
+        return self.shaft_tilt or 0.0
+
+    def record(self) -> dict[str, Any]:
+        """For a design file: what is given, angles in degrees; `read_stand` reads it back."""
+        values = ((_BY_FIELD[field.name], getattr(self, field.name)) for field in fields(self))
+        return {row.name: row.shown(value) for row, value in values if value is not None and value != row.default}
+
+
+def read_stand(record: Mapping[str, Any], trim: str) -> Stand:
+    """The stand of a record with the keys of `Stand.record`, for one of `STAND_TRIMS`.
+
+    Flapping that is not given is trimmed in a wind tunnel, and free otherwise. Raises ValueError with one sentence.
+    """
+    values: dict[str, Any] = {}
+    for key, value in record.items():
+        if key not in STAND:
+            raise ValueError(f"test stand key {key!r} is not known: use {', '.join(STAND)}")
+        row = STAND[key]
+        if row.numeric and (isinstance(value, bool) or not isinstance(value, int | float)):
+            raise ValueError(f"test stand key {key!r} is {value!r}: give a number")
+        values[row.field] = row.si(value)
+    values.setdefault("flapping", "trimmed" if trim == "wind-tunnel" else "free")
+    return Stand(**values)
 
 
 @dataclass(frozen=True)
@@ -52,11 +129,10 @@ class FlightCondition:
     """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
 
     def __post_init__(self) -> None:
-        _check("advance ratio", self.advance_ratio, 0.0, 0.6 if self.stand is None else 0.75, "")
-        if self.stand is None:
-            _check("mass", self.mass, LEAST_MASS, 50_000.0, " kg")
-        _check("altitude", self.altitude, -500.0, 8_000.0, " m")
-        _check("rate of climb", self.climb_speed, -FASTEST_CLIMB, FASTEST_CLIMB, " m/s")
+        tested = self.stand is not None
+        for row in CONDITION.values():
+            if not (tested and row.in_flight):
+                row.check(getattr(self, row.field), tested)
         if self.stand is not None and self.climb_speed:
             raise ValueError(
                 f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
@@ -64,6 +140,17 @@ class FlightCondition:
             )
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The quantities of the condition by name."""
+        return {name: getattr(self, row.field) for name, row in CONDITION.items()}
+
+    @property
+    def beside(self) -> tuple[str, ...]:
+        """What is not as in most flights, in words: `climb 5 m/s`."""
+        numbers = self.numbers
+        return tuple(row.said(numbers[name]) for name, row in BESIDE.items() if numbers[name] != row.default)
 
     @property
     def weight(self) -> float:
@@ -110,34 +197,37 @@ class Fuselage:
         return 0.5 * density * speed**2 * self.drag_area
 
 
-def number(name: str, value: object, example: str) -> float:
-    """The value as a float; TypeError with one sentence when it is not a real number."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(f"{name} has hundreds of digits: write for example {name}={example}") from None
+def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
+    """Names of the quantities that a table of these conditions has: those of every table, and what is set."""
+    numbers = [condition.numbers for condition in conditions]
+    return tuple(
+        name for name, row in CONDITION.items() if row.told or any(own[name] != row.default for own in numbers)
+    )
 
 
-def advance_ratio(
-    tip_speed: float, mu: float | None, speed_kt: float | None, hover: bool, default: float | None = None
-) -> float | None:
-    """µ from whichever of the three arguments is given; `default` when none is. `tip_speed` is ΩR [m/s].
+def changed_condition(
+    condition: FlightCondition, tip_speed: float, asked: Mapping[str, Any], **fields: Any
+) -> FlightCondition:
+    """The condition with the quantities asked for, by name; None leaves one as it is. `tip_speed` is ΩR [m/s].
 
-    Raises TypeError or ValueError with one sentence when more than one is given, or a value is not a number.
+    `fields`: of the condition, where nothing else is asked for.
+
+    Raises TypeError or ValueError with one sentence when more than one sets the speed, or a value is not a number.
     """
+    given = {name: value for name, value in asked.items() if value is not None}
+    hover = given.pop("hover", False)
     if hover not in (True, False):
         raise TypeError(f"hover is {hover!r}: write hover=True or leave it out")
-    given = {"mu": mu, "speed_kt": speed_kt, "hover": hover or None}
-    chosen = [f"{name}={value!r}" for name, value in given.items() if value is not None]
-    if len(chosen) > 1:
-        raise ValueError(f"{' and '.join(chosen)} each set the speed: give only one of mu, speed_kt and hover")
+    speeds = {name: given[name] for name in ("mu", "speed_kt") if name in given} | ({"hover": True} if hover else {})
+    if len(speeds) > 1:
+        chosen = " and ".join(f"{name}={value!r}" for name, value in speeds.items())
+        raise ValueError(f"{chosen} each set the speed: give only one of mu, speed_kt and hover")
+    changed = {row.field: row.read(given[name]) for name, row in CONDITION.items() if name in given}
     if hover:
-        return 0.0
-    if speed_kt is not None:
-        return number("speed_kt", speed_kt, "120") * KNOT / tip_speed
-    return default if mu is None else number("mu", mu, "0.2")
+        changed["advance_ratio"] = 0.0
+    elif "speed_kt" in given:
+        changed["advance_ratio"] = QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / tip_speed
+    return replace(condition, **(fields | changed))
 
 
 def _check(name: str, value: float, low: float, high: float, unit: str) -> None:

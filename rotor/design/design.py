@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Any, cast
 
 from rotor.design.active_twist import (
     ActiveTwist,
@@ -22,9 +22,19 @@ from rotor.design.active_twist import (
     linear_active_twist,
     root_pitch,
 )
-from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, advance_ratio, number
+from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
 from rotor.design.blade import Rotor, airfoils_spec
-from rotor.design.stand import STAND_TRIMS, StandTrim
+from rotor.design.quantities import (
+    CONDITION,
+    OPTIONS,
+    PRESETS,
+    QUANTITIES,
+    STAND_TRIMS,
+    FlightTrim,
+    HoverInflow,
+    LowSpeed,
+    StandTrim,
+)
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.user_input import check_suffix, write_whole
 
@@ -46,13 +56,6 @@ def _text(value: Any) -> str:
         return f"[{', '.join(_text(item) for item in cast(list[Any], value))}]"
     return repr(value)
 
-
-HoverInflow = Literal["annulus", "closed-form"]
-HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form")
-LowSpeed = Literal["wake", "hover"]
-LOW_SPEEDS: tuple[LowSpeed, ...] = ("wake", "hover")
-FlightTrim = Literal["propulsive", "thrust"]
-TRIMS: tuple[FlightTrim | StandTrim, ...] = ("propulsive", "thrust", *STAND_TRIMS)
 
 FORMAT = "rotor-explorer design"
 """Of design files."""
@@ -80,7 +83,7 @@ class Models:
     trim: FlightTrim | StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
     `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
-    stand, which need `FlightCondition.stand`: see `rotor.design.stand`."""
+    stand, which need `FlightCondition.stand`: see `rotor.design.aircraft`."""
     disk_axial_flow: bool
     """Whether the tilted shaft sees µ sin α through the disk (absent from eq. 3.6 as printed)."""
     blade_weight: bool
@@ -135,9 +138,8 @@ class Models:
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        if self.hover_inflow not in HOVER_INFLOWS:
-            known = ", ".join(HOVER_INFLOWS)
-            raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
+        for name in ("hover_inflow", "low_speed"):
+            QUANTITIES[name].check_choice(getattr(self, name))
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
@@ -204,10 +206,9 @@ class Design:
         speed = "hover" if self.hovering else f"mu={condition.advance_ratio:.4g}"
         inflow = self.models.hover_inflow if self.hovering else self.models.inflow
         load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
-        if condition.climb_speed:
-            load += f", climb {condition.climb_speed:g} m/s"
         if condition.stand is not None:
             load = f"{self.models.trim}: {condition.stand}"
+        load = ", ".join((load, *condition.beside))
         return (
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
@@ -225,20 +226,11 @@ class Design:
     ) -> "Design":
         """The same design at another flight condition; what is left out stays as it is.
 
-        `mu` (advance ratio), `speed_kt` (airspeed in knots), both of the horizontal speed, and `hover` exclude one
-        another. `climb_m_s`: rate of climb, negative in descent.
+        The arguments are those of `make_design`; `mu`, `speed_kt` and `hover` exclude one another.
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
-        old = self.condition
-        mu = advance_ratio(self.rotor.tip_speed, mu, speed_kt, hover)
-        condition = replace(
-            old,
-            advance_ratio=old.advance_ratio if mu is None else mu,
-            mass=old.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
-            altitude=old.altitude if altitude_m is None else number("altitude_m", altitude_m, "1500"),
-            climb_speed=old.climb_speed if climb_m_s is None else number("climb_m_s", climb_m_s, "5"),
-        )
-        return replace(self, condition=condition)
+        asked = locals()
+        return replace(self, condition=changed_condition(self.condition, self.rotor.tip_speed, asked))
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """The same design with another twist: a law, or a SPEC as `parse_twist` reads it.
@@ -264,16 +256,13 @@ class Design:
             "rotor": self.aircraft.record(),
             "preset": self.preset,
             "twist": inline_spec(self.twist),
-            "advance_ratio": self.condition.advance_ratio,
-            "mass_kg": self.condition.mass,
-            "altitude_m": self.condition.altitude,
-            **({"climb_m_s": self.condition.climb_speed} if self.condition.climb_speed else {}),
+            **{row.key: row.of(self) for row in CONDITION.values() if row.written or row.of(self) != row.default},
             "inflow": self.models.inflow,
-            **({} if self.models.hover_inflow == preset.hover_inflow else {"hover_inflow": self.models.hover_inflow}),
-            **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
-            **{name: getattr(self.models, name) for name in switches},
-            **({"bending": True} if self.models.bending else {}),
-            **({"dynamic_stall": True} if self.models.dynamic_stall else {}),
+            **{
+                name: getattr(self.models, name)
+                for name in ("hover_inflow", "low_speed", *switches, *OPTIONS)
+                if name in switches or getattr(self.models, name) != getattr(preset, name)
+            },
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
@@ -390,8 +379,6 @@ class Design:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed
 
-
-PRESETS = ("flight", "thesis")
 
 FLIGHT_MODELS = Models(
     inflow=FLIGHT_INFLOW,

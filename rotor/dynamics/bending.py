@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 
 from rotor.arrays import Array, Integers, read_only
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import BladeStructure
 
 ELEMENTS = 40
 _PLACES, _SHARES = np.polynomial.legendre.leggauss(4)

@@ -7,7 +7,7 @@ from typing import Any
 
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import BladeStructure
 from rotor.dynamics.thin_wall import Material
 
 

@@ -19,7 +19,7 @@ from scipy.linalg import eigh, solveh_banded
 
 from rotor.arrays import Array, read_only
 from rotor.blas_threads import one_blas_thread
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import BladeStructure
 
 ELEMENTS = 240
 

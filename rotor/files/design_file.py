@@ -9,50 +9,30 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.aero.inflow import inflow_model
-from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
+from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SWITCHES
+from rotor.design.quantity import Quantity
 from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
 
 _LARGEST_NUMBER = 1e12
 """No quantity of a design is larger; JSON has integers of any length. NaN is refused with the range of its quantity."""
-_KINDS: dict[type, tuple[str, Any]] = {
-    float: ("a number", int | float), int: ("a whole number", int), str: ("a text", str), bool: ("true or false", bool),
-}  # fmt: skip
 READS = (1, VERSION)
 """Version 1 had no `rotor`: its designs are of the UH-60A."""
 
-_KEYS = (
-    "format",
-    "version",
-    "rotor",
-    "preset",
-    "twist",
-    "advance_ratio",
-    "mass_kg",
-    "altitude_m",
-    "climb_m_s",
-    "inflow",
-    "hover_inflow",
-    "low_speed",
-    *SWITCHES,
-    "bending",
-    "dynamic_stall",
-    "elements",
-    "azimuths",
-    "airfoils",
-    "active_twist",
-    "twist_per_rev",
-    "pitch_per_rev",
-    "trim",
-    "stand",
-    "solution",
-)
+_KEYS = ("format", "version", *BY_KEY, "solution")
 """`solution` holds the results that `Solution.save` adds; they are not read back."""
+_GRID = ("elements", "azimuths")
+_MODELS = tuple(BY_KEY[key] for key in ("inflow", "hover_inflow", *SWITCHES, *OPTIONS))
+"""Keys that are fields of `Models`."""
+_ARGUMENTS = tuple(row for row in BY_KEY.values() if row.name in ARGUMENTS and row not in _MODELS)
+"""Keys that are arguments of `make_design`."""
+_READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand")
+"""Keys whose values are checked where they are read."""
 
 
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
@@ -89,42 +69,25 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
             f"design file is {record.get('format')!r} version {record.get('version')!r}: this program reads "
             f"{FORMAT!r} version {' and '.join(map(str, READS))}"
         )
-    preset = _value(record, "preset", "flight")
-    twist = _value(record, "twist", "")
     stand = record.get("stand")
     if not isinstance(stand, dict | None):
         raise ValueError(
             f'design file key \'stand\' is {stand!r}: write {{"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}}'
         )
-    design = make_design(
-        preset=preset,
-        rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
-        twist=twist or None,
-        twist_per_rev=record.get("twist_per_rev"),
-        pitch_per_rev=record.get("pitch_per_rev"),
-        mu=_value(record, "advance_ratio", 0.2),
-        mass_kg=_value(record, "mass_kg", None, float),
-        altitude_m=_value(record, "altitude_m", 0.0),
-        climb_m_s=_value(record, "climb_m_s", 0.0),
-        low_speed=_value(record, "low_speed", "") or None,
-        airfoils=_value(record, "airfoils", "") or None,
-        trim=_value(record, "trim", "") or None,
-        stand=cast(dict[str, Any] | None, stand),
-    )
-    named = {
-        option: current_model(option, _value(record, option, getattr(design.models, option)), tell)
-        for option in ("inflow", "hover_inflow")
+    asked = {row.name: _value(record, row) for row in _ARGUMENTS if row.key in record}
+    asked["rotor"] = read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths)
+    grid = {name: asked.pop(name) for name in _GRID if name in asked}  # May be too fine for the preset's inflow.
+    design = make_design(**{name: value for name, value in asked.items() if value != ""})
+    changed = {row.field: _value(record, row) for row in _MODELS if row.key in record}
+    changed |= {
+        name: current_model(name, changed[name], tell) for name in ("inflow", "hover_inflow") if name in changed
     }
-    inflow_model(named["inflow"])
-    switches = ("bending", "dynamic_stall", *SWITCHES)
-    models = replace(
-        design.models, **named, **{name: _value(record, name, getattr(design.models, name)) for name in switches}
-    )
+    models = with_grid(replace(design.models, **changed), **grid)
+    inflow_model(models.inflow)
     if "active_twist" in record:
         if design.active_twist is not None:
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
-    models = with_grid(models, _value(record, "elements", None, int), _value(record, "azimuths", None, int))
     return replace(design, models=models)
 
 
@@ -174,11 +137,11 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     return cast(dict[str, Any], record)
 
 
-def _value(record: dict[str, Any], key: str, default: Any, kind: type | None = None) -> Any:
-    """A value of the record, or the default; ValueError for one of another kind, which is by default that of the
-    default."""
-    value, (what, types) = record.get(key, default), _KINDS[kind or type(default)]
-    fits = isinstance(value, types) and isinstance(value, bool) == (types is bool)
-    if value is default or (fits and not (isinstance(value, int | float) and abs(value) >= _LARGEST_NUMBER)):
+def _value(record: dict[str, Any], row: Quantity) -> Any:
+    """The value of a key of the record; ValueError for one of another kind."""
+    value: Any = record[row.key]
+    if row.key in _READ_LATER or (record[row.key] is None and row.default is None and row.numeric):
         return value
-    raise ValueError(f"design file key {key!r} is {value!r}: give {what}")
+    if not row.holds(value) or (row.numeric and abs(value) >= _LARGEST_NUMBER):
+        raise ValueError(f"design file key {row.key!r} is {value!r}: give {row.wants}")
+    return int(value) if row.kind == "whole" else value

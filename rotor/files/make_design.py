@@ -5,26 +5,24 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
+from typing import Any, cast
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
-from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
+from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
-from rotor.design.design import (
+from rotor.design.design import Design, Models, check_preset, preset_models, with_grid
+from rotor.design.quantities import (
+    ARGUMENTS,
     HOVER_INFLOWS,
-    LOW_SPEEDS,
+    LOAD_KEYS,
+    OPTIONS,
     PRESETS,
-    TRIMS,
-    Design,
-    Models,
-    check_preset,
-    preset_models,
-    with_grid,
+    STAND_TRIMS,
+    LowSpeed,
 )
-from rotor.design.stand import LOAD_KEYS, STAND_TRIMS, Stand, read_stand
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
 from rotor.user_input import Notice, did_you_mean
@@ -118,39 +116,13 @@ def make_design(
 ) -> Design:
     """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
-    The command line has a flag for each, with the words below as its help.
+        The command line has a flag for each argument but `models`, with the same words.
 
-    case: design, as `load_design` reads one from a file, that the other arguments change.
-    rotor: name of a rotor, or what `load_rotor` reads from a rotor file (docs/rotor_file.md).
-    twist: a law or its SPEC: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS |
-        points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE (degrees, per radius).
-    twist_per_rev: active twist, linear from the root cut-out, N:DEG:PHASE,…, e.g. 3:1:180: DEG cos(N ψ − PHASE) degrees
-        of the tip relative to the root, as on a blade at rest; 2:0:0 takes away that of a design file.
-    pitch_per_rev: the same of the root pitch, 2 to 8/rev; both rest in hover.
-    mu: advance ratio V/(ΩR) of the horizontal speed (default 0.2).
-    speed_kt: the same as airspeed in knots.
-    hover: hover, in place of a speed.
-    mass_kg: aircraft mass (default: the rotor's reference mass).
-    altitude_m: pressure altitude (default 0).
-    climb_m_s: rate of climb, negative in descent (default 0); preset flight.
-    preset: flight (default): best available; thesis: the models of the source document, on a rotor other than the
-        UH-60A with that rotor's own sections, planform, hinge and twist.
-    inflow: model of the inflow, of forward flight or of hover.
-    low_speed: hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not.
-    airfoils: sections root to tip, e.g. sc1094r8,sc1095@0.5.
-    off: physical effects switched off, separated by commas.
-    bending: blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads.
-    dynamic_stall: sections that stall with the lags and the vortex of Leishman and Beddoes; --off dynamic-stall takes
-        away that of a design file.
-    elements: blade elements (default 40, or 24 panels of a lifting line).
-    azimuths: stations around the disk (default 120, or 24 of a lifting line).
-    models: all model choices at once.
-    trim: in flight, or on a test stand (the last three).
-    stand: inputs of the test, a `Stand` or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its keys:
-        `rotor.design.stand.STAND_KEYS`. A rotor without an airframe is in a wind tunnel at C_T/σ 0.07 by default.
+    {arguments}
 
-    Raises TypeError or ValueError with one sentence that names the value and the remedy.
+        Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
+    asked = locals()
     name = preset or (case.preset if case else PRESETS[0])
     check_preset(name)
     aircraft = _aircraft(rotor, case)
@@ -158,19 +130,10 @@ def make_design(
     if models is None:
         models = case.models if case and preset is None else preset_models(name)
     models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
-    models = replace(models, bending=models.bending or bending, dynamic_stall=models.dynamic_stall or dynamic_stall)
-    blades, before = aircraft.rotor_for(name), case.condition if case else None
-    speed = advance_ratio(blades.tip_speed, mu, speed_kt, hover)
-    mass = before.mass if before and rotor is None else aircraft.mass
-    condition = FlightCondition(
-        speed if speed is not None else before.advance_ratio if before else ADVANCE_RATIO,
-        mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
-        (before.altitude if before else 0.0) if altitude_m is None else number("altitude_m", altitude_m, "1500"),
-        stand=stand,
-        climb_speed=(before.climb_speed if before else 0.0)
-        if climb_m_s is None
-        else number("climb_m_s", climb_m_s, "5"),
-    )
+    models = replace(models, **{option: True for option in OPTIONS if asked[option]})
+    blades = aircraft.rotor_for(name)
+    before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
+    own = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -179,7 +142,7 @@ def make_design(
         aircraft=aircraft,
         rotor=blades,
         twist=blade.twist if blade else aircraft.twist_for(name),
-        condition=condition,
+        condition=changed_condition(before, blades.tip_speed, asked, **own),
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
         models=with_grid(_changed(models, inflow, low_speed, off), elements, azimuths),
@@ -191,6 +154,11 @@ def make_design(
     if blade:
         design = replace(design, rotor=blade.rotor)
     return replace(design, rotor=change_airfoils(design.rotor, airfoils)) if airfoils else design
+
+
+if make_design.__doc__:  # Python drops docstrings when it is asked to.
+    words = (f"    {row.name}: {row.help}." for row in ARGUMENTS.values())
+    make_design.__doc__ = make_design.__doc__.replace("{arguments}", "\n".join(words))
 
 
 def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
@@ -215,9 +183,7 @@ def _changed(models: Models, inflow: str | None, low_speed: str | None, off: str
             raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
         models = replace(models, **{chosen[0]: current[chosen[0]]})
     if low_speed is not None:
-        if low_speed not in LOW_SPEEDS:
-            raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
-        models = replace(models, low_speed=low_speed)
+        models = replace(models, low_speed=cast(LowSpeed, low_speed))  # Which it checks.
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 
 
@@ -233,8 +199,7 @@ def _test(
     if trim is None:
         tested = stand is not None or aircraft.isolated
         trim = models.trim if models.trim in STAND_TRIMS or not tested else STAND_TRIMS[0]
-    if trim not in TRIMS:
-        raise ValueError(f"trim {trim!r} is not known: use one of {', '.join(TRIMS)}")
+    ARGUMENTS["trim"].check_choice(trim)
     if stand is None and aircraft.isolated and trim in STAND_TRIMS[:2]:
         stand = {"ct_over_sigma": ISOLATED_LOADING}
     if stand is not None and not isinstance(stand, Stand):

@@ -24,8 +24,7 @@ from rotor.design.aircraft import (
     Stated,
     TailRotor,
 )
-from rotor.design.blade import Blade, Rotor, Span
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
 from rotor.files.section_file import check_section_name, read_section

@@ -15,7 +15,7 @@ from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.airfoil.section_table import MACH_STEP
 from rotor.arrays import Array
-from rotor.design.aircraft import number
+from rotor.design.quantity import number
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values
 from rotor.trim.adjoint import Adjoint, Weights

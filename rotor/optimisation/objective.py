@@ -11,8 +11,10 @@ from typing import Literal
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.design.aircraft import FlightCondition, number
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
+from rotor.design.quantities import CONDITION
+from rotor.design.quantity import number
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.adjoint import Objective as PowerKind
@@ -197,15 +199,17 @@ def measure(
     )
 
 
-MISSION_COLUMNS = ("mu", "mass_kg", "altitude_m", "climb_m_s", "hours")
+MISSION_COLUMNS = (*(name for name, row in CONDITION.items() if row.told), "hours")
+_READ = (*CONDITION, "hours")
+"""Columns of a mission that are read."""
 
 
 @refusing("mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
 def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, ...]:
-    """Flight conditions of a CSV table with the columns `MISSION_COLUMNS`; `#` starts a comment.
+    """Flight conditions of a CSV table with columns of `CONDITION` and hours; `#` starts a comment.
 
-    Only mu is needed: mass, altitude and rate of climb left out or blank are the design's own, hours are 1. Raises
-    ValueError with one sentence that names file, line and remedy.
+    Only mu is needed: what is left out or blank is the design's own, hours are 1. Raises ValueError with one sentence
+    that names file, line and remedy.
     """
     path = Path(path)
     text = read_text(path, "mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
@@ -214,7 +218,7 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
     if not rows:
         raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(MISSION_COLUMNS)}")
     heading = [cell.strip() for cell in rows[0][1]]
-    unknown = [name for name in heading if name not in MISSION_COLUMNS]
+    unknown = [name for name in heading if name not in _READ]
     if unknown or "mu" not in heading:
         raise ValueError(
             f"mission {str(path)!r} line {rows[0][0]} reads {','.join(heading)!r}: "
@@ -228,15 +232,10 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
 
 
 def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:
-    condition = design.condition
     try:
-        condition = replace(
-            condition,
-            advance_ratio=_number(cells, "mu", None),
-            mass=_number(cells, "mass_kg", condition.mass),
-            altitude=_number(cells, "altitude_m", condition.altitude),
-            climb_speed=_number(cells, "climb_m_s", condition.climb_speed),
-        )
+        own = design.condition.numbers | {"mu": None}
+        numbers = {row.field: _number(cells, name, own[name]) for name, row in CONDITION.items()}
+        condition = replace(design.condition, **numbers)
         replace(design, condition=condition)  # Refuses a climb where the models are those of level flight.
         return WeightedCondition(condition, _number(cells, "hours", 1.0))
     except ValueError as error:

@@ -15,8 +15,8 @@ import scipy
 
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.design.aircraft import number
 from rotor.design.design import Design, require_design
+from rotor.design.quantity import number
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_band
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades

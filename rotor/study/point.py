@@ -13,18 +13,17 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, TrimState
 from rotor.aero.inflow import inflow_model
-from rotor.aero.switches import SWITCHES
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.aircraft import Aircraft
+from rotor.design.aircraft import Aircraft, told
 from rotor.design.design import Design, check_preset, preset_models
-from rotor.design.stand import STAND_KEYS
+from rotor.design.quantities import ARGUMENTS, OPTIONS, STAND, SWITCHES
 from rotor.files.make_design import Tell, current_model, make_design, warn
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.limits import Limits
@@ -32,7 +31,7 @@ from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
-from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, OptimumSettings, Study, Value, concept_with_breaks
+from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
@@ -144,10 +143,10 @@ def _weights(steps: Array) -> Array:
     return weights if float(np.abs(weights).sum()) < _FAR else np.eye(len(x))[0]
 
 
-_ARGUMENTS = (
-    "twist", "twist_per_rev", "pitch_per_rev", "mu", "speed_kt", "mass_kg", "altitude_m", "climb_m_s", "airfoils",
-    "trim",
-)  # fmt: skip
+_GRID = ("elements", "azimuths")
+_MODELS = ("inflow", *SWITCHES, *OPTIONS, *_GRID)
+"""Quantities that are fields of `Models`."""
+_ARGUMENTS = tuple(name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS))
 """Quantities that are arguments of `make_design`."""
 
 Row = dict[str, Any]
@@ -162,16 +161,12 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = war
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = preset_models(preset)
-    changed: dict[str, Any] = {
-        name: values[name] for name in ("inflow", "bending", "dynamic_stall", *SWITCHES) if name in values
-    }
+    changed: dict[str, Any] = {name: values[name] for name in _MODELS if name in values}
     if "inflow" in changed:
         changed["inflow"] = current_model("inflow", str(changed["inflow"]), tell)
         inflow_model(changed["inflow"])
-    for name in ("elements", "azimuths"):
-        if name in values:
-            changed[name] = int(cast(float, values[name]))
-    stand = {key: values[f"stand_{key}"] for key in STAND_KEYS if f"stand_{key}" in values}
+    changed |= {name: int(changed[name]) for name in _GRID if name in changed}
+    stand = {key: values[f"stand_{key}"] for key in STAND if f"stand_{key}" in values}
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
     if "mu" in values and "speed_kt" in values:
         raise ValueError("mu and speed_kt are both given: omit one")
@@ -289,14 +284,10 @@ def _parameters(values: Values) -> dict[str, float]:
 
 
 def _condition(design: Design) -> Row:
-    condition = design.condition
     return {
         "rotor": design.aircraft.key or design.aircraft.name,
-        "mu": condition.advance_ratio,
         "speed_m_s": design.airspeed,
-        "mass_kg": condition.mass,
-        "altitude_m": condition.altitude,
-        "climb_m_s": condition.climb_speed,
+        **{name: design.condition.numbers[name] for name in told([design.condition])},
         "preset": design.preset,
         "inflow": design.models.inflow,
     }

@@ -12,14 +12,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
+from rotor.aero.switches import SWITCHES, no_effect, with_switches
 from rotor.chart import Axis, Chart, Line
 from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
+from rotor.design.aircraft import told
 from rotor.design.design import Design, require_design
+from rotor.design.quantities import ARGUMENTS, CONDITION
+from rotor.design.quantity import Quantity
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Quantity, WeightedCondition
+from rotor.optimisation.objective import Quantity as Objective
+from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Plan, Schedule, run_plan
 from rotor.plots import draw_chart
 from rotor.trim.hub_loads import why_no_hub_loads
@@ -28,11 +32,6 @@ from rotor.trim.solve import solve
 from rotor.units import KNOT
 from rotor.user_input import check_suffix, write_whole
 
-COLUMNS = (
-    "twist", "mu", "speed_kt", "climb_m_s", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw",
-    "parasite_kw", "climb_kw", "tail_kw", "message",
-)  # fmt: skip
-"""The unit is the end of the name; without one a column is a text or a ratio. Those of one rotor at one setting."""
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
     "index_percent", "least_index_percent", "largest_index_percent", *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev",
@@ -40,12 +39,11 @@ VIBRATION = (
 )  # fmt: skip
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
 amplitudes, and frequencies of the blade."""
-_COLUMNS = (
-    "rotor", "twist", "pitch_per_rev", "twist_per_rev", *COLUMNS[1:3], "mass_kg", "altitude_m", *COLUMNS[3:],
-)  # fmt: skip
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 POWERS = ("total", "main_rotor", *PARTS)
+SHARED_COLUMNS = ("rotor", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
+"""Columns of a sweep that are the same in all rows of one rotor at one weight and altitude."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,12 +71,8 @@ class SweepTable:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Names of the columns, with the unit at the end of the name."""
-        return (*_COLUMNS, *VIBRATION) if self._bends else _COLUMNS
-
-    @property
-    def _bends(self) -> bool:
-        return any(solution.design.models.bending for solution in self.solutions)
+        """Names of the columns, with the unit at the end of the name; without one it is a text or a ratio."""
+        return sweep_columns([solution.design for solution in self.solutions])
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -88,8 +82,8 @@ class SweepTable:
     @property
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
         """One row per solution; None where a solution that did not converge has no power."""
-        bends = self._bends
-        return tuple(_row(solution) + (_vibration(solution) if bends else ()) for solution in self.solutions)
+        columns = self.columns
+        return tuple(tuple(map(_cells(solution, set(columns)).get, columns)) for solution in self.solutions)
 
     def to_dict(self) -> dict[str, list[float | str | None]]:
         """The columns by name: what `pandas.DataFrame`, `polars.DataFrame` and `pyarrow.table` read as it is."""
@@ -112,13 +106,7 @@ class SweepTable:
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
-_EXAMPLES = {
-    "mu": "[0.1, 0.2, 0.3]",
-    "speed_kt": "[60, 90, 120]",
-    "mass_kg": "[7000, 8000, 9000]",
-    "altitude_m": "[0, 1000, 2000]",
-    "climb_m_s": "[-5, 0, 5]",
-}
+SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *CONDITION)}
 """What a sweep may go over, as in `Design.at`."""
 
 
@@ -132,21 +120,21 @@ def sweep(
     altitude_m: Iterable[float] | None = None,
     climb_m_s: Iterable[float] | None = None,
 ) -> SweepTable:
-    """Solve the design, or each of several, over advance ratio, speed, mass, altitude or rate of climb, in order.
+    """Solve the design, or each of several, over one quantity of the flight condition, in order.
 
-    mu, speed_kt, mass_kg, altitude_m, climb_m_s: the values of one of them; all else stays as in the design.
+    mu, speed_kt and the others, as in `Design.at`: the values of one of them; all else stays as in the design.
     start: an earlier solution to begin from, for designs of the same rotor.
 
     Each trim starts from the last that converged. Raises TypeError or ValueError with one sentence, before anything is
     solved, where a design or a value cannot be used.
     """
-    given = {"mu": mu, "speed_kt": speed_kt, "mass_kg": mass_kg, "altitude_m": altitude_m, "climb_m_s": climb_m_s}
-    axes = {name: values for name, values in given.items() if values is not None}
+    asked = locals()
+    axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked[name] is not None}
     if len(axes) != 1:
-        raise TypeError(f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(_EXAMPLES)}")
+        raise TypeError(f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(SWEPT)}")
     ((name, values),) = axes.items()
     if isinstance(values, str) or not hasattr(values, "__iter__"):
-        raise TypeError(f"{name} is {values!r}: give a list, for example {name}={_EXAMPLES[name]}")
+        raise TypeError(f"{name} is {values!r}: give a list, for example {name}={list(SWEPT[name].examples)}")
     several, steps = hasattr(design, "__iter__") and not isinstance(design, str), list(values)
     designs = [require_design(one) for one in cast(Iterable[Design], design if several else (design,))]
     solutions: list[Solution] = []
@@ -166,7 +154,7 @@ def schedule(
     concepts: Sequence[str] = ("linear",),
     *,
     hours: Sequence[float] | None = None,
-    quantity: Quantity = "total",
+    quantity: Objective = "total",
     limits: Limits | None = None,
     starts: int = 4,
     seed: int = 0,
@@ -182,7 +170,7 @@ def schedule(
     blade, `in_flight_gain(concept)` the gain of moving. Raises ValueError with one sentence for what cannot be used.
     """
     if isinstance(mu, str) or not hasattr(mu, "__iter__"):
-        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={_EXAMPLES['mu']}")
+        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={list(SWEPT['mu'].examples)}")
     design, speeds = require_design(design), list(mu)
     times = [1.0] * len(speeds) if hours is None else list(hours)
     if len(times) != len(speeds):
@@ -221,7 +209,7 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
     else:
         shown = [(name, curve, "total") for name, curve in curves.items()]
     lines = tuple(Line(name, _values(own, axis), _kilowatts(own, part), dots=True) for name, own, part in shown)
-    return draw_chart(Chart("", Axis(_SWEPT[axis]), Axis("Power [kW]"), lines), ax)
+    return draw_chart(Chart("", Axis(axis.axis_title), Axis("Power [kW]"), lines), ax)
 
 
 def _label(design: Design) -> str:
@@ -231,50 +219,48 @@ def _label(design: Design) -> str:
     return ", ".join([design.rotor.name, design.twist.spec(), *parts])
 
 
-_SWEPT = {
-    "advance_ratio": "Advance ratio µ",
-    "mass": "Mass [kg]",
-    "altitude": "Altitude [m]",
-    "climb_speed": "Rate of climb [m/s]",
-}
-"""Labels on a chart, by the name in `FlightCondition`."""
-
-
-def _swept(solutions: Sequence[Solution]) -> str:
+def _swept(solutions: Sequence[Solution]) -> Quantity:
     """What varies; the advance ratio where nothing does."""
     rotors: dict[str, list[Solution]] = {}
     for solution in solutions:  # The mass of another rotor is another by itself.
         rotors.setdefault(solution.design.rotor.name, []).append(solution)
-    varied = (name for name in _SWEPT if any(len(set(_values(one, name))) > 1 for one in rotors.values()))
-    return next(varied, "advance_ratio")
+    varied = (row for row in CONDITION.values() if any(len(set(_values(one, row))) > 1 for one in rotors.values()))
+    return next(varied, CONDITION["mu"])
 
 
-def _values(solutions: Sequence[Solution], name: str) -> list[float]:
-    return [getattr(solution.design.condition, name) for solution in solutions]
+def _values(solutions: Sequence[Solution], row: Quantity) -> list[float]:
+    return [row.of(solution.design) for solution in solutions]
 
 
 def _kilowatts(solutions: Sequence[Solution], part: str) -> list[float]:
     return [getattr(solution.power, part) / 1e3 if solution.converged else math.nan for solution in solutions]
 
 
-def _row(solution: Solution) -> tuple[float | str | None, ...]:
-    design = solution.design
+def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
+    """Columns of a sweep over these designs."""
+    names = ("speed_kt", *told(design.condition for design in designs))
+    condition = (name for name in SWEPT if name in names)
+    powers = (f"{part}_kw" for part in POWERS)
+    columns = ("rotor", "twist", "pitch_per_rev", "twist_per_rev", *condition, "status", *powers, "message")
+    return (*columns, *VIBRATION) if any(design.models.bending for design in designs) else columns
+
+
+def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | None]:
+    """A row of a sweep by column; what is left out has no value."""
+    design, power = solution.design, solution.last_power
     reason = why_no_hub_loads(design) if design.models.bending else None
-    powers = [getattr(solution.power, part) / 1e3 if solution.converged else None for part in POWERS]
-    return (
-        design.rotor.name,
-        design.twist.spec(),
-        harmonics_text(design.pitch_per_rev),
-        harmonics_text(design.linear_active_twist),
-        design.condition.advance_ratio,
-        design.airspeed / KNOT,
-        design.condition.mass,
-        design.condition.altitude,
-        design.condition.climb_speed,
-        solution.status.value,
-        *powers,
-        solution.message if reason is None else f"{solution.message} {reason.sentence}",
-    )
+    return {
+        "rotor": design.rotor.name,
+        "twist": design.twist.spec(),
+        "pitch_per_rev": harmonics_text(design.pitch_per_rev),
+        "twist_per_rev": harmonics_text(design.linear_active_twist),
+        "speed_kt": design.airspeed / KNOT,
+        **design.condition.numbers,
+        "status": solution.status.value,
+        **({f"{part}_kw": getattr(power, part) / 1e3 for part in POWERS} if solution.converged else {}),
+        "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
+        **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
+    }
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:
@@ -290,7 +276,7 @@ def _vibration(solution: Solution) -> tuple[float | None, ...]:
 class WaterfallStep:
     """One trim and its difference from a reference trim."""
 
-    switch: Switch | None
+    switch: Quantity | None
     """The switch changed; None at the start."""
     solution: Solution
     against: Solution | None

@@ -7,18 +7,19 @@ is computed, not stored: a study of 10⁹ points needs no memory. A study pickle
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.aero.switches import SWITCHES
 from rotor.arrays import Array, read_only
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
-from rotor.design.stand import STAND_KEYS
+from rotor.design.quantities import BESIDE, STAND
+from rotor.design.quantities import QUANTITIES as QUANTITIES_OF_DESIGN
+from rotor.design.quantity import Quantity, unit_of
 from rotor.optimisation.concepts import (
     CONCEPTS,
     THREE_SEGMENT_FREE,
@@ -36,57 +37,18 @@ Ints = NDArray[np.int64]
 Method = Literal["sobol", "latin-hypercube"]
 
 
-_UNITS = {
-    "_deg": "°", "_percent": "%", "_kt": "kt", "_kg": "kg", "_m": "m", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n": "N",
-    "_nm": "N m", "_w": "W", "_ms": "ms", "_per_rev": "/rev",
-}  # fmt: skip
-"""Units by the end of a name of a number."""
-
-
-def _unit(name: str) -> str:
-    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """One thing that a study can hold or vary."""
-
-    name: str
-    kind: Literal["number", "text", "flag"]
-    unit: str
-    section: str
-    """That of the study file which holds it, "fixed" or "models"; as an axis it is in [axes]."""
-
-    @property
-    def whole(self) -> bool:
-        """Whether a number of it is a whole one."""
-        return self.name in ("elements", "azimuths")
-
-
 def _quantities() -> Iterator[Quantity]:
-    fixed = (
-        "rotor", "mu", "speed_kt", "mass_kg", "altitude_m", "climb_m_s", "twist", "twist_per_rev", "pitch_per_rev",
-        "airfoils", "concept", "hover_share", *(f"stand_{key}" for key in STAND_KEYS),
-    )  # fmt: skip
-    models = ("trim", "preset", "inflow", *_FLAGS, "elements", "azimuths")
-    for section, names in (("fixed", fixed), ("models", models)):
-        for name in names:
-            if name in _TEXTS or name in _FLAGS:
-                yield Quantity(name, "text" if name in _TEXTS else "flag", "", section)
-            else:
-                yield Quantity(name, "number", _unit(name), section)
+    yield from (row for row in QUANTITIES_OF_DESIGN.values() if row.section)
+    yield from (replace(row, name=f"stand_{name}", section="fixed") for name, row in STAND.items())
     for concept in CONCEPTS.values():
-        yield from (Quantity(one.label, "number", one.shown_unit, "fixed") for one in concept.parameters)
+        for one in concept.parameters:
+            yield Quantity(one.label, "number", unit=one.shown_unit, section="fixed")
 
 
-_FLAGS = (*SWITCHES, "bending", "dynamic_stall")
-_TEXTS = (
-    "rotor", "twist", "twist_per_rev", "pitch_per_rev", "airfoils", "concept", "stand_flapping", "trim", "preset",
-    "inflow",
-)  # fmt: skip
 QUANTITIES: dict[str, Quantity] = {one.name: one for one in _quantities()}
 """By name; the parameters of all twist concepts are among them, angles in degrees with names that end in _deg."""
 
+_SWITCHES = tuple(name for name, row in QUANTITIES.items() if row.kind == "switch")
 _LABELS = {parameter.label for concept in CONCEPTS.values() for parameter in concept.parameters}
 PLAIN = tuple(name for name in QUANTITIES if name not in _LABELS)
 """Quantities that do not belong to a concept."""
@@ -345,8 +307,8 @@ class Column:
 
 
 _HEAD = (
-    "point", "status", "message", "rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", "climb_m_s", "preset", "inflow",
-    "twist",
+    "point", "status", "message", "rotor", "mu", "speed_m_s", "mass_kg", "altitude_m",
+    *(name for name, row in BESIDE.items() if row.told), "preset", "inflow", "twist",
 )  # fmt: skip
 ANSWER = (
     *(f"power_{part}_w" for part in POWERS), "ct", "cp", "ct_over_sigma", "lambda0", "collective_deg", "cyclic_1c_deg",
@@ -361,7 +323,7 @@ _SEARCH = (
 )  # fmt: skip
 """`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
 _COUNTS = ("point", "passes", "local_minima", "evaluations")
-_WORDS = ("status", "message", "caveats", "active", *_TEXTS)
+_WORDS = ("status", "message", "caveats", "active")
 
 
 def columns_of(study: Study) -> tuple[Column, ...]:
@@ -369,13 +331,14 @@ def columns_of(study: Study) -> tuple[Column, ...]:
     given = dict.fromkeys(study.parameters, 0.0)
     searched = [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
     found = [parameter.label for concept in searched for parameter in concept.parameters]
-    own = [name for name in (*study.names, *found) if name not in _FLAGS]
+    own = [name for name in (*study.names, *found) if name not in _SWITCHES]
     vibration = _VIBRATION if dict(study.given).get("bending") else ()
     names = (*_HEAD, *own, *ANSWER, *vibration, *(_SEARCH if study.optimum else ()))
     return tuple(_column(name) for name in dict.fromkeys(names))
 
 
 def _column(name: str) -> Column:
-    if name in _COUNTS or name in _WORDS:
+    row = QUANTITIES.get(name)
+    if name in _COUNTS or name in _WORDS or (row is not None and not row.numeric):
         return Column(name, "count" if name in _COUNTS else "text", "")
-    return Column(name, "number", QUANTITIES[name].unit if name in QUANTITIES else _unit(name))
+    return Column(name, "number", unit_of(name) if row is None else row.symbol)

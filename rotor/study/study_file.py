@@ -130,16 +130,16 @@ class Reader:
             names = [
                 name
                 for name, one in QUANTITIES.items()
-                if (one.kind != "flag" if section == "axes" else one.section == section)
+                if (one.kind != "switch" if section == "axes" else one.section == section)
             ]
             raise self._wrong(section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}")
-        if QUANTITIES[key].kind == "flag" and section == "axes":
+        if QUANTITIES[key].kind == "switch" and section == "axes":
             raise self._wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
 
     def _listed(self, key: str, value: Any) -> tuple[float, ...] | tuple[str, ...]:
         """The values of an axis: a list, or a range written as a text."""
         how = 'give a list, a range such as "0.05:0.40:0.05", or { low = 0.1, high = 0.3 } to sample'
-        if QUANTITIES[key].kind == "text":
+        if not QUANTITIES[key].numeric:
             if not isinstance(value, list) or not all(isinstance(one, str) for one in cast(list[Any], value)):
                 raise self._wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
             found: list[Any] = [self._portable("axes", key, one) for one in cast(list[str], value)]
@@ -155,13 +155,13 @@ class Reader:
         if not found:
             raise self._wrong("axes", key, f"axis {key} has no values: give one at least")
         for one in found:
-            if QUANTITIES[key].kind == "number" and not _finite(one):
+            if QUANTITIES[key].numeric and not _finite(one):
                 raise self._wrong("axes", key, f"axis {key} holds {one!r}: {how}")
-            if QUANTITIES[key].whole and float(one) % 1.0:
+            if QUANTITIES[key].kind == "whole" and float(one) % 1.0:
                 raise self._wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
         if len(set(found)) < len(found):
             raise self._wrong("axes", key, f"axis {key} holds a value twice: remove one")
-        return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
+        return tuple(float(one) for one in found) if QUANTITIES[key].numeric else tuple(found)
 
     def _portable(self, section: str, key: str, text: str) -> str:
         """The value without files, for other machines: reads a rotor file, inlines a twist table.
@@ -180,11 +180,9 @@ class Reader:
 
     def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
         low, high = value.get("low"), value.get("high")
-        if (
-            QUANTITIES[key].kind != "number" or set(value) != {"low", "high"} or not (_finite(low) and _finite(high))
-        ):  # fmt: skip
+        if not QUANTITIES[key].numeric or set(value) != {"low", "high"} or not (_finite(low) and _finite(high)):
             raise self._wrong("axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}")
-        if QUANTITIES[key].whole:
+        if QUANTITIES[key].kind == "whole":
             raise self._wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
         if not cast(float, low) < cast(float, high):
             raise self._wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
@@ -217,15 +215,11 @@ class Reader:
                     raise self._wrong(section, key, f"{key} is in [{section}]: move it to [{one.section}]")
                 if key in varied:
                     raise self._wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
-                number = _finite(value) and not (one.whole and value % 1)
-                right = {"number": number, "text": isinstance(value, str), "flag": isinstance(value, bool)}
-                if not right[one.kind]:
-                    wanted = {"number": "a whole number" if one.whole else "a number", "text": "a text",
-                              "flag": "true or false"}[one.kind]  # fmt: skip
-                    raise self._wrong(section, key, f"{key} is {value!r}: give {wanted}")
-                if one.kind == "text":
+                if not one.holds(value) or (one.numeric and not _finite(value)):
+                    raise self._wrong(section, key, f"{key} is {value!r}: give {one.wants}")
+                if isinstance(value, str):
                     value = self._portable(section, key, value)
-                given[key] = float(value) if one.kind == "number" else value
+                given[key] = float(value) if one.numeric else value
         return given
 
     def _searching(self) -> OptimumSettings | None:

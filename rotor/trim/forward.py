@@ -19,9 +19,9 @@ from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
 from rotor.columns.trims import trim_of
-from rotor.design.aircraft import LEAST_MASS, FlightCondition
+from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
-from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
+from rotor.design.quantities import CONDITION, STAND
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 LINEAR = "pitt-peters"
@@ -192,7 +192,7 @@ def easier_condition(design: Design, t: float) -> FlightCondition:
             stand=_easier_stand(condition.stand, design, t),
         )
     blade_loading = design.weight_coefficient / design.rotor.solidity
-    easy_mass = min(condition.mass, max(0.045 * condition.mass / max(blade_loading, 1e-9), LEAST_MASS))
+    easy_mass = min(condition.mass, max(0.045 * condition.mass / max(blade_loading, 1e-9), CONDITION["mass_kg"].low))
     return replace(
         condition,
         advance_ratio=easy_speed + t * (speed - easy_speed),
@@ -207,7 +207,7 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
         stand = replace(stand, shaft_tilt=stand.shaft_tilt * (0.3 + 0.7 * t))
     if stand.collective is not None:
         return stand
-    wanted = min(design.weight_coefficient / design.rotor.solidity, LARGEST_CT_OVER_SIGMA)
+    wanted = min(design.weight_coefficient / design.rotor.solidity, STAND["ct_over_sigma"].high)
     easy = min(wanted, 0.045)
     return replace(stand, thrust=None, ct_over_sigma=easy + t * (wanted - easy))
 

@@ -25,7 +25,9 @@ from rotor.aero.switches import switched_off
 from rotor.arrays import Array, Booleans
 from rotor.columns.blade import Freedom
 from rotor.design.active_twist import active_twist_record, harmonics_record
+from rotor.design.aircraft import told
 from rotor.design.design import Design
+from rotor.design.quantities import BESIDE
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess, LinearisedTrim
 from rotor.user_input import check_suffix, write_whole
@@ -415,7 +417,7 @@ class Solution:
             "caveats": [caveat.sentence for caveat in self.caveats],
             "mu": design.condition.advance_ratio,
             "speed_m_s": design.airspeed,
-            "climb_m_s": design.condition.climb_speed,
+            **{name: design.condition.numbers[name] for name in told([design.condition]) if name in BESIDE},
             "preset": design.preset,
             "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
             "twist": design.twist.spec(),

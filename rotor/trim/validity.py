@@ -11,9 +11,8 @@ from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.arrays import Array
-from rotor.design.aircraft import FIXED_SHARE
+from rotor.design.aircraft import FIXED_SHARE, Stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.solution import Caveat, DiskFields, ElasticTwist, HubMoment, PowerBudget

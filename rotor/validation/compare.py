@@ -7,12 +7,13 @@ import math
 import tomllib
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from rotor.assets import asset_path
 from rotor.chart import Axis, Chart, Line, Points, Series
-from rotor.design.design import HOVER_INFLOWS, Design
-from rotor.design.stand import Stand
+from rotor.design.aircraft import Stand
+from rotor.design.design import Design
+from rotor.design.quantities import HoverInflow
 from rotor.files.make_design import current_model, make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
@@ -334,10 +335,7 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    inflow = current_model("hover_inflow", inflow)
-    hover_inflow = next((name for name in HOVER_INFLOWS if name == inflow), None)
-    if hover_inflow is None:
-        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(HOVER_INFLOWS)}")
+    hover_inflow = cast(HoverInflow, current_model("hover_inflow", inflow))
     base = make_design(rotor=measured.rotor)
     return replace(base, models=replace(base.models, hover_inflow=hover_inflow))
 

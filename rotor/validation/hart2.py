@@ -64,7 +64,7 @@ _GRID = (
     "- Twice the gradient of the wake's sinking from front to rear (E = χ in place of χ/2): 0.64 (BL), 0.89 (MN), "
     "height of the vortices of BL 0.033 rms in place of 0.046, of MN 0.039 in place of 0.036. With it and the "
     "measured twist 0.75 (BL): twist and wake make most of the gap. Elsewhere it is worse: forward-flight torque of "
-    "the XV-15 rms 7.2 % in place of 6.4 %, lift of the Gazelle at µ 0.14, 0.88 R 0.84 in place of 0.90. So it is "
+    "the XV-15 rms 7.2 % in place of 6.3 %, lift of the Gazelle at µ 0.14, 0.88 R 0.84 in place of 0.90. So it is "
     "not taken."
 )
 _MISSED = {

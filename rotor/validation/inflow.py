@@ -30,7 +30,7 @@ SET = "2mrts-inflow"
 """Name of the set on the command line."""
 WHY = (
     "The lifting line is taken a chord above the disk, where the velocimeter measured. In the disk its mean over time "
-    "has correlations of 0.89, 0.86, 0.66 at advance ratios 0.15, 0.23, 0.35: what small parts of the load induce "
+    "has correlations of 0.89, 0.86, 0.67 at advance ratios 0.15, 0.23, 0.35: what small parts of the load induce "
     "fades above the disk. So it was the height that made wakes which answer the load look poor, not that they do not "
     "roll up. The other models know the disk alone; at 0.35 linear inflow still ranks above the lifting line. From "
     "0.23 on the measured mean is half of momentum theory's, which all of them share, for a reason not known."

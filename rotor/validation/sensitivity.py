@@ -6,9 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from rotor.chart import Axis, Chart, Points
-from rotor.design.blade import with_airfoils
+from rotor.design.blade import BladeStructure, with_airfoils
 from rotor.design.design import Design
-from rotor.design.structure import BladeStructure
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search

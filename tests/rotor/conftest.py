@@ -1,6 +1,9 @@
 """What several tests of the solver share."""
 
+from collections.abc import Iterator
+
 import pytest
+from patched import Patch, patching
 
 from rotor.engine.linearise import Point
 from rotor.engine.newton import Factors
@@ -17,3 +20,10 @@ def evaluated(monkeypatch: pytest.MonkeyPatch) -> list[Factors]:
 
     monkeypatch.setattr(Factors, "of", counted)
     return made
+
+
+@pytest.fixture
+def patch() -> Iterator[Patch]:
+    """For what cached functions read: every cache is emptied with each change, and at the end."""
+    with patching() as patch:
+        yield patch

@@ -20,7 +20,8 @@ from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
-from rotor.design.design import PRESETS, Design
+from rotor.design.design import Design
+from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft

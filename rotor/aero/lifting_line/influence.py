@@ -38,8 +38,6 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array, Integers, Singles
 from rotor.compiled import compiled
 
-NEAR = math.radians(30.0)
-"""Age to which the lattice is full."""
 PIECES = 4
 """Straight pieces of a step there: one leaves the blade at a wrong angle."""
 TURNS = 2
@@ -54,6 +52,7 @@ OWN_CORE, BARE = 0.05, (0.05, 0.45)
 ROOT_CORE, ROOT = 0.08, 0.5
 """Core of the far trailers inboard of a radius, which come from the root and are no concentrated vortex."""
 SHED_CORE = 0.08
+"""Of shed lines of strips, and of the near wake's last, for with one core alone it and the strips' first cancel."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +63,8 @@ class LiftingLine:
     root: float
     panels: int
     azimuths: int
+    near: float = math.radians(30.0)
+    """Age [rad] to which the lattice is full."""
 
     @cached_property
     def edges(self) -> Array:
@@ -156,7 +157,7 @@ def _strip_weights(line: LiftingLine) -> Array:
 def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     """The lines of the wakes of blades at azimuths psi."""
     n, step = line.panels, 2.0 * math.pi / line.azimuths
-    near, turns = max(round(NEAR / step), 1), TURNS * line.azimuths
+    near, turns = max(round(line.near / step), 1), TURNS * line.azimuths
     picked = _groups(n)
     strips = len(picked) - 1
     rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
@@ -180,8 +181,7 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     ones = np.where(joint, whole - 1, whole), whole + 1
     share = np.where(joint, 0.5, 1.0)[:, None] * np.array([-1.0, 1.0]) / PIECES
     parts.across(young[:, inner], rows[1], LEAST_CORE**4, ones, share)
-    closing = 0.5 / PIECES
-    parts.across(young[:, -1:], rows[1], LEAST_CORE**4, ([near - 1], [near]), -np.array([[closing, 1.0 - closing]]))
+    parts.across(young[:, -1:], rows[1], SHED_CORE**4, ([near - 1], [near]), np.array([[-0.5, 0.5 - PIECES]]) / PIECES)
     parts.across(young[:, :1], rows[2], LEAST_CORE**4, ([0], [0]), np.array([[1.0, 0.0]]))
 
     # Strips: trailers carry the mean of a step's two ends, what changes from step to step is shed.

@@ -17,10 +17,10 @@ from rotor.__main__ import main
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.command.optimise import digits_of_band
-from rotor.design.design import HOVER_INFLOWS
+from rotor.design.quantities import HOVER_INFLOWS
 from rotor.files.make_design import make_design
 from rotor.optimisation.ideal_bound import ideal_factor
-from rotor.study.series import COLUMNS
+from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.user_input import parse_range
 
 KEYS = [
@@ -237,7 +237,8 @@ def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path)
     assert [row["mu"] for row in rows] == ["0.1", "0.2", "0.3"] * 2
     assert {row["twist"] for row in rows} == {"linear:-8", "linear:-16"}
     assert out.count("\n") == 7
-    level = [name for name in COLUMNS[:-1] if not name.startswith("climb")]
+    columns = [name for name in sweep_columns([make_design()]) if name not in SHARED_COLUMNS]
+    level = [name for name in columns[:-1] if not name.startswith("climb")]
     assert out.splitlines()[0].split() == level  # Headings stand apart.
     assert max(map(len, out.splitlines())) <= 120
     single = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")

@@ -12,8 +12,8 @@ from rotor.actuator.harmonic import dynamic_twist, phase_sweep, tip_response, wi
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
 from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 

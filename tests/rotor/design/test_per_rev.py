@@ -16,8 +16,8 @@ import rotor
 from rotor.__main__ import main
 from rotor.actuator.harmonic import tip_response
 from rotor.design.active_twist import ActiveTwist, Harmonic, harmonics_text, read_harmonics
+from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand
 from rotor.dynamics.torsion import TorsionBeam, torsion_beam
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design

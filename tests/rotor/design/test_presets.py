@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.design.design import PRESETS
+from rotor.design.quantities import PRESETS
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design, uh60a_rotor
 

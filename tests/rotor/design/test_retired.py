@@ -7,7 +7,8 @@ import pytest
 
 from rotor.__main__ import main
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.design import FLIGHT_MODELS, HOVER_INFLOWS, Models
+from rotor.design.design import FLIGHT_MODELS, Models
+from rotor.design.quantities import HOVER_INFLOWS
 from rotor.files.design_file import design_from_record, load_design, parse_design
 from rotor.files.make_design import RETIRED, current_model, make_design
 from rotor.study.point import design_of

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.arrays import Array
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import BladeStructure
 from rotor.dynamics.bending import bending_beam, bending_modes, frequencies_by_kind
 
 WRIGHT = {

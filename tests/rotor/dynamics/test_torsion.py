@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.design.structure import BladeStructure
+from rotor.design.blade import BladeStructure
 from rotor.dynamics.structure import uh60a_structure
 from rotor.dynamics.torsion import blade_modes, torsion_beam, torsion_modes
 

@@ -18,8 +18,8 @@ from numpy.testing import assert_allclose
 from rotor.aero.section import M
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand
 from rotor.engine.linearise import Measure, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
 from rotor.files.make_design import make_design

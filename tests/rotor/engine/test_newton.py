@@ -106,7 +106,7 @@ def test_a_singular_system_ends():
     for start in ((0.0, 0.0, 0.0), (0.0, 1.0, 1.0)):
         found = solve(one, at(one, *start), None, limits(4.0))
         assert found.point.size > 1.0
-        assert found.passes < 40
+        assert found.passes <= limits(4.0).most_passes
     assert not Factors.of(evaluate(one, one.grid, at(one, 0.0, 0.0, 0.0), slopes=True)).usable
 
 

@@ -77,13 +77,18 @@ def compare(line: LiftingLine, mu: str) -> tuple[list[float], list[float]]:
     return [over_glauert(lines, thrust, one) for one in found.values()], [float(row[name]) for name in found]
 
 
-TOLERANCE = {"0.1": 0.01, "0.2": 0.02, "0.3": 0.025}
-"""The table's lattice is good to 1 or 2 %; where the wake passes back over the blade the cores differ too."""
+TOLERANCE = {"0.1": 0.005, "0.2": 0.015, "0.3": 0.02}
+"""The table's lattice is good to 1 or 2 %."""
 
 
 @pytest.mark.parametrize("grid", [(PANELS, 36), pytest.param((20, 72), marks=pytest.mark.slow)], ids=["ours", "its"])
 @pytest.mark.parametrize("mu", TOLERANCE)
-def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int]):
+def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int], monkeypatch: pytest.MonkeyPatch):
+    """With its core of a blade's own young trailers. With ours, any circulation at 2/rev and above needs less.
+
+    Up to 4 % at µ 0.3; steady twists need 1 % more.
+    """
+    monkeypatch.setattr("rotor.aero.lifting_line.influence.OWN_CORE", 0.02)
     found, expected = compare(LiftingLine(4, 0.13, *grid), mu)
     assert_allclose(found, expected, rtol=TOLERANCE[mu])
 

@@ -68,19 +68,19 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "README.md",
-        "µ sin α in U_P moves the best twist at µ 0.35 by −7.1 to −9.9°",
-        lambda: ends(*TRIM) == (-9.9, -7.1),
+        "µ sin α in U_P moves the best twist at µ 0.35 by −7.2 to −9.9°",
+        lambda: ends(*TRIM) == (-9.9, -7.2),
     ),
     ("README.md", "drag rise moves it by −0.1 to −1.2°", lambda: ends("mach") == (-1.2, -0.1)),
     (
         "README.md",
-        "eight blades for four by +1.1°",
-        lambda: round(twice_the_blades(FAST).rate_deg - best(without("elastic")), 1) == 1.1,
+        "eight blades for four by +0.9°",
+        lambda: round(twice_the_blades(FAST).rate_deg - best(without("elastic")), 1) == 0.9,
     ),
     (
         "README.md",
-        "Today the best is −16.5, −11.2 and −11.6°",
-        lambda: [round(best(ALL, mu), 1) for mu in (0.0, 0.2, FAST)] == [-16.5, -11.2, -11.6],
+        "Today the best is −16.5, −11.2 and −11.5°",
+        lambda: [round(best(ALL, mu), 1) for mu in (0.0, 0.2, FAST)] == [-16.5, -11.2, -11.5],
     ),
     (
         "README.md",
@@ -95,25 +95,25 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "docs/theory.md",
-        "together they move it by −7.1 to −9.9° at $\\mu$ = 0.35",
-        lambda: ends(*TRIM) == (-9.9, -7.1),
+        "together they move it by −7.2 to −9.9° at $\\mu$ = 0.35",
+        lambda: ends(*TRIM) == (-9.9, -7.2),
     ),
     (
         "docs/theory.md",
-        "The lifting line moves it by +0.8 to −2.8°, the section table by −1.8 to +1.9°, drag "
+        "The lifting line moves it by +0.8 to −2.7°, the section table by −1.8 to +1.8°, drag "
         "rise by −0.1 to −1.2°, the elastic blade by +1.7°",
         lambda: (ends("wake"), ends("table"), ends("mach"), ends("elastic"))
-        == ((-2.8, 0.8), (-1.8, 1.9), (-1.2, -0.1), (1.7, 1.7)),
+        == ((-2.7, 0.8), (-1.8, 1.8), (-1.2, -0.1), (1.7, 1.7)),
     ),
     (
         "docs/tutorials/drag.md",
-        "switch *Fuselage drag* off in *Model* at µ 0.35: the best twist goes from −11.6° to −7.3°",
-        lambda: (round(best(ALL), 1), round(without_drag(FAST).rate_deg, 1)) == (-11.6, -7.3),
+        "switch *Fuselage drag* off in *Model* at µ 0.35: the best twist goes from −11.5° to −7.0°",
+        lambda: (round(best(ALL), 1), round(without_drag(FAST).rate_deg, 1)) == (-11.5, -7.0),
     ),
     (
         "docs/tutorials/drag.md",
-        "Without drag rise (*Compressibility*) it stays within 0.1°",
-        lambda: abs(best(ALL) - best(without("mach"))) < 0.1,
+        "Without drag rise (*Compressibility*) it stays within 0.2°",
+        lambda: abs(best(ALL) - best(without("mach"))) < 0.2,
     ),
     (
         "docs/tutorials/drag.md",
@@ -122,8 +122,8 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
     ),
     (
         "docs/tutorials/actuator.md",
-        "−16.5° and −11.6° per radius at µ 0.35",
-        lambda: (round(best(ALL, 0.0), 1), round(best(ALL), 1)) == (-16.5, -11.6),
+        "−16.5° and −11.5° per radius at µ 0.35",
+        lambda: (round(best(ALL, 0.0), 1), round(best(ALL), 1)) == (-16.5, -11.5),
     ),
     (
         "docs/notebooks/05_inflow_models.py",

@@ -1,6 +1,7 @@
 """Fixtures for trims."""
 
 import pytest
+from patched import Patch
 
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import build_problem
@@ -10,7 +11,7 @@ from rotor.trim import forward
 
 
 @pytest.fixture
-def same_course(monkeypatch: pytest.MonkeyPatch) -> WakeCourse:
+def same_course(patch: Patch) -> WakeCourse:
     """The course of every wake of a lifting line: that of the UH-60A at µ = 0.2."""
     course = forward.with_course(build_problem(make_design(mu=0.2))).course
 
@@ -18,5 +19,5 @@ def same_course(monkeypatch: pytest.MonkeyPatch) -> WakeCourse:
         del design
         return course
 
-    monkeypatch.setattr(forward, "_course", given)
+    patch("rotor.trim.forward._course", given)
     return course

@@ -17,7 +17,8 @@ from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
 from rotor.aero.problem import build_problem
 from rotor.columns.hover import closed_form_inflow, lift_curve
-from rotor.design.design import HOVER_INFLOWS, Design
+from rotor.design.design import Design
+from rotor.design.quantities import HOVER_INFLOWS
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import power_gradient

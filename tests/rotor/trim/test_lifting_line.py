@@ -1,14 +1,16 @@
 """Trims with the lifting line: its wake along the trim, converged on its grid, exact gradient, no step to hover."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS
+from rotor.aero.disk import Disk
+from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import UP, UT
 from rotor.columns.flight import disk_sums
 from rotor.design.design import Design
@@ -100,6 +102,40 @@ def test_any_number_of_blades(blades: int):
     found, usual = solve(line(0.2, blades=blades, elastic_twist=False)), solve(line(0.2, elastic_twist=False))
     assert found.converged
     assert (found.power.induced > usual.power.induced) == (blades < 4)
+
+
+def test_the_loss_at_the_tips_goes_with_one_over_the_number_of_blades():
+    """Prandtl's and Goldstein's: κ = κ∞ + c/N_b at equal solidity, and at no number of blades less than 1."""
+    over = 1.0 / np.array([4, 7, 8, 9, 12])
+    found = np.array([solve(line(0.2, blades=round(1.0 / x), elastic_twist=False)).induced_power_factor for x in over])
+    assert (np.diff(found) < 0.0).all()
+    slope, limit = np.polyfit(over, found, 1)
+    assert limit > 1.0
+    assert_allclose(found, limit + slope * over, atol=0.015)
+
+
+@dataclass(frozen=True)
+class FullLattice(LiftingLineInflow):
+    """The lattice is full to another age [rad]."""
+
+    near: float = 0.0
+
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> LiftingLineTerms:
+        return LiftingLineTerms(replace(super().on(disk, course, losses).line, near=self.near), course)
+
+
+@pytest.mark.parametrize(
+    ("mu", "azimuths"), [(0.2, 24), pytest.param(0.1, 48, marks=pytest.mark.slow)], ids=["0.2", "0.1"]
+)
+def test_the_length_of_the_near_wake_decides_nothing(mu: float, azimuths: int):
+    """15 to 120°. At µ 0.1 the strips' steps of 15° are too long where they first pass under a blade, at 90°: 0.9 %."""
+    problem, powers = trim_problem(line(mu, elastic_twist=False, line_azimuths=azimuths)), list[float]()
+    for near in (15.0, 30.0, 60.0, 90.0, 120.0):
+        found = trim(replace(problem, inflow=FullLattice(math.radians(near))))
+        assert found.converged
+        flown = found.linear
+        powers.append(power_budget(problem, flown.elements, disk_sums(flown.point)).total)
+    assert max(powers) < 1.004 * min(powers)
 
 
 @pytest.mark.parametrize("mu", [0.12, 0.2, 0.3, 0.35])

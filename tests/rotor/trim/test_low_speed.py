@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rotor.aero.momentum import glauert_inflow
-from rotor.design.design import Design, LowSpeed
+from rotor.design.design import Design
+from rotor.design.quantities import LowSpeed
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Objective, power_gradient
 from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio

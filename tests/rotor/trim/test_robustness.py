@@ -12,9 +12,9 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import build_problem
-from rotor.design.aircraft import LEAST_MASS
-from rotor.design.design import PRESETS, Design
-from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
+from rotor.design.aircraft import Stand
+from rotor.design.design import Design
+from rotor.design.quantities import CONDITION, PRESETS, STAND
 from rotor.files.make_design import make_design
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
@@ -172,7 +172,7 @@ def test_continuation_never_leaves_the_masses_that_exist(mass: float):
     design = make_design(rotor="r22", mu=0.45, mass_kg=mass, altitude_m=8000)
     small = replace(design, rotor=replace(design.rotor, radius=1.2, angular_speed=150.0))
     for t in (0.0, 0.5, 1.0):
-        assert LEAST_MASS <= easier_condition(small, t).mass <= mass
+        assert CONDITION["mass_kg"].low <= easier_condition(small, t).mass <= mass
     solution = solve(small)
     assert solution.message
 
@@ -182,7 +182,7 @@ def test_continuation_on_a_stand_stays_within_its_limits():
     stand = Stand(thrust=1.9e6)
     models = replace(design.models, trim="wind-tunnel")
     overloaded = replace(design, models=models, condition=replace(design.condition, stand=stand))
-    assert overloaded.weight_coefficient / overloaded.rotor.solidity > LARGEST_CT_OVER_SIGMA
+    assert overloaded.weight_coefficient / overloaded.rotor.solidity > STAND["ct_over_sigma"].high
     solution = solve(overloaded)
     assert not solution.converged
     assert solution.message

@@ -12,8 +12,8 @@ from rotor.aero.inflow import Wake
 from rotor.aero.inflow.linear import LINEAR_MODELS, half_skew
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import build_problem
+from rotor.design.aircraft import Stand, read_stand
 from rotor.design.design import Design
-from rotor.design.stand import Stand, read_stand
 from rotor.design.twist import LinearTwist
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design

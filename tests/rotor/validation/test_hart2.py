@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from patched import Patch
 
-from rotor.aero.inflow import lifting_line as inflow
-from rotor.aero.lifting_line import geometry, influence
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.design.design import with_grid
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -58,7 +58,7 @@ def test_measured_motion_and_vortices_are_those_of_the_source():
 
 def test_height_of_a_vortex_that_no_inflow_moves():
     """Then it rises along a straight line: β0 above the hub at the edge, −µ_z t above that."""
-    course = geometry.WakeCourse(0.15, -0.0113, 0.0, 0.04, 0.0, 0.0, (1e-4, 1e-6))
+    course = WakeCourse(0.15, -0.0113, 0.0, 0.04, 0.0, 0.0, (1e-4, 1e-6))
     x, y = np.array([-0.8, 0.0, 0.6]), np.array([0.6, 0.0, -0.7])
     age = (x + np.sqrt(1.0 - y * y)) / 0.15
     assert_allclose(height(course, x, y), 0.04 + 0.0113 * age, atol=1e-12)
@@ -141,20 +141,11 @@ def test_a_finer_grid_does_not_mend_it(panels: int, azimuths: int, wanted: tuple
 
 
 @pytest.mark.slow
-def test_twice_the_gradient_of_the_wake(monkeypatch: pytest.MonkeyPatch):
+def test_twice_the_gradient_of_the_wake(patch: Patch):
     """As the page states it: HART II comes out better, the XV-15 worse."""
-
-    def clear() -> None:
-        inflow._matrix.cache_clear()  # pyright: ignore[reportPrivateUsage]
-        influence.mean_influence.cache_clear()
-
-    monkeypatch.setattr(geometry, "GRADIENT", 1.0)
-    clear()
-    try:
-        for name, wanted, high in (("BL", 0.64, 0.033), ("MN", 0.89, 0.039)):
-            solution = solve(CASES[name].design()).require()
-            assert_allclose(agreement(CURVES[name, "cn_m2"], solution).correlation, wanted, atol=0.02)
-            assert_allclose(hart2.vortex_errors(solution, name)[0], high, atol=0.002)
-        assert_allclose(compare(load_set("xv15-forward-15deg")).rms_percent or 0.0, 7.2, atol=0.2)
-    finally:
-        clear()
+    patch("rotor.aero.lifting_line.geometry.GRADIENT", 1.0)
+    for name, wanted, high in (("BL", 0.64, 0.033), ("MN", 0.89, 0.039)):
+        solution = solve(CASES[name].design()).require()
+        assert_allclose(agreement(CURVES[name, "cn_m2"], solution).correlation, wanted, atol=0.02)
+        assert_allclose(hart2.vortex_errors(solution, name)[0], high, atol=0.002)
+    assert_allclose(compare(load_set("xv15-forward-15deg")).rms_percent or 0.0, 7.2, atol=0.2)

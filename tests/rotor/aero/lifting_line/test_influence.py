@@ -16,6 +16,7 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import (
     LiftingLine,
     at_points,
+    build_wake,
     influence,
     lattice_lag,
     mean_influence,
@@ -81,7 +82,7 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
                 half = [0.5 * (node(0, e) + node(0.25, e)) for e in (i, i + 1)]
                 yield half[0], half[1], shed(middle, i) - shed(0, i), None
     for i in panels:
-        yield node(1, i), node(1, i + 1), -shed(0.875, i), LEAST
+        yield node(1, i), node(1, i + 1), -shed(0.875, i), SHED
 
     borders, turns = (0, 3, 6), 2 * LINE.azimuths
 
@@ -164,6 +165,21 @@ def test_a_straight_line_is_that_of_the_textbook(begin: float, share: float, cor
     assert_allclose(
         out[0, 0] / (4.0 * math.pi), share * distance / (2.0 * math.pi * np.hypot(distance**2, core**2)), rtol=1e-3
     )
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3])
+def test_what_ends_the_near_wake_and_begins_the_strips_cancels(steps: int):
+    """A circulation that rests sheds nothing. Seen from above that line, so near that its core decides."""
+    line, age = replace(LINE, near=steps * STEP), steps * STEP
+    wake = build_wake(line, replace(HOVER, coning=0.0), np.zeros(1))  # In hover both lines are straight.
+    row, (panels, bound, strips, last) = wake.places[:, 0], np.take(wake.rows, [1, 2, 4, 5])
+    shed = np.flatnonzero(((panels <= row) & (row < bound)) | ((strips <= row) & (row < last)))
+    target = np.array([0.7 * math.cos(age), -0.7 * math.sin(age), 0.01 - HOVER.lambda0 * age])
+    found = np.zeros((len(shed), 3))
+    for each, k in zip(found, shed.tolist(), strict=True):
+        begin, end = wake.ends[0, k].astype(np.float64).reshape(2, 3)
+        each[:] = wake.shares[k].sum() * unit_line(target, begin, end, max(float(wake.core[k]), 0.0) ** 0.25)
+    assert np.linalg.norm(found.sum(axis=0)) < 1e-4 * np.linalg.norm(found, axis=1).max()
 
 
 def test_many_blades_in_hover_approach_momentum_theory():

@@ -1,0 +1,345 @@
+"""The quantities of a design: one row each, read by everything that names them.
+
+From a row come the argument of `make_design` and its words, the flag, the key of design files, the word of links, the
+quantity of studies and sweeps, columns of tables, keys of JSON, and on the page slider, tooltip, units and sentence.
+
+`QUANTITIES[name]` is a row by the name that commands and studies use; `BY_KEY` by the key of design files, `BY_INPUT`
+by the name of the page's input. `ARGUMENTS`, `CONDITION`, `SWITCHES` and `STAND` are the rows of a kind, in order.
+`row.of(design)` is the value that a design has, in the unit at the end of the name, `row.put(design, value)` the
+design with another, `row.check(value)` refuses what lies outside its bounds, `row.said(value)` is it in words, and
+`row.slider` what the page shows. How to add one: docs/quantities.md. One file, because it is one table.
+"""
+
+from typing import Literal, get_args
+
+from rotor.airfoil.sections import TABLE_NAMES
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.quantity import Quantity, Slider
+from rotor.units import FOOT, POUND
+
+HoverInflow = Literal["annulus", "closed-form"]
+LowSpeed = Literal["wake", "hover"]
+FlightTrim = Literal["propulsive", "thrust"]
+StandTrim = Literal["wind-tunnel", "free-rotor", "controls"]
+"""`wind-tunnel`: shaft tilt and thrust or collective given; `free-rotor`: no torque, collective or thrust given;
+`controls`: collective, cyclic and shaft tilt given."""
+Flapping = Literal["trimmed", "free", "hub-moments"]
+HOVER_INFLOWS: tuple[HoverInflow, ...] = get_args(HoverInflow)
+LOW_SPEEDS: tuple[LowSpeed, ...] = get_args(LowSpeed)
+STAND_TRIMS: tuple[StandTrim, ...] = get_args(StandTrim)
+TRIMS: tuple[FlightTrim | StandTrim, ...] = (*get_args(FlightTrim), *STAND_TRIMS)
+PRESETS = ("flight", "thesis")
+
+
+def _switch(name: str, title: str, on: str, off: str, source: str = "section 5") -> Quantity:
+    """An effect that every design has unless it is switched off."""
+    return Quantity(
+        name, "switch", place=f"models.{name}", default=True, key=name, section="models", title=title,
+        on=on, off=off, hint=f"{on} Off: {off} | {source}", input=name, written=True,
+    )  # fmt: skip
+
+
+_SWITCHES = (
+    _switch(
+        "flapping",
+        "Flapping",
+        "The blades flap about their hinges, and cyclic removes the remaining first-harmonic flapping.",
+        "Rigid blades, β = 0, and no cyclic: the hub carries the moment of the unequal lift.",
+        "2.39, 3.20",
+    ),
+    _switch(
+        "tip_loss",
+        "Tip loss",
+        "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
+        "F_tip = 1; a lifting line keeps the tips of its blades.",
+        "3.16",
+    ),
+    _switch(
+        "hub_loss",
+        "Hub loss",
+        "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
+        "F_hub = 1.",
+        "3.17",
+    ),
+    _switch(
+        "reverse_flow",
+        "Reverse flow",
+        "On the retreating side, inside r < −µ sin ψ, air meets the blade from behind and adds drag.",
+        "No load inside the circle r < −µ sin ψ.",
+        "3.5, 3.15",
+    ),
+    _switch(
+        "compressibility",
+        "Compressibility",
+        "Section data depend on the Mach number: steeper lift, earlier stall, wave drag on the advancing tip.",
+        "Section data at Mach 0.3 everywhere.",
+    ),
+    _switch(
+        "surface_drag",
+        "Surface drag",
+        "Drag is multiplied by the factor that the rotor file states for the surface of its blades.",
+        "Drag is that of the section data.",
+    ),
+    _switch(
+        "swept_tip",
+        "Swept tip",
+        "A swept tip sees the Mach number of the flow normal to its quarter chord.",
+        "The tip sees Mach numbers as if it were straight.",
+    ),
+    _switch(
+        "radial_friction",
+        "Radial friction",
+        "Skin friction follows the yawed velocity: air flows along the blade at the front and the rear of the disk.",
+        "Friction of the flow across the blade only.",
+    ),
+    _switch(
+        "elastic_twist",
+        "Elastic twist",
+        "The blade twists under its own loads: the air meets the flown twist, not the jig twist that is built.",
+        "The blade is rigid in torsion: flown and jig twist are the same.",
+    ),
+    _switch(
+        "swirl",
+        "Swirl",
+        "The rotor turns the air it works in, which takes power and meets the blade more slowly.",
+        "The air in the disk moves along the shaft only.",
+    ),
+    _switch(
+        "fuselage",
+        "Fuselage drag",
+        "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward.",
+        "Drag area 0: no parasite power.",
+        "3.19",
+    ),
+    _switch(
+        "download",
+        "Download",
+        "The wake presses on the airframe: in hover the thrust exceeds the weight by what the rotor file states.",
+        "Thrust carries the weight alone.",
+    ),
+)
+
+_CONDITION = (
+    Quantity(
+        "mu", "number", "advance ratio V/(ΩR) of the horizontal speed (default 0.2)",
+        place="condition.advance_ratio", what="advance ratio", low=0.0, high=0.6, high_on_stand=0.75, default=0.2,
+        examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, told=True,
+        input="advance_ratio", slider=Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
+        hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
+    ),
+    Quantity("speed_kt", "number", "the same as airspeed in knots", examples=(60, 90, 120), section="fixed"),
+    Quantity("hover", "switch", "hover, in place of a speed", default=False),
+    Quantity(
+        "mass_kg", "number", "aircraft mass (default: the rotor's reference mass)",
+        place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
+        examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
+        input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg"),
+        aviation=Slider("Mass [lb]", 11_000.0, 24_300.0, 100.0, 0.2 * POUND, "/200 lb"),
+        hint="Gross mass; the rotor carries its weight W = mg. | section 2",
+    ),
+    Quantity(
+        "altitude_m", "number", "pressure altitude (default 0)",
+        place="condition.altitude", what="altitude", low=-500.0, high=8_000.0, default=0.0,
+        examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, told=True,
+        input="altitude_m", slider=Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
+        aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft"),
+        hint="Pressure altitude in the standard atmosphere: it sets air density and speed of sound. | section 2",
+    ),
+    Quantity(
+        "climb_m_s", "number", "rate of climb, negative in descent (default 0); preset flight",
+        place="condition.climb_speed", what="rate of climb", short="climb", low=-20.0, high=20.0, default=0.0,
+        in_flight=True, axial=True, examples=(-5, 0, 5), key="climb_m_s", word="climb", section="fixed", told=True,
+        input="climb_m_s", slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
+        aviation=Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)"),
+        hint="Rate of climb, negative in descent; µ is of the horizontal speed. | section 2",
+    ),
+)  # fmt: skip
+
+_BLADE = (
+    Quantity("case", "object", "design, as `load_design` reads one from a file, that the other arguments change"),
+    Quantity(
+        "rotor", "text", "name of a rotor, or what `load_rotor` reads from a rotor file (docs/rotor_file.md)",
+        choices=(*SHIPPED_ROTORS, *MEASURED_ROTORS), key="rotor", section="fixed", written=True, input="rotor",
+        hint="The helicopter: its blades, sections, rotor speed and mass, as built. | section 4",
+    ),
+    Quantity(
+        "twist", "text",
+        "a law or its SPEC: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | "
+        "points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE (degrees, per radius)",
+        key="twist", section="fixed", written=True,
+    ),
+    Quantity(
+        "twist_per_rev", "text",
+        "active twist, linear from the root cut-out, N:DEG:PHASE,…, e.g. 3:1:180: DEG cos(N ψ − PHASE) degrees of the "
+        "tip relative to the root, as on a blade at rest; 2:0:0 takes away that of a design file",
+        key="twist_per_rev", section="fixed",
+    ),
+    Quantity(
+        "pitch_per_rev", "text", "the same of the root pitch, 2 to 8/rev; both rest in hover",
+        key="pitch_per_rev", section="fixed",
+    ),
+)  # fmt: skip
+
+_MODELS = (
+    Quantity(
+        "preset", "text",
+        "flight (default): best available; thesis: the models of the source document, on a rotor other than the "
+        "UH-60A with that rotor's own sections, planform, hinge and twist",
+        place="preset", default=PRESETS[0], key="preset", section="models", written=True, input="preset",
+        hint="Model choices of the source document, or the best available; each can be changed. | section 15",
+    ),
+    Quantity(
+        "inflow", "text", "model of the inflow, of forward flight or of hover",
+        place="models.inflow", key="inflow", section="models", written=True, input="inflow",
+        hint="How the inflow through the disk depends on speed and load distribution. | 3.4",
+    ),
+    Quantity(
+        "low_speed", "choice",
+        "hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not",
+        place="models.low_speed", choices=LOW_SPEEDS, key="low_speed", input="low_speed",
+        hint="Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any "
+        "speed. | section 9",
+    ),
+    Quantity(
+        "airfoils", "text", "sections root to tip, e.g. sc1094r8,sc1095@0.5",
+        choices=TABLE_NAMES, key="airfoils", section="fixed",
+    ),
+    Quantity(
+        "off", "text", "physical effects switched off, separated by commas",
+        choices=tuple(one.flag for one in _SWITCHES),
+    ),
+    Quantity(
+        "bending", "switch",
+        "blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads",
+        place="models.bending", default=False, key="bending", section="models", input="bending",
+        title="Blade bending",
+        hint="On: blades whose stiffness is known bend in flap and lag, drawn ten times as large; the hub then has "
+        "vibratory loads. Off: they flap as rigid blades. | section 10",
+    ),
+    Quantity(
+        "dynamic_stall", "switch",
+        "sections that stall with the lags and the vortex of Leishman and Beddoes; --off dynamic-stall takes away "
+        "that of a design file",
+        place="models.dynamic_stall", default=False, key="dynamic_stall", section="models", input="dynamic_stall",
+        title="Dynamic stall",
+        hint="On: separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and "
+        "Beddoes). Off: section data of steady flow. Measurements are met no better on the whole. | section 5",
+    ),
+    Quantity(
+        "elements", "whole", "blade elements (default 40, or 24 panels of a lifting line)",
+        key="elements", section="models",
+    ),
+    Quantity(
+        "azimuths", "whole", "stations around the disk (default 120, or 24 of a lifting line)",
+        key="azimuths", section="models",
+    ),
+    Quantity(
+        "models", "object", "all model choices at once",
+    ),
+    Quantity(
+        "trim", "text", "in flight, or on a test stand (the last three)",
+        place="models.trim", choices=TRIMS, key="trim", section="models", input="trim",
+        hint="Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; "
+        "with the conditions of its tests, where a rotor was measured.",
+    ),
+    Quantity(
+        "stand", "object",
+        'inputs of the test, a `Stand` or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}, its keys '
+        "in `rotor.design.quantities.STAND`; a rotor without an airframe is in a wind tunnel at C_T/σ 0.07 by default",
+        key="stand",
+    ),
+)  # fmt: skip
+
+_HOVER_INFLOW = Quantity(
+    "hover_inflow", "choice", place="models.hover_inflow", choices=HOVER_INFLOWS, key="hover_inflow",
+    input="hover_inflow", hint="Hover: momentum balance of each annulus, or one equation. | 3.3",
+)  # fmt: skip
+_ACTIVE_TWIST = Quantity("active_twist", "object", key="active_twist")
+
+_STAND = (
+    Quantity(
+        "shaft_tilt_deg", "number", "tilt of the shaft, positive forward (default 0; a free rotor finds its own)",
+        place="condition.stand.shaft_tilt", low=-40.0, high=40.0, input="shaft_tilt_deg",
+        slider=Slider("Shaft tilt [°]", -25.0, 25.0, 0.1), hint="Tilt of the shaft, positive forward.",
+    ),
+    Quantity(
+        "ct_over_sigma", "number", "blade loading",
+        place="condition.stand.ct_over_sigma", low=0.0, high=0.25, input="ct_over_sigma", title="Loading CT/σ",
+        slider=Slider("CT/σ", 0.0, 0.2, 0.001), hint="Blade loading CT/σ: thrust over ρA(ΩR)²σ.",
+    ),
+    Quantity(
+        "thrust_n", "number", "thrust along the shaft",
+        place="condition.stand.thrust", low=0.0, high=2e6, input="thrust_n", title="Thrust",
+        slider=Slider("Thrust [N]", 0.0, 1e5, 100.0),
+    ),
+    Quantity(
+        "collective_deg", "number", "pitch at 0.75 R",
+        place="condition.stand.collective", low=-30.0, high=35.0, input="collective_deg", title="Collective",
+        slider=Slider("Collective [°]", -10.0, 30.0, 0.1),
+    ),
+    Quantity(
+        "cyclic_1c_deg", "number", "given cyclic, with free flapping",
+        place="condition.stand.cyclic_1c", low=-30.0, high=30.0, default=0.0, input="cyclic_1c_deg",
+        slider=Slider("Cyclic θ1c [°]", -15.0, 15.0, 0.1),
+        hint="Given cyclic θ1c, cosine part; the blades flap freely.",
+    ),
+    Quantity(
+        "cyclic_1s_deg", "number", "the same, sine part",
+        place="condition.stand.cyclic_1s", low=-30.0, high=30.0, default=0.0, input="cyclic_1s_deg",
+        slider=Slider("Cyclic θ1s [°]", -15.0, 15.0, 0.1),
+        hint="Given cyclic θ1s, sine part; the blades flap freely.",
+    ),
+    Quantity(
+        "hub_roll_nm", "number", "given hub moment, towards the retreating side, with flapping hub-moments",
+        place="condition.stand.hub_roll", low=-1e6, high=1e6, default=0.0,
+    ),
+    Quantity(
+        "hub_pitch_nm", "number", "the same, nose up",
+        place="condition.stand.hub_pitch", low=-1e6, high=1e6, default=0.0,
+    ),
+    Quantity(
+        "tip_mach", "number", "tip speed over the speed of sound",
+        place="condition.stand.tip_mach", low=0.02, high=0.95, input="tip_mach",
+        slider=Slider("Tip Mach", 0.05, 0.9, 0.005), hint="Tip speed over the speed of sound of the test.",
+    ),
+    Quantity(
+        "density_kg_m3", "number", "air density",
+        place="condition.stand.density", low=0.05, high=3.0, input="density",
+        slider=Slider("Density [kg/m³]", 0.3, 1.6, 0.005), hint="Air density of the test.",
+    ),
+    Quantity(
+        "flapping", "choice",
+        "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
+        place="condition.stand.flapping", choices=get_args(Flapping), input="stand_flapping",
+        hint="First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub "
+        "moments.",
+    ),
+)  # fmt: skip
+
+_STUDIES = (
+    Quantity("concept", "text", "twist concept of the blade", section="fixed"),
+    Quantity("hover_share", "number", "share of the time in hover, of a search", section="fixed"),
+)
+
+ARGUMENTS = {row.name: row for row in (*_BLADE, *_CONDITION, *_MODELS)}
+"""Those of `make_design`, in its order."""
+CONDITION = {row.name: row for row in _CONDITION if row.place}
+"""Numbers of the flight condition."""
+BESIDE = {name: row for name, row in CONDITION.items() if row.short}
+"""Those of them that reports have only where they are not the default."""
+SPEED = ("mu", "speed_kt", "hover")
+"""Of which one is given."""
+SWITCHES = {row.name: row for row in _SWITCHES}
+"""Effects that can be switched off, in the order in which a waterfall adds them."""
+OPTIONS = ("bending", "dynamic_stall")
+"""Effects that are off unless they are asked for."""
+STAND = {row.name: row for row in _STAND}
+"""Keys of a test stand. In a study `stand_` stands before the name."""
+LOAD_KEYS = ("thrust_n", "ct_over_sigma", "collective_deg")
+"""Of which one is given."""
+QUANTITIES = {**ARGUMENTS, **SWITCHES, **{row.name: row for row in (_HOVER_INFLOW, *_STUDIES)}}
+"""All by name, but for the test stand's."""
+BY_KEY = {row.key: row for row in (*QUANTITIES.values(), _ACTIVE_TWIST) if row.key}
+"""By the key of design files."""
+BY_INPUT = {row.input: row for row in (*QUANTITIES.values(), *_STAND) if row.input}
+"""By the name of the page's input."""

@@ -1,0 +1,204 @@
+"""A row of the table of quantities: what it holds and what can be asked of it. The rows: `rotor.design.quantities`."""
+
+import math
+from dataclasses import dataclass, replace
+from numbers import Real
+from typing import Any, Literal
+
+Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
+"""`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
+here."""
+
+_WANTED: dict[Kind, tuple[str, Any]] = {
+    "number": ("a number", int | float), "whole": ("a whole number", int | float), "text": ("a text", str),
+    "choice": ("a text", str), "switch": ("true or false", bool), "object": ("a table", dict),
+}  # fmt: skip
+"""What a file gives for each kind, and its types."""
+_UNITS = {
+    "_deg": "°", "_percent": "%", "_kt": "kt", "_kg": "kg", "_m": "m", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n": "N",
+    "_nm": "N m", "_w": "W", "_ms": "ms", "_per_rev": "/rev",
+}  # fmt: skip
+"""Units by the end of a name of a number."""
+
+
+def unit_of(name: str) -> str:
+    """The unit that the name of a number ends in; empty without one."""
+    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
+
+
+def number(name: str, value: object, example: str) -> float:
+    """The value as a float; TypeError with one sentence when it is not a real number."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} has hundreds of digits: write for example {name}={example}") from None
+
+
+@dataclass(frozen=True)
+class Slider:
+    """How the page shows a number in one system of units."""
+
+    label: str
+    low: float
+    high: float
+    step: float
+    natural: float = 1.0
+    """The step that an engineer thinks in, in the unit of the page's input."""
+    per: str = "/°"
+    """What follows the power for a natural step."""
+
+    @property
+    def digits(self) -> int:
+        """Decimals that tell two steps apart."""
+        return max(0, -math.floor(math.log10(self.step)))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One quantity of a design."""
+
+    name: str
+    """Argument of `make_design`, and of a study; the unit of a number is its end."""
+    kind: Kind
+    help: str = ""
+    """Of the flag and of the argument, one clause."""
+    place: str = ""
+    """Fields that lead to it from a `Design`, as `condition.mass`; empty where it sets several."""
+    what: str = ""
+    """In sentences, as `rate of climb`."""
+    short: str = ""
+    """Before the value in reports, which have it where it is not the default: `climb`."""
+    low: float = -math.inf
+    high: float = math.inf
+    high_on_stand: float | None = None
+    """Where a test may go further than flight."""
+    default: Any = None
+    """What nobody needs to say; None where it follows from rotor or preset."""
+    examples: tuple[float, ...] = ()
+    choices: tuple[str, ...] = ()
+    """The names that it may have; of a text those that the help lists."""
+    unit: str | None = None
+    """None: that at the end of the name."""
+    in_flight: bool = False
+    """Whether it is for flight only: a test stand has none."""
+    axial: bool = False
+    """Whether it needs models with the axial flow of the tilted disk, which the document's have not."""
+    key: str = ""
+    """Of design files; empty where they have none."""
+    word: str = ""
+    """In a link, where it is shorter than the key."""
+    section: Literal["", "fixed", "models"] = ""
+    """Of a study file; as an axis it is in [axes]. Empty: not for studies."""
+    written: bool = False
+    """Whether every design file has it; else only where it is not the default."""
+    told: bool = False
+    """Whether every table and JSON has it; else only where it is not the default."""
+    input: str = ""
+    """Name of the page's input."""
+    input_size: float = 1.0
+    """One unit of that input, in the unit of the name."""
+    slider: Slider | None = None
+    """In SI."""
+    aviation: Slider | None = None
+    """In aviation units, where they differ."""
+    title: str = ""
+    """Of a switch."""
+    on: str = ""
+    """The effect that a switch adds, one sentence."""
+    off: str = ""
+    """The model without it, one sentence."""
+    hint: str = ""
+    """Of the page, where it says more than the help; after a bar the equation or the section of docs/theory.md."""
+
+    @property
+    def flag(self) -> str:
+        """As on the command line, without the dashes in front."""
+        return self.name.removesuffix("_kg_m3").replace("_", "-")
+
+    @property
+    def symbol(self) -> str:
+        """Its unit."""
+        return unit_of(self.name) if self.unit is None else self.unit
+
+    @property
+    def numeric(self) -> bool:
+        return self.kind in ("number", "whole")
+
+    @property
+    def field(self) -> str:
+        """The last of the fields that lead to it."""
+        return self.place.rpartition(".")[2]
+
+    @property
+    def axis_title(self) -> str:
+        """For the axis of a chart."""
+        return f"{self.what[:1].upper()}{self.what[1:]}" + (f" [{self.symbol}]" if self.symbol else "")
+
+    @property
+    def tooltip(self) -> str:
+        """For the page, its source after a bar."""
+        if self.kind == "switch" and not self.hint:
+            return f"{self.on} Off: {self.off}"
+        return self.hint or f"{self.help[:1].upper()}{self.help[1:]}."
+
+    def of(self, design: Any) -> Any:
+        """The value of a design in the unit of the name; None where the design has none."""
+        for name in self.place.split("."):
+            design = None if design is None else getattr(design, name)
+        return None if design is None else self.shown(design)
+
+    def put(self, design: Any, value: Any) -> Any:
+        """The design with this value, in the unit of the name; ValueError where it lies outside."""
+        return _replaced(design, self.place.split("."), self.si(value))
+
+    def si(self, value: Any) -> Any:
+        """The value as the design holds it: angles in radians."""
+        return math.radians(value) if self.symbol == "°" else value
+
+    def shown(self, value: Any) -> Any:
+        """What a design holds, in the unit of the name."""
+        return math.degrees(value) if self.symbol == "°" else value
+
+    def read(self, value: object) -> float:
+        """The value as a float; TypeError or ValueError with one sentence where it is no number."""
+        return number(self.name, value, f"{self.examples[-1]:g}")
+
+    def check(self, value: float, tested: bool = False) -> None:
+        """ValueError with one sentence where the value, in the unit of the name, lies outside."""
+        high = self.high if self.high_on_stand is None or not tested else self.high_on_stand
+        slack = 1e-9 if self.symbol == "°" else 0.0  # Of an angle that was radians.
+        if not (math.isfinite(value) and self.low - slack <= value <= high + slack):
+            words, unit = (self.what, self.symbol and f" {self.symbol}") if self.what else (self.name, "")
+            raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: choose a value inside")
+
+    @property
+    def wants(self) -> str:
+        """What a file must give."""
+        return _WANTED[self.kind][0]
+
+    def holds(self, value: Any) -> bool:
+        """Whether a value from a file is of its kind."""
+        types = _WANTED[self.kind][1]
+        right = isinstance(value, types) and isinstance(value, bool) == (types is bool)
+        return right and (self.kind != "whole" or float(value).is_integer())
+
+    def check_choice(self, value: Any) -> None:
+        """ValueError with one sentence for what is none of the choices."""
+        if value not in self.choices:
+            words = self.name.replace("_", " ")
+            raise ValueError(f"{words} {value!r} is not known: use one of {', '.join(self.choices)}")
+
+    def said(self, value: float) -> str:
+        """The value after its word: `climb 5 m/s`."""
+        return f"{self.short} {value:g} {self.symbol}".rstrip()
+
+    def applies(self, *, tested: bool, axial: bool) -> bool:
+        """Whether it counts: on a test stand, and with models that have the axial flow of the tilted disk or not."""
+        return not (tested and self.in_flight) and (axial or not self.axial)
+
+
+def _replaced(thing: Any, names: list[str], value: Any) -> Any:
+    first, *rest = names
+    return replace(thing, **{first: _replaced(getattr(thing, first), rest, value) if rest else value})
