@@ -65,7 +65,13 @@ _GRID = (
     "height of the vortices of BL 0.033 rms in place of 0.046, of MN 0.039 in place of 0.036. With it and the "
     "measured twist 0.75 (BL): twist and wake make most of the gap. Elsewhere it is worse: forward-flight torque of "
     "the XV-15 rms 7.2 % in place of 6.3 %, lift of the Gazelle at µ 0.14, 0.88 R 0.84 in place of 0.90. So it is "
-    "not taken."
+    "not taken.\n"
+    "- Blades that bend: twist of BL −1.57° mean, 0.13° at 2/rev. From there, one at a time: half the control "
+    "stiffness 0.15°, GJ 20 % less 0.17°, aerodynamic centre 2 % chord aft or forward 0.15° and 0.10°, 3 % forward "
+    "at Mach 0.8 0.19°, C_m 0.008 larger 0.15° (and the mean met, −0.28°), unsteady attached flow 0.07°, Pitt–Peters "
+    "inflow 0.09°. Centre of gravity 1 % chord aft 0.23°, 2 % aft 0.37° and the mean met, −0.55°; but its phase is "
+    "then 47° off and 3/rev is 0.34° where 0.05° was measured. Where the centre of gravity of this blade lies is not "
+    "known to us."
 )
 _MISSED = {
     "cn": (

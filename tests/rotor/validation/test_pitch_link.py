@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 from rotor.validation.airloads import PITCH_LINK, PITCH_LINK_SPEEDS, measured_curves, our_curve
-from rotor.validation.uh60a import PitchLinkLoad, pitch_link_loads
+from rotor.validation.uh60a import PitchLinkLoad, pitch_link_attempts, pitch_link_loads
 
 
 @pytest.fixture(scope="module")
@@ -76,3 +76,17 @@ def test_harmonics(loads: list[PitchLinkLoad]):
     assert np.abs(second[:, 1]).max() < 60.0
     first = [one.beside.late_deg(1) for one in loads]
     assert max(first) < -40.0
+
+
+def test_what_was_tried():
+    """No change of an input brings 2/rev; the shaft's tilt and the wake move it most, stiffness does not."""
+    found = {words: [one.amplitude(2) for one in made] for words, made in pitch_link_attempts()}
+    before = found["as computed"]
+    measured = [620.0, 1100.0, 1330.0]
+    for words, own in found.items():
+        assert own[1] < 0.7 * measured[1], words
+    for words in ("half the control stiffness", "torsional inertia 15 % more"):
+        assert_allclose(found[words], before, rtol=0.1)
+    assert found["shaft upright"][1] < 0.7 * before[1] < 0.7 * found["shaft 10° forward"][1]
+    assert found["Pitt–Peters inflow"][2] < 0.3 * before[2]
+    assert found["without bending"][1] < 0.6 * before[1]
