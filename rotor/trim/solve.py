@@ -104,6 +104,7 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
 
 def _assemble(result: TrimResult, begin: float) -> Solution:
     problem, design, elements = result.problem, result.problem.design, result.linear.elements
+    x, states = result.point.x, result.point.system.structure.states
     total = disk_sums(result.linear.point)
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
@@ -155,7 +156,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         wake_course=course_of(problem),
         linear=result.linear,
         freedoms=problem.freedoms,
-        freedom_states=result.freedom_states,
+        freedom_states={str(name): float(x[states[name]]) for own in problem.freedoms for name in own.states},
         find_hub_loads=partial(hub_loads, solve=solve),
     )
 
