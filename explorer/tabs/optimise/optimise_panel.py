@@ -3,7 +3,6 @@
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import viser
 
@@ -18,6 +17,7 @@ from explorer.text.glossary import hint
 from explorer.workers.pool import JobEvent
 from explorer.workers.solver import SearchTask
 from rotor import Design
+from rotor.chart import Chart
 from rotor.optimisation import CONCEPTS, WeightedCondition
 
 TIME_LIMIT = 60.0
@@ -151,7 +151,7 @@ class OptimisePanel(BackgroundWork):
             timer.start()
         return None if frame is None else frame.design
 
-    def starts_chart(self) -> dict[str, Any] | None:
+    def starts_chart(self) -> Chart | None:
         """Of the search, in place of charts along the blade; None where there is none."""
         run = self.run
         return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)

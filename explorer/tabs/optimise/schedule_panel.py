@@ -6,15 +6,14 @@ from typing import Any
 
 import viser
 
-from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.inputs import with_optimum
 from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import Player, TabContext
-from explorer.tabs.live_charts import PanelChart, line
+from explorer.tabs.live_charts import PanelChart
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
+from explorer.tabs.optimise.schedule_view import PlanProgress, ScheduleFlight
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
@@ -65,21 +64,7 @@ class SchedulePanel(BackgroundWork):
         self._results = gui.add_button_group(
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
-        shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
-        self._twists = PanelChart(
-            gui,
-            "Best twist [°] over r/R",
-            (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
-            (*(line(css(shades[k]), 1.5) for k in range(LEGS)), line(NOW, 2.0, (5, 3))),
-            (0.1, 1.02),
-        )
-        self._savings = PanelChart(
-            gui,
-            "Saving [%] over µ",
-            (("variable", THIS), ("fixed", NOW)),
-            (line(BASELINE, 0.7), line(NOW, 1.8, (5, 3)), line(THIS)),
-            (-0.012, 0.462),
-        )
+        self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
         self._results.on_click(self._result_clicked)
@@ -173,8 +158,6 @@ class SchedulePanel(BackgroundWork):
         )
         progress = self._progress
         self._bar.visible = progress is not None
-        self._twists.set_visible(progress is not None)
-        self._savings.set_visible(progress is not None)
         if progress is None:
             return
         self._bar.value = round(100.0 * (progress.part_done if self.running else 1.0), 1)
@@ -185,8 +168,8 @@ class SchedulePanel(BackgroundWork):
         if seen != self._drawn:
             self._drawn = seen
             self._table.content = schedule_view.table(progress, units)
-            self._twists.show(schedule_view.twist_plot(progress, self._twists.y_range))
-            self._savings.show(schedule_view.saving_plot(progress, self._savings.y_range))
+            self._twists.show(schedule_view.twist_chart(progress, self._twists.y_range))
+            self._savings.show(schedule_view.saving_chart(progress, self._savings.y_range))
 
     def _hear(self, progress: PlanProgress, news: JobEvent) -> None:
         match news:
