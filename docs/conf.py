@@ -41,7 +41,13 @@ from rotor.__main__ import main as rotor_main  # noqa: E402
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
 release = version = rotor.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+]
 exclude_patterns = ["notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
 nitpicky = False

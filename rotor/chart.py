@@ -37,6 +37,8 @@ class Axis:
     """Its ends; None: as the series ask for. What lies beyond is cut off."""
     ticks: tuple[float, ...] = ()
     """Where they stand; empty: at round numbers."""
+    words: tuple[str, ...] = ()
+    """What stands at each of them instead of its number."""
     unit: str = ""
     """Behind the number of each tick."""
     log: bool = False
@@ -163,6 +165,8 @@ class Chart:
         if own.names:
             return [(float(k), name) for k, name in enumerate(own.names)]
         places = own.ticks or _ticks(self.span(axis), about, own.log)
+        if own.words:
+            return list(zip(places, own.words, strict=True))
         return [(value, tick_text(value, own.log) + own.unit) for value in places]
 
     def colours(self) -> list[str]:
@@ -206,13 +210,14 @@ def as_json(chart: Chart) -> dict[str, Any]:
         "y": _plain_axis(chart, "y", 4),
         "series": series,
         **({"rules": [_slim(vars(rule)) for rule in chart.rules]} if chart.rules else {}),
-        **_slim({"value": chart.value, "note": chart.note}),
+        "value": chart.value,
+        "note": chart.note,
     }
 
 
 def _plain_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> dict[str, Any]:
     own = chart.x if axis == "x" else chart.y
-    kept = _slim({"label": own.label, "log": own.log})
+    kept = {"label": own.label} | _slim({"log": own.log, "ends": len(own.words) == 2})
     return {**kept, "range": chart.span(axis), "ticks": chart.ticks(axis, about)}
 
 

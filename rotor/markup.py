@@ -29,7 +29,7 @@ class Markup(str):
         return Markup(str.__add__(_written(other), self))
 
 
-def tag(name: str, *content: Content, **attributes: Attribute) -> Markup:
+def tag(name: str, /, *content: Content, **attributes: Attribute) -> Markup:
     """An element; `name` may have classes, as in `div.rx.rx-dim`.
 
     Attributes are written with hyphens for underscores and without an underscore at the end, as `data_do` and `for_`.
@@ -40,6 +40,11 @@ def tag(name: str, *content: Content, **attributes: Attribute) -> Markup:
     inside = group(*content)
     opened = f"<{name}{''.join(_attribute(key, value) for key, value in named.items())}"
     return Markup(f"{opened}/>" if name in _ALONE and not inside else f"{opened}>{inside}</{name}>")
+
+
+def document(*content: Content, **attributes: Attribute) -> str:
+    """A whole HTML file."""
+    return f"<!doctype html>{tag('html', *content, **attributes)}\n"
 
 
 def group(*content: Content) -> Markup:

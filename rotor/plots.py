@@ -7,6 +7,7 @@ import numpy as np
 
 from rotor.arrays import Array
 from rotor.chart import Band, Chart, Line
+from rotor.units import typographic
 
 _MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 
@@ -52,7 +53,7 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
             fill = ax.fill_betweenx if named else ax.fill_between
             fill(one.x, one.low, one.high, color=ink, alpha=0.15, linewidth=0)
             continue
-        look: dict[str, Any] = {"color": ink, "label": one.label or None}
+        look: dict[str, Any] = {"color": ink, "label": typographic(one.label) or None}
         if isinstance(one, Line):
             look |= {"linestyle": "--" if one.dashes else "-"} | ({"marker": "o", "markersize": 3} if one.dots else {})
         else:

@@ -5,14 +5,13 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from explorer.charts.plots import Range, held_range
-from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
+from explorer.charts.strip import INK, now_dot, role_line
 from explorer.model.stand import as_measured, flight_powers
 from explorer.model.units import Units, number
 from explorer.text.status import validated
 from rotor import Design, FlightCondition, Solution, solve
+from rotor.chart import Axis, Chart, Points
 from rotor.design import Stand
 from rotor.study.series import between_drag_areas
 from rotor.validation import Comparison, MeasuredSet, compare_point, design_at
@@ -48,7 +47,7 @@ class MeasuredChart:
         self._points: dict[tuple[str, Design], tuple[ComparedPoint, ...]] = {}
         self._now: tuple[Solution, float] | None = None
 
-    def chart(self, solution: Solution, previous: Range | None = None) -> StripChart | None:
+    def chart(self, solution: Solution, previous: Range | None = None) -> Chart | None:
         """The chart as far as it is known; None in flight, and for a rotor that was not measured."""
         measured = set_shown(solution)
         if measured is None:
@@ -99,7 +98,7 @@ def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
 
 def _drawn(
     measured: MeasuredSet, solution: Solution, known: tuple[ComparedPoint, ...], now: float, previous: Range | None
-) -> StripChart:
+) -> Chart:
     """`now`: the quantity of the present solution, NaN where it is not known."""
     along = measured.varied[0]
     title, unit, size = _QUANTITIES[measured.quantity]
@@ -113,22 +112,20 @@ def _drawn(
     y = size * now
     seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
     low, high = min(places), max(places)
-    marks = tuple(
-        StripMark(place, value, error, _words(measured, value, one))
-        for place, value, error, one in zip(places, values, scatter, (*known, *[None] * len(places)), strict=False)
-    )
+    words = [_words(measured, value, one) for value, one in zip(values, (*known, *[None] * len(values)), strict=False)]
     value, note = _summary(measured, known, solution)
-    return StripChart(
-        title=title,
-        unit="both ×10³" if unit.endswith(_MILLE) and axis.endswith(_MILLE) else unit,
-        x_range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04),
-        y_range=held_range(previous, min(seen), max(seen)),
-        lines=(StripLine(np.array([a for a, _ in ours]), np.array([b for _, b in ours]), "saving"),),
-        dots=(StripDot(x, y, ""),),
-        marks=marks,
+    both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
+    return Chart(
+        title,
+        Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
+        Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
+        (
+            role_line("saving", [place for place, _ in ours], [own for _, own in ours]),
+            Points("", places, values, INK, "ring", scatter, words, size=2.6),
+            now_dot(x, y),
+        ),
         value=value,
         note=note,
-        x_name="",
     )
 
 
@@ -176,21 +173,23 @@ class FlownPowers:
     def __init__(self) -> None:
         self._ours: dict[Design, dict[str, OurPower]] = {}
 
-    def marks(self, solution: Solution, units: Units) -> tuple[StripMark, ...]:
-        """The measured flights as far as ours are known; empty unless the blade is that of the flights."""
+    def marks(self, solution: Solution, units: Units) -> Points | None:
+        """The measured flights as far as ours are known; None unless the blade is that of the flights."""
         design, unit = solution.design, units.power[0]
         flights = _shown(design)
-        ours = self._ours.get(_any_flight(design), {}) if flights else {}
-        return tuple(
-            StripMark(
-                one.mu,
-                unit.of(one.power),
-                0.0,
-                flight_words(one, ours.get(one.case) or _now(one, solution), units),
-                case=one.case,
-                elsewhere=not one.same_air(design),
-            )
-            for one in flights
+        if not flights:
+            return None
+        ours = self._ours.get(_any_flight(design), {})
+        return Points(
+            "",
+            [one.mu for one in flights],
+            [unit.of(one.power) for one in flights],
+            INK,
+            "ring",
+            words=[flight_words(one, ours.get(one.case) or _now(one, solution), units) for one in flights],
+            press=[one.case for one in flights],
+            faint=[not one.same_air(design) for one in flights],
+            size=2.6,
         )
 
     def value(self, solution: Solution) -> str:

@@ -27,15 +27,6 @@ from rotor.trim.validity import LOW_SPEED, vortex_ring
 Range = tuple[float, float]
 
 
-@dataclass(frozen=True, eq=False)
-class Plot:
-    data: tuple[Array, ...]
-    """Abscissa, then one array per series, all of one length."""
-    y_range: Range
-    x_range: Range | None = None
-    """None: the range that the chart was made with."""
-
-
 def held_range(previous: Range | None, low: float, high: float) -> Range:
     """A round axis range that is kept while the data fit into it and fill it reasonably."""
     if not (math.isfinite(low) and math.isfinite(high)):

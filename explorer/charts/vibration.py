@@ -6,18 +6,16 @@ Both are computed while the page rests, given up for newer input, and taken up a
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from html import escape
-from itertools import pairwise
 
 import numpy as np
 
 from explorer.charts.plots import SWEEP, Range, held_range
-from explorer.charts.strip import StripChart, StripDot, StripGap, StripLine
-from explorer.charts.svg import line, text
+from explorer.charts.strip import Role, now_dot, role_line
 from explorer.model.units import number
 from rotor import Design, Rotor, Solution, solve
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Line, Points, Rule
 from rotor.design import TwistLaw
 from rotor.trim import DEFAULT_OPTIONS, Guess, hub_loads, why_no_hub_loads
 from rotor.trim.hub_loads import SLOWEST
@@ -86,8 +84,9 @@ def _has_curve(design: Design) -> bool:
 
 
 def index_chart(
-    curves: IndexCurves, solution: Solution, reference: Solution, index: float | None, held: Range | None = None
-) -> StripChart | None:
+    curves: IndexCurves, solution: Solution, reference: Solution, index: float | None, held: Range | None = None,
+    compared: Role = "reference",
+) -> Chart | None:  # fmt: skip
     """Vibration index over µ of a design and its reference; None where no speed has one.
 
     index: at the present condition [%], None where there is none.
@@ -99,18 +98,18 @@ def index_chart(
     same = reference.design == solution.design
     left = curves.left(solution.design) + (0 if same else curves.left(reference.design))
     mus = np.array(SPEEDS)
-    now = () if index is None else (StripDot(solution.design.condition.advance_ratio, index, ""),)
-    return StripChart(
-        title="Vibration over µ",
-        unit=f"index, {index_unit(solution.design)}",
-        x_range=(0.0, SWEEP[-1]),
-        y_range=held_range(held, 0.0, max(seen, default=math.nan)),
-        lines=(*([] if same else [StripLine(mus, other, "reference")]), StripLine(mus, own, "saving")),
-        dots=now,
+    return Chart(
+        "Vibration over µ",
+        Axis("µ", (0.0, SWEEP[-1])),
+        Axis(f"index, {index_unit(solution.design)}", held_range(held, 0.0, max(seen, default=math.nan))),
+        (
+            *([] if same else [role_line(compared, mus, other)]),
+            role_line("saving", mus, own),
+            *([] if index is None else [now_dot(solution.design.condition.advance_ratio, index)]),
+        ),
+        (Rule(0.0, SLOWEST, f"none below µ {SLOWEST:g}"),),
         value=f"{left} speeds to go" if left else "" if index is None else f"{number(index, 1)} %",
         note=f"Vibration index at the hub. None below µ {SLOWEST:g}: there it is that of the wake model.",
-        x_name="µ",
-        gap=StripGap(0.0, SLOWEST, f"none below µ {SLOWEST:g}"),
     )
 
 
@@ -123,8 +122,6 @@ FAN_SPEEDS = (0.03, *(round(0.1 * k, 1) for k in range(1, 13)))
 """Rotor speeds of the fan plot over the rated one."""
 _TOP = 9.0
 """Highest frequency of the plot over the rated speed."""
-_WIDTH, _HEIGHT = 312.0, 258.0
-_LEFT, _RIGHT, _CEILING, _FLOOR = 24.0, 272.0, 10.0, 222.0
 _KINDS = {
     "flap": ("var(--rx-induced)", ""),
     "lag": ("var(--rx-profile)", ""),
@@ -180,39 +177,34 @@ class FanPlots:
         return True
 
 
-def fan_plot(known: dict[float, BladeFrequencies], collective_deg: int) -> str:
-    """Coupled flap-lag and torsion frequencies over rotor speed as HTML, with the rays of n/rev."""
-    drawn = [_rays(), line((_x(1.0), _CEILING), (_x(1.0), _FLOOR), "currentColor", 1.2, 'stroke-dasharray="2 3"')]
-    speeds = sorted(known)
-    for before, after in pairwise(speeds):
-        for (_, one), (kind, two) in zip(_sorted(known[before]), _sorted(known[after]), strict=False):
-            drawn.append(_piece(before, one, after, two, kind))
-    rated = known[1.0]
-    drawn += [
-        f'<circle cx="{_x(1.0):.1f}" cy="{_y(own):.1f}" r="3.2" fill="{_KINDS[kind][0]}"/>'
+def fan_chart(known: dict[float, BladeFrequencies], collective_deg: int) -> Chart:
+    """Coupled flap-lag and torsion frequencies over rotor speed, with the rays of n/rev."""
+    speeds, rated = sorted(known), known[1.0]
+    percent = [100.0 * speed for speed in speeds]
+    lines = [Line("", (0.0, 100.0 * end), (0.0, n * end), "var(--rx-faint)", width=0.8)
+             for n in range(1, int(_TOP) + 1) for end in (min(FAN_SPEEDS[-1], _TOP / n),)]  # fmt: skip
+    modes = zip(*(_sorted(known[speed]) for speed in speeds), strict=False)
+    named: set[str] = set()
+    for mode in modes:
+        kind = mode[-1][0]
+        shown = ", ".join(number(own, 2) for own in getattr(rated, kind) if own <= _TOP) or "above 9"
+        label = "" if kind in named else f"{kind} {shown}"
+        named.add(kind)
+        colour, dashes = _KINDS[kind]
+        lines.append(Line(label, percent, [own for _, own in mode], colour, dashes))
+    dots = [
+        Points("", (100.0,), (own,), _KINDS[kind][0], size=3.2, words=(f"{kind} {number(own, 2)} per rev",))
         for kind, own in _sorted(rated)
         if own <= _TOP
     ]
-    values = {
-        kind: ", ".join(number(own, 2) for own in getattr(rated, kind) if own <= _TOP) or "above 9" for kind in _KINDS
-    }
-    spoken = "; ".join(f"{kind} {own}" for kind, own in values.items())
-    key = "".join(
-        f'<div><svg width="20" height="8" aria-hidden="true">'
-        f"{line((0, 4), (20, 4), colour, 2.4, _dashed(dashes))}</svg> {kind} {escape(values[kind])}</div>"
-        for kind, (colour, dashes) in _KINDS.items()
-    )
-    axes = [text(_LEFT - 5.0, _y(n) + 4.0, f"{n}", 12.0, anchor="end") for n in range(0, int(_TOP) + 1, 2)] + [
-        text(_x(own), _FLOOR + 16.0, f"{100 * own:.0f}", 12.0, anchor="middle") for own in (0.0, 0.25, 0.5, 0.75, 1.0)
-    ]
-    axes.append(text(_x(0.5), _HEIGHT - 4.0, "rotor speed [% of rated]", 12.0, anchor="middle"))
-    return (
-        f'<div class="rx rx-fan" data-explorer="fan-plot"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
-        f'role="img" aria-label="Blade frequencies over rotor speed. At rated speed, per rev: {escape(spoken)}.">'
-        f"{''.join([*drawn, *axes])}</svg>"
-        f'<div class="rx-small">{key}</div><div class="rx-dim rx-small">Per rev of the rated speed, at the '
-        f"dashed line; modes couple flap and lag and are named by what moves most. Pitch {collective_deg}° at 0.75 R."
-        "</div></div>"
+    return Chart(
+        "Blade frequencies",
+        Axis("rotor speed [% of rated]", (0.0, 100.0 * FAN_SPEEDS[-1]), (0.0, 25.0, 50.0, 75.0, 100.0)),
+        Axis("per rev; thin: n/rev", (0.0, _TOP), (0.0, 2.0, 4.0, 6.0, 8.0)),
+        (*lines, *dots),
+        (Rule(100.0, dashes="2 3"),),
+        note="Per rev of the rated speed, at the dashed line; modes couple flap and lag and are named by what moves "
+        f"most. Pitch {collective_deg}° at 0.75 R.",
     )
 
 
@@ -220,36 +212,3 @@ def _sorted(found: BladeFrequencies) -> list[tuple[str, float]]:
     """Bending in ascending order, with its kind, then torsion."""
     bending = sorted([(own, "flap") for own in found.flap] + [(own, "lag") for own in found.lag])
     return [(kind, own) for own, kind in bending] + [("torsion", own) for own in found.torsion]
-
-
-def _piece(before: float, one: float, after: float, two: float, kind: str) -> str:
-    """A line between two rotor speeds, up to the top of the plot."""
-    if min(one, two) >= _TOP:
-        return ""
-    if two > _TOP:
-        after, two = before + (after - before) * (_TOP - one) / (two - one), _TOP
-    colour, dashes = _KINDS[kind]
-    return line((_x(before), _y(one)), (_x(after), _y(two)), colour, 2.0, _dashed(dashes) + ' stroke-linecap="round"')
-
-
-def _rays() -> str:
-    drawn = list[str]()
-    for n in range(1, int(_TOP) + 1):
-        end = min(FAN_SPEEDS[-1], _TOP / n)
-        drawn.append(line((_x(0.0), _y(0.0)), (_x(end), _y(n * end)), "currentColor", 0.8, 'opacity=".28"'))
-        if end == FAN_SPEEDS[-1]:
-            drawn.append(text(_x(end) + 4.0, _y(n * end) + 4.0, f"{n}/rev", 12.0))
-    base = line((_LEFT, _FLOOR), (_RIGHT, _FLOOR), "currentColor", 1.0, 'opacity=".5"')
-    return "".join([base, *drawn])
-
-
-def _dashed(dashes: str) -> str:
-    return f'stroke-dasharray="{dashes}"' if dashes else ""
-
-
-def _x(speed: float) -> float:
-    return _LEFT + (_RIGHT - _LEFT) * speed / FAN_SPEEDS[-1]
-
-
-def _y(frequency: float) -> float:
-    return _FLOOR - (_FLOOR - _CEILING) * frequency / _TOP

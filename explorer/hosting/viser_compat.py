@@ -85,8 +85,11 @@ _PLAIN = frozenset((str, bool, int, float, type(None)))
 
 def _cast_unless_plain(handle: Any, hint: Any, value: Any, name: str) -> Any:
     """viser compares the type of each assigned value with array types that it makes anew, four fifths of the time of an
-    assignment that changes nothing; no plain value is cast."""
-    return value if type(value) in _PLAIN else _cast(handle, hint, value, name)
+    assignment that changes nothing; no plain value is cast. Of text that is more than a `str`, as markup, its encoder
+    knows nothing."""
+    if type(value) in _PLAIN:
+        return value
+    return str(value) if isinstance(value, str) else _cast(handle, hint, value, name)
 
 
 setattr(AssignablePropsBase, "_cast_value_recursive", _cast_unless_plain)  # noqa: B010 - as above

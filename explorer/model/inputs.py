@@ -107,6 +107,7 @@ class Inputs:
     altitude_m: float = 0.0
     climb_m_s: float = 0.0
     """Negative in descent; without effect where `climbs` says so."""
+    rotor_speed_percent: float = 100.0
     stand: StandInputs | None = None
     """The test of the rotor alone, in place of mass, altitude and climb; None in flight."""
     inflow: str = FLIGHT_MODELS.inflow
@@ -165,6 +166,7 @@ class Inputs:
             mass_kg=None if self.aircraft.isolated else 1e3 * self.mass_t,
             altitude_m=self.altitude_m,
             climb_m_s=self.climb_m_s if self.climbs else 0.0,
+            rotor_speed_percent=self.rotor_speed_percent,
             models=replace(models, **{name: getattr(self, name) for name in MODEL_INPUTS}),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
@@ -190,7 +192,12 @@ class Inputs:
 
     @property
     def speed_kt(self) -> float:
-        return self.advance_ratio * self.aircraft.rotor.tip_speed / KNOT
+        return self.advance_ratio * self.tip_speed / KNOT
+
+    @property
+    def tip_speed(self) -> float:
+        """ΩR [m/s]"""
+        return self.aircraft.rotor.at_speed(self.rotor_speed_percent).tip_speed
 
 
 OPENING = Inputs(law="builtin")
@@ -291,6 +298,7 @@ def inputs_of(design: Design) -> Inputs:
         mass_t=reference_mass_t(design.aircraft) if design.aircraft.isolated else design.condition.mass / 1e3,
         altitude_m=design.condition.altitude,
         climb_m_s=design.condition.climb_speed,
+        rotor_speed_percent=design.condition.rotor_speed_percent,
         stand=stand_of(design),
         pitch_per_rev=design.pitch_per_rev,
         twist_per_rev=() if active is None else active.harmonics,
@@ -311,7 +319,7 @@ def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs
     """
     changed = replace(inputs, rotor=name, own_rotor=own or inputs.own_rotor)
     mass = reference_mass_t(changed.aircraft)
-    plain = {"built_inner": 0.0, "built_outer": 0.0, "built_division": 0.5}
+    plain = {"built_inner": 0.0, "built_outer": 0.0, "built_division": 0.5, "rotor_speed_percent": 100.0}
     mu, stand = inputs.advance_ratio, None
     if changed.aircraft.isolated:
         mu, stand = tested(changed.aircraft)
@@ -331,7 +339,7 @@ def with_optimum(inputs: Inputs, design: Design) -> Inputs:
 
 def _own_airfoils(design: Design) -> str:
     """SPEC of a design's airfoils where they are not its preset's; else empty."""
-    same = design.rotor == design.aircraft.rotor_for(design.preset)
+    same = design.rotor.at_speed(100.0) == design.aircraft.rotor_for(design.preset)
     return "" if same else airfoils_spec(design.rotor) or ""
 
 

@@ -10,7 +10,7 @@ from rotor import Design, Solution, solve
 from rotor.design import SumTwist
 
 Order = Literal["pin", "unpin", "swap", "back"]
-FLIGHT = ("advance_ratio", "mass_t", "altitude_m", "climb_m_s")
+FLIGHT = ("advance_ratio", "mass_t", "altitude_m", "climb_m_s", "rotor_speed_percent")
 """The numbers of the flight condition."""
 CONDITION = (*FLIGHT, "stand")
 """The inputs of the condition; the others are the aircraft and the models."""

@@ -194,6 +194,7 @@ class MeasuredCondition:
     def inputs(self) -> dict[str, Any]:
         """What it sets of the page's inputs, by name."""
         shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
+        shared |= {"rotor_speed_percent": 100.0}
         if self.stand is not None:
             return shared
         return {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude, "climb_m_s": 0.0}

@@ -7,6 +7,7 @@ page beside it: the guess, its answer, the control, the handle between A and B. 
 """
 
 import argparse
+import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +32,7 @@ from explorer.scene.still_scene import embedded_viewer, still_page
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
-from rotor.chart import round_ticks, tick_text
+from rotor.chart import Axis, Band, Chart, Line, Series, as_json, round_ticks, tick_text
 from rotor.terminal import run_command
 from rotor.user_input import write_whole
 
@@ -79,26 +80,42 @@ def answer_record(step: LectureStep, facts: Facts, units: Units) -> dict[str, An
 
 
 def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
-    """The chart in numbers of its axes' units; `dots`: by position of the control, in the order of the lines."""
+    """The chart in the page's units; `dots`: x, y and colour of each, by position of the control."""
     chart = facts.chart
     unit = units.power[0]
     ways = {"power": (unit.size, f" [{unit.symbol}]"), "percent": (0.01, " [%]"), "angle": (1.0, "")}
     size, symbol = ways[chart.kind]
     wide = 100.0 if chart.x_kind == "signed" else 1.0
-
-    def scaled(values: Sequence[float | None]) -> list[float | None]:
-        return [None if value is None else round(value / size, 4) for value in values]
-
+    x = [wide * one for one in chart.x]
+    names = {one.name: "" if len(chart.lines) < 2 else one.name for one in chart.lines}
+    series: list[Series] = [
+        Line(names[one.name], x, [math.nan if y is None else y / size for y in one.y], _colour(one.colour),
+             one.colour in ("a", "limit"), 2.4, dots=len(x) < 7 and len(chart.lines) == 1)
+        for one in chart.lines
+    ]  # fmt: skip
+    if chart.band is not None:
+        low, high = ([y / size for y in edge] for edge in chart.band)
+        series.insert(0, Band("", x, low, high, _colour("accent")))
+    ends = (chart.x[0], chart.x[-1])
+    x_title = chart.x_title + (" [%]" if chart.x_kind == "signed" else "")
+    words = tuple(_x_words(chart, end) for end in ends)
+    x_axis = Axis(x_title, (x[0], x[-1]), (x[0], x[-1]), words)
+    colours = [_colour(one) for one in chart.dots or [line.colour for line in chart.lines]]
     return {
-        "x": [round(wide * x, 4) for x in chart.x],
-        "x_title": chart.x_title + (" [%]" if chart.x_kind == "signed" else ""),
-        "x_ends": [_x_words(chart, x) for x in (chart.x[0], chart.x[-1])],
-        "y_title": chart.y_title + symbol,
-        "lines": [{"name": line.name, "colour": line.colour, "y": scaled(line.y)} for line in chart.lines],
-        "band": None if chart.band is None else [scaled(edge) for edge in chart.band],
-        "dot_colours": chart.dots or [line.colour for line in chart.lines],
-        "dots": [[[round(wide * x, 4), round(y / size, 4)] for x, y in stop.dots] for stop in facts.stops],
+        **as_json(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
+        "dots": [
+            [[round(wide * at, 4), round(y / size, 4), one] for (at, y), one in zip(stop.dots, colours, strict=False)]
+            for stop in facts.stops
+        ],
     }
+
+
+_ROLES = {"a": "pinned", "b": "blade", "limit": "ghost", "total": "ink"}
+"""Of the page, by what a line of the lecture is."""
+
+
+def _colour(name: str) -> str:
+    return f"var(--rx-{_ROLES.get(name, name)})"
 
 
 def _x_words(chart: StepChart, x: float) -> str:
@@ -139,7 +156,7 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
         "column": web.text("column.html"),
         "stage": web.text("wipe.html"),
         "data": web.json_block("story-data", record),
-        "scripts": web.scripts("scene.js", "still_rotor.js", "wipe.js", "story.js", "story_file.js"),
+        "scripts": web.scripts("chart.js", "scene.js", "still_rotor.js", "wipe.js", "story.js", "story_file.js"),
     }
     front = web.fill("story.html", words)
     body = page.rindex("</body>")

@@ -189,9 +189,7 @@ class DesignControls:
                 self._inputs[name].disabled = inert
         if self._own is None:
             self.stand.show_measured(inputs)
-        self._speed.content = _flight_heading(
-            inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units, inputs.stand is not None
-        )
+        self._speed.content = _flight_heading(inputs.advance_ratio * inputs.tip_speed, units, inputs.stand is not None)
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
 
     def show_costs(self, costs: Mapping[str, str]) -> None:

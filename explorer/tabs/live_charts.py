@@ -1,119 +1,54 @@
-"""The live charts: uplots of the panels, made once and then only given data, and the strip below the scene."""
+"""The live charts: those of the panels, and the strip below the scene."""
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import viser
-from viser import uplot
 
 from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
-from explorer.charts.plots import Plot, PowerCurve, Range
+from explorer.charts.plots import PowerCurve, Range
 from explorer.charts.strip import (
-    StripChart,
+    Role,
     alpha_chart,
     lift_chart,
     power_change_chart,
     total_power_chart,
     where_to_twist_chart,
 )
-from explorer.colours import PINNED, PINNED_DASH, THIS
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
-from explorer.text import readout
 from rotor import Design, Solution
+from rotor.chart import Chart, as_json
+from rotor.markup import Markup, tag
 from rotor.trim import PitchGradient
 
-_GRID = uplot.Axis_Grid(show=True, width=1)
-_TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
-_FONT = "11px sans-serif"
 
-Key = tuple[tuple[str, str] | tuple[str, str, bool], ...]
-"""Name, colour, and whether the line is dashed, of each series that is told apart."""
-AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
-"""While two designs are compared."""
-_BLANK = (-1e-3, 1e-3)
-"""Vertical range of an empty chart, which no answer has."""
-
-
-def line(colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
-    series = uplot.Series(stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
-    if dash is not None:
-        series["dash"] = dash
-    return series
-
-
-def pinned_line() -> uplot.Series:
-    """A, in any chart."""
-    return line(PINNED, 1.8, PINNED_DASH)
-
-
-def points(colour: str, size: float) -> uplot.Series:
-    return uplot.Series(stroke=colour, width=0, points=uplot.Series_Points(show=True, size=size, fill=colour))
+def chart_box(chart: Chart, height: float = 94.0) -> Markup:
+    """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
+    told = json.dumps(as_json(chart), ensure_ascii=False, separators=(",", ":"))
+    return tag("div.rx-chart", data_chart=told, data_high=height)
 
 
 class PanelChart:
-    """One titled chart with a key that also serves as axis label; empty until it is shown something."""
+    """A chart in a panel; nothing until it is shown one."""
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        title: str,
-        key: Key,
-        series: tuple[uplot.Series, ...],
-        x_range: Range,
-        height: int = 94,
-        name: str = "",
-    ) -> None:
-        """`name`: of the chart in the glossary."""
-        self._key, self._count = key, len(series)
-        self._heading = gui.add_html(readout.heading(title, key, name))
-        self._title, self._name = title, name
-        self._x_range, self._y_range = x_range, _BLANK
-        self._handle = gui.add_uplot(
-            self._blank().data,
-            (uplot.Series(), *series),
-            scales=self._scales(),
-            axes=(
-                uplot.Axis(size=20, gap=2, space=45, grid=_GRID, ticks=_TICKS, font=_FONT),
-                uplot.Axis(size=42, gap=3, space=15, grid=_GRID, ticks=_TICKS, font=_FONT),
-            ),
-            legend=uplot.Legend(show=False),
-            cursor=uplot.Cursor(points=uplot.Cursor_Points(show=False), drag=uplot.Cursor_Drag(x=False, y=False)),
-            height=height,
-            padding=(8, 14, 0, 0),
-        )
+    def __init__(self, gui: viser.GuiApi, height: float = 94.0) -> None:
+        self._html, self._height = gui.add_html(""), height
+        self._chart: Chart | None = None
 
-    def show(self, plot: Plot | None, key: Key | None = None) -> None:
-        """New data; None: an empty chart. `key`: another than before, where other series are filled."""
-        plot = plot or self._blank()
-        if key is not None and key != self._key:
-            self._key = key
-            self._heading.content = readout.heading(self._title, key, self._name)
-        x_range = plot.x_range or self._x_range
-        if (plot.y_range, x_range) != (self._y_range, self._x_range):
-            # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
-            self._y_range, self._x_range = plot.y_range, x_range
-            self._handle.scales = self._scales()
-        self._handle.data = plot.data
-
-    def set_visible(self, visible: bool) -> None:
-        self._heading.visible = self._handle.visible = visible
+    def show(self, chart: Chart | None) -> None:
+        """None: no chart."""
+        self._chart = chart
+        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart, self._height))
 
     @property
     def y_range(self) -> Range | None:
-        """To be held as long as it serves; None while the chart is empty."""
-        return None if self._y_range == _BLANK else self._y_range
-
-    def _blank(self) -> Plot:
-        none = np.full(2, np.nan)
-        return Plot((np.array(self._x_range), *(none,) * self._count), _BLANK)
-
-    def _scales(self) -> dict[str, uplot.Scale]:
-        return {"x": uplot.Scale(time=False, range=self._x_range), "y": uplot.Scale(range=self._y_range)}
+        """To be held as long as it serves; None without a chart."""
+        return None if self._chart is None else self._chart.y.range
 
 
 _BESIDE_STARTS = ("power", "lift")
@@ -129,12 +64,14 @@ class ChartStrip:
 
     def __init__(self, bridge: Bridge) -> None:
         self._bridge = bridge
-        self._charts: dict[str, StripChart] = {}
+        self._charts: dict[str, Chart] = {}
+        self._told: dict[str, dict[str, Any]] = {}
+        """The same as the page draws them."""
         self._kinds: dict[str, str] = {}
         self._faded = self._pinned = False
         self._plain = False
         """Whether power over µ shows the power itself."""
-        self._starts: dict[str, Any] | None = None
+        self._starts: Chart | None = None
         self._measured = MeasuredChart()
         self._flown = FlownPowers()
         self._power: tuple[SessionState, PowerCurve, bool] | None = None
@@ -147,7 +84,7 @@ class ChartStrip:
         """
         self._pinned, self._faded = state.pinned is not None, False
         self._show_alpha(state)
-        self._charts["lift"] = lift_chart(state.solution, state.reference, self._held("lift"))
+        self._place("lift", lift_chart(state.solution, state.reference, self._held("lift"), self._compared))
         units, held = UNITS[state.view.units], self._held("worth")
         self._place("worth", None if gradient is None else where_to_twist_chart(gradient, units, held))
         self._show_measured(state.solution)
@@ -176,13 +113,18 @@ class ChartStrip:
 
     def _show_alpha(self, state: SessionState) -> None:
         azimuth = state.view.azimuth_deg
-        self._charts["alpha"] = alpha_chart(state.solution, state.reference, azimuth, self._held("alpha"))
+        held = self._held("alpha")
+        self._place("alpha", alpha_chart(state.solution, state.reference, azimuth, held, self._compared))
 
-    def _place(self, name: str, chart: StripChart | None) -> None:
+    def _place(self, name: str, chart: Chart | None) -> None:
         """In the place of the one before; None: it goes."""
         self._charts.pop(name, None)
         if chart is not None:
-            self._charts[name] = chart
+            self._charts[name], self._told[name] = chart, as_json(chart)
+
+    @property
+    def _compared(self) -> Role:
+        return "pinned" if self._pinned else "reference"
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
         """Change of power over µ, once the sweep has arrived; the power itself where the design is its own reference.
@@ -210,21 +152,21 @@ class ChartStrip:
             chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
         else:
             chart = power_change_chart(curve, mu, change, name, units, held)
-        self._charts["power"] = chart
+        self._place("power", chart)
         self._send()
 
-    def show_vibration(self, chart: StripChart | None) -> None:
+    def show_vibration(self, chart: Chart | None) -> None:
         """The vibration index over µ; None where there is none."""
         if chart is None and _VIBRATION not in self._charts:
             return
         self._place(_VIBRATION, chart)
         self._send()
 
-    def vibration_range(self) -> Range | None:
-        """The axis of that chart, to be held."""
-        return self._held(_VIBRATION)
+    def vibration_range(self) -> tuple[Range | None, Role]:
+        """The axis of that chart, to be held, and what its reference is."""
+        return self._held(_VIBRATION), self._compared
 
-    def show_starts(self, chart: dict[str, Any] | None) -> None:
+    def show_starts(self, chart: Chart | None) -> None:
         """The starts of a search in place of the charts along the blade; None: those again."""
         if chart is not None or self._starts is not None:
             self._starts = chart
@@ -236,7 +178,7 @@ class ChartStrip:
 
     def _held(self, name: str) -> Range | None:
         chart = self._charts.get(name)
-        return None if chart is None else chart.y_range
+        return None if chart is None else chart.y.range
 
     def _names(self) -> tuple[str, ...]:
         names = _ORDER if self._starts is None else _BESIDE_STARTS
@@ -247,11 +189,13 @@ class ChartStrip:
     def _send(self) -> None:
         common = {"pinned": self._pinned, "faded": self._faded}
         charts: list[dict[str, Any]] = [
-            {**self._charts[name].as_dict, "name": name, "kind": self._kinds.get(name, ""), **common}
+            {**self._told[name], "name": name, "kind": self._kinds.get(name, ""), **common}
             for name in self._names()
             if name in self._charts
         ]
-        self._bridge.set(strip=charts if self._starts is None else [self._starts, *charts])
+        if self._starts is not None:
+            charts.insert(0, {**as_json(self._starts), "name": "starts", "wide": True})
+        self._bridge.set(strip=charts)
 
 
 def against(design: Design, pinned: bool) -> str:

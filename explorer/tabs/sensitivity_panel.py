@@ -6,17 +6,19 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.charts.plots import Plot, Range, held_range
-from explorer.colours import BASELINE, THIS, colour_map
+from explorer.charts.plots import Range, held_range
+from explorer.charts.strip import role_line
+from explorer.colours import BASELINE, colour_map
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
 from explorer.picture.poses import drawn_bending, flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
 from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.live_charts import AB_KEY, Key, PanelChart, line, pinned_line
-from explorer.text.glossary import hint
+from explorer.tabs.live_charts import PanelChart
+from explorer.text.glossary import READOUTS, hint
 from rotor import Solution
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Line
 from rotor.design import TwistLaw
 from rotor.trim import PitchGradient
 from rotor.trim.adjoint import Adjoint, power_along
@@ -26,21 +28,23 @@ _ALONG, _ACROSS = 150, 9
 _COLOURS = 127
 
 
-def sensitivity_plot(solution: Solution, previous: Range | None, pinned: Solution | None = None) -> Plot:
-    """Series: zero, induced power alone, total power of A, total power. Trim kept throughout.
+def sensitivity_chart(solution: Solution, previous: Range | None, pinned: Solution | None = None) -> Chart:
+    """Induced power alone, total power of A and, last, total power. Trim kept throughout.
 
-    All in kW per degree per unit of r/R; that of A is empty where none is pinned or it has no trim.
+    All in kW per degree per unit of r/R; there is no A where none is pinned or it has no trim.
     """
     adjoint = Adjoint(solution)
-    total, induced = power_along(adjoint, "total"), power_along(adjoint, "induced")
-    other = np.full_like(total.r, np.nan)
+    total, induced = (power_along(adjoint, power) for power in ("total", "induced"))
+    lines = [Line("induced", induced.r, induced.density * _KILOWATT_PER_DEGREE, BASELINE, "5 3", 1.5)]
     if pinned is not None and pinned.converged:
         along = _of_pinned(pinned)
-        other = np.interp(total.r, along.r, along.density, left=np.nan, right=np.nan)
-    lines = [density * _KILOWATT_PER_DEGREE for density in (induced.density, other, total.density)]
-    seen = np.concatenate(lines)
-    low, high = min(float(np.nanmin(seen)), -1.0), max(float(np.nanmax(seen)), 1.0)
-    return Plot((total.r, np.zeros_like(total.r), *lines), held_range(previous, low, high))
+        lines.append(role_line("pinned", along.r, along.density * _KILOWATT_PER_DEGREE, label="A"))
+    here = "B" if len(lines) > 1 else "total"
+    lines.append(role_line("saving", total.r, total.density * _KILOWATT_PER_DEGREE, label=here))
+    seen = [value for one in lines for value in one.y if math.isfinite(value)]
+    y_range = held_range(previous, min(-1.0, *seen), max(1.0, *seen))
+    note = READOUTS["chart_sensitivity"].text
+    return Chart("dP/dθ", Axis("r/R", (0.1, 1.02)), Axis("kW/° per r/R", y_range), tuple(lines), note=note)
 
 
 @lru_cache(maxsize=4)
@@ -50,7 +54,7 @@ def _of_pinned(solution: Solution) -> PitchGradient:
 
 
 def strip(
-    shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot, bent: Array | None = None
+    shape: BladeShape, twist: TwistLaw, exaggeration: float, chart: Chart, bent: Array | None = None
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """Points just above the reference blade, in blade axes, (n, 3), and their colours: rust costs power, blue saves."""
     count, around = shape.rings.shape[:2]
@@ -62,17 +66,25 @@ def strip(
         [[np.interp(r, shape.r[6:], upper[:, column, axis]) for axis in range(3)] for column in columns], axis=0
     )
     points[:, 2] += 0.03
-    values = np.interp(r, plot.data[0], plot.data[-1])
-    half = max(abs(plot.y_range[0]), abs(plot.y_range[1]))
+    stations, along = _total(chart)
+    values = np.interp(r, stations, along)
+    half = max(map(abs, chart.span("y")))
     signed = np.sign(values) * np.sqrt(np.minimum(np.abs(values) / half, 1.0))  # The tip would outshine all else.
     shades = np.rint((0.5 + 0.5 * signed) * (_COLOURS - 1)).astype(int)
     colours = np.broadcast_to(colour_map("diverging", _COLOURS)[shades], (len(columns), _ALONG, 3))
     return points.transpose(0, 2, 1).reshape(-1, 3).astype(np.float32), colours.reshape(-1, 3).copy()
 
 
-def explanation(plot: Plot) -> str:
+def _total(chart: Chart) -> tuple[Array, Array]:
+    """r/R and power of its last line."""
+    line = chart.series[-1]
+    assert isinstance(line, Line)
+    return np.array(line.x), np.array(line.y)
+
+
+def explanation(chart: Chart) -> str:
     """What to do, in a line, under the chart."""
-    r, values = plot.data[0], plot.data[-1]
+    r, values = _total(chart)
     if not np.isfinite(values).all():
         return ""
     up, down = float(r[np.argmin(values)]), float(r[np.argmax(values)])
@@ -93,8 +105,6 @@ _WORDS = (
     '<div class="rx rx-dim rx-small rx-found">Power sensitivity to local pitch, with the rotor retrimmed: '
     "positive where more pitch costs power, negative where it saves.</div>"
 )
-_INDUCED = ("induced", BASELINE, True)
-_KEY: Key = (("total", THIS), _INDUCED)
 
 
 class SensitivityPanel(Tab):
@@ -102,15 +112,7 @@ class SensitivityPanel(Tab):
         self._strip, self._layout, gui = strip, context.layout, context.gui
         self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
         gui.add_html(_WORDS)
-        self._chart = PanelChart(
-            gui,
-            "dP/dθ [kW/° per r/R]",
-            _KEY,
-            (line(BASELINE, 0.7), line(BASELINE, 1.5, (5, 3)), pinned_line(), line(THIS)),
-            (0.1, 1.02),
-            _HEIGHT,
-            name="chart_sensitivity",
-        )
+        self._chart = PanelChart(gui, _HEIGHT)
         self._words = gui.add_html("")
         self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))
         self._paint.on_update(lambda _: context.wake())
@@ -124,14 +126,14 @@ class SensitivityPanel(Tab):
         if not (paint or self._layout.drawer == "twist"):  # The chart costs an adjoint of its own.
             self.show_failure()  # What stands here is no longer this solution's.
             return
-        plot = sensitivity_plot(solution, self._chart.y_range, state.pinned)
-        self._chart.show(plot, _KEY if state.pinned is None else (*AB_KEY, _INDUCED))
-        self._words.content = explanation(plot)
+        chart = sensitivity_chart(solution, self._chart.y_range, state.pinned)
+        self._chart.show(chart)
+        self._words.content = explanation(chart)
         if paint:
             shape = blade_shape(solution.design.rotor)
             psi = math.radians(state.view.azimuth_deg)
             bent = drawn_bending(solution, shape.r, psi)
-            self._strip.show(*strip(shape, flown_twist(solution, psi), exaggeration, plot, bent))
+            self._strip.show(*strip(shape, flown_twist(solution, psi), exaggeration, chart, bent))
         else:
             self._strip.hide()
         self._shown = wanted

@@ -7,15 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from explorer.charts.strip import StripChart, StripLine
+from explorer.charts.strip import LOOKS, Role, role_line
 from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.tabs.context import TabContext
 from rotor import Design, Solution
 from rotor.arrays import Array
+from rotor.chart import Axis, Band, Chart, Series, as_json
 from rotor.design import REFERENCE_RADIUS as DATUM
 
+FLOWN = LOOKS["flown"][0]
 _POINTS = 70
 _LEAST_RESPONSE = 0.15
 """Below it [°] a station at the end of its slider does not answer to a degree."""
@@ -139,23 +141,19 @@ class TwistCurveEditor:
         flown = flown_band(state.solution, r)
         seen = np.concatenate((own, other, *(flown or ())))
         axis = self._axis(float(seen.min()), float(seen.max()))
-        lines = [StripLine(r, other, "reference"), StripLine(r, own, "this")]
-        key, band = [["jig", "this"]], None
+        compared: Role = "reference" if state.pinned is None else "pinned"
+        parts: list[Series] = [role_line(compared, r, other), role_line("this", r, own, label="jig")]
         if flown is not None:
             mean, low, high = flown
-            lines.insert(1, StripLine(r, mean, "flown"))
-            key.append(["flown", "flown"])
-            band = {name: [round(float(y), 2) for y in values] for name, values in (("low", low), ("high", high))}
-        chart = StripChart("Twist", "°", (0.1, 1.03), axis, tuple(lines)).as_dict
+            parts = [Band("", r, low, high, FLOWN), parts[0], role_line("flown", r, mean, label="flown"), parts[1]]
+        chart = Chart("Twist", Axis("r/R", (0.1, 1.03)), Axis(range=axis, unit="°"), tuple(parts))
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
         handles = [
             {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
             for k in movable
         ]
-        self._context.bridge.set(
-            twist={**chart, "pinned": state.pinned is not None, "knots": handles, "key": key, "band": band}
-        )
+        self._context.bridge.set(twist={**as_json(chart), "knots": handles})
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""

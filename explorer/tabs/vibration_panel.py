@@ -14,7 +14,7 @@ from explorer.charts.vibration import (
     FanKey,
     FanPlots,
     IndexCurves,
-    fan_plot,
+    fan_chart,
     index_chart,
     index_unit,
     stopping,
@@ -27,17 +27,18 @@ from explorer.picture.wake import hub_words, scale_words
 from explorer.scene.controller import SceneController
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import ChartStrip
+from explorer.tabs.live_charts import ChartStrip, chart_box
 from explorer.text.readout import faded
 from rotor import Solution, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.markup import Markup, tag
 from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
 from rotor.trim.hub_loads import BAND
 
 _NOTICEABLE = 0.5
 """Changes of the index below this [% of itself] have no colour."""
-_NO_FAN = '<div class="rx rx-dim rx-small">{}</div>'
+_FAN_HEIGHT = 200.0
 
 
 class VibrationPanel:
@@ -161,8 +162,9 @@ class VibrationPanel:
     def _draw_chart(self) -> None:
         state = self._state
         if state is not None:
-            held = self._strip.vibration_range()
-            self._strip.show_vibration(index_chart(self._curves, state.solution, state.reference, self.index, held))
+            held, compared = self._strip.vibration_range()
+            chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
+            self._strip.show_vibration(chart)
 
     def _draw_lines(self) -> None:
         """Lines over the hub, and the words in the scene."""
@@ -233,17 +235,22 @@ class VibrationPanel:
         state = self._state
         if state is None or self._context.layout.drawer != "probe":
             return
-        self._heading.content = '<div class="rxp-head" data-ruled>FAN PLOT</div>'
+        self._heading.content = tag("div.rxp-head", "FAN PLOT", data_ruled=True)
         design, key = state.solution.design, FanKey.of(state.solution)
         known = self._fans.known(key)
         if not can_bend(design.rotor):
             reason = why_no_hub_loads(design)
-            content = _NO_FAN.format("" if reason is None else reason.sentence.replace("hub loads", "fan plot"))
+            content = _no_fan("" if reason is None else reason.sentence.replace("hub loads", "fan plot"))
         elif len(known) < len(FAN_SPEEDS):
-            content = faded(self._content) if self._content else _NO_FAN.format("Computing …")
+            content = faded(self._content) if self._content else _no_fan("Computing …")
         else:
-            content = self._content = fan_plot(known, key.collective_deg)
+            chart = chart_box(fan_chart(known, key.collective_deg), _FAN_HEIGHT)
+            content = self._content = tag("div.rx", chart, data_explorer="fan-plot")
         self._fan.content = content
+
+
+def _no_fan(words: str) -> Markup:
+    return tag("div.rx.rx-dim.rx-small", words)
 
 
 def _title(loads: HubLoads) -> str:

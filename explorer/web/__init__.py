@@ -15,8 +15,8 @@ _FOLDER = Path(__file__).parent
 STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "big.css")
 """Of the page; those that come later outweigh those before."""
 SCRIPTS = (
-    "viser.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js", "plan.js",
-    "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js", "wipe.js", "story.js", "lecture.js",
+    "viser.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js",
+    "plan.js", "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js", "wipe.js", "story.js", "lecture.js",
 )  # fmt: skip
 """Of the page, in the order in which they run: `viser.js` before viser's client, and `frame.js` defines `RX`."""
 

@@ -15,8 +15,7 @@
 
   const RX = window.RX = {
     state, icon, part,
-    // Text written into HTML.
-    text: value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]),
+    text: Charts.text,  // Written into HTML.
     // Draw `state[name]` with this function, once a frame at most.
     paint(name, draw) { painters[name] = draw; },
     // And after it this.
@@ -298,5 +297,5 @@
     }
   }).observe(document.body, {childList: true, subtree: true});
   // What viser mounts anew is filled anew.
-  new MutationObserver(() => RX.again('twist', 'worth')).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
+  new MutationObserver(() => { RX.again('twist', 'worth'); Charts.find(); }).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 })();

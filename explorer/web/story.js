@@ -1,11 +1,9 @@
 // The lecture as a column of steps beside the scene: a guess, its answer with a chart, one control. The page and the file
 // without a server both use it: everything reports by `data-do`, and what is shown comes through `steps` and `now`.
 window.makeStory = (column, figures, report) => {
-  const text = value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]);
+  const {text} = Charts;
   const marked = value => text(value).replace(/\*\*(.+?)\*\*/g, '<b>$1</b>').replace(/\*(.+?)\*/g, '<em>$1</em>');
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
-  const COLOURS = {a: 'pinned', b: 'blade', limit: 'ghost', total: 'ink'};
-  const colour = name => `var(--rx-${COLOURS[name] ?? name})`;
   let steps = [], now = null, drawn = '', sweep = 0;
   const list = column.querySelector('.rxs-list'), foot = column.querySelector('.rxs-foot');
   const section = k => list.children[k];
@@ -98,29 +96,9 @@ window.makeStory = (column, figures, report) => {
   // Lines over what is moved, with the present place on each.
   const chart = (figure, data, stop) => {
     if (!data) { figure.innerHTML = ''; return; }
-    const width = Math.max(figure.clientWidth, 260), height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, left = 46, right = 10, top = 8, bottom = 22;
-    const values = [...data.lines.flatMap(line => line.y), ...(data.band ?? []).flat()].filter(y => y !== null);
-    let low = Math.min(...values), high = Math.max(...values);
-    const room = 0.06 * (high - low || 1);
-    low -= low === 0 ? 0 : room;
-    high += room;
-    const [first, last] = [data.x[0], data.x.at(-1)];
-    const x = value => left + (width - left - right) * (value - first) / (last - first || 1), y = value => height - bottom - (height - top - bottom) * (value - low) / (high - low);
-    const step = 10 ** Math.floor(Math.log10((high - low) / 2)), size = [5, 2, 1].map(n => n * step).find(n => (high - low) / n >= 2) ?? step;
-    const ticks = [];
-    for (let value = Math.ceil(low / size) * size; value <= high; value += size) ticks.push(Number(value.toPrecision(6)));
-    const number = value => value.toLocaleString('en').replace(/,/g, '\u2009').replace('-', '−');
-    const path = ys => ys.map((value, k) => value === null ? '' : `${k && ys[k - 1] !== null ? 'L' : 'M'}${x(data.x[k]).toFixed(1)},${y(value).toFixed(1)}`).join('');
-    const area = data.band && `${path(data.band[0])}L${data.x.map((_, k) => `${x(data.x.at(-1 - k)).toFixed(1)},${y(data.band[1].at(-1 - k)).toFixed(1)}`).join('L')}Z`;
-    const key = `<figcaption><b>${text(data.y_title)}</b>${data.lines.length < 2 ? '' : data.lines.map(line => `<span><i data-line="${line.colour}" style="--c:${colour(line.colour)}"></i>${text(line.name)}</span>`).join('')}</figcaption>`;
-    figure.innerHTML = `${key}<svg width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${data.y_title} over ${data.x_title}`)}">
-      ${ticks.map(value => `<path d="M${left},${y(value).toFixed(1)}H${width - right}" class="rxs-grid"/><text x="${left - 6}" y="${(y(value) + 4).toFixed(1)}" text-anchor="end">${number(value)}</text>`).join('')}
-      ${area ? `<path d="${area}" class="rxs-band"/>` : ''}
-      ${data.lines.map(line => `<path d="${path(line.y)}" class="rxs-line" data-line="${line.colour}" style="--c:${colour(line.colour)}"/>`).join('')}
-      ${data.x.length < 7 && data.lines.length === 1 ? data.x.map((at, k) => `<circle cx="${x(at).toFixed(1)}" cy="${y(data.lines[0].y[k]).toFixed(1)}" r="3" fill="${colour(data.lines[0].colour)}"/>`).join('') : ''}
-      ${(data.dots[stop] ?? []).map(([at, value], k) => `<circle cx="${x(at).toFixed(1)}" cy="${y(value).toFixed(1)}" r="6" class="rxs-dot" style="--c:${colour(data.dot_colours?.[k] ?? 'ink')}"/>`).join('')}
-      <text x="${left}" y="${height - 5}">${text(data.x_ends[0])}</text><text x="${width - right}" y="${height - 5}" text-anchor="end">${text(data.x_ends[1])}</text>
-      <text x="${(left + width - right) / 2}" y="${height - 5}" text-anchor="middle">${text(data.x_title)}</text></svg>`;
+    const dots = (data.dots[stop] ?? []).map(([x, y, colour]) => ({kind: 'points', x: [x], y: [y], colour, size: 6}));
+    const height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, width = Math.max(figure.clientWidth, 260);
+    Charts.fill(figure, {...data, series: [...data.series, ...dots]}, {width, height});
   };
 
   // The step that stands keeps its place in the column, scrolled by `within`, whatever is laid out anew. Another is asked

@@ -78,19 +78,6 @@
     if (next) watch(next);
   }});
 
-  // A chart that is drawn anew before it has taken its new size keeps the old one, without numbers along its axis: so
-  // every drawing looks at the axes. The client lists its charts here.
-  const uplots = new Proxy({}, {set(charts, name, entry) {
-    const redraw = entry.chart.redraw;
-    entry.chart.redraw = paths => redraw(paths, true);
-    charts[name] = entry;
-    return true;
-  }});
-  let lists;
-  Object.defineProperty(window, '__viserTestpoints', {configurable: true, get: () => lists, set: next => {
-    lists = next && Object.assign(next, {uplots});
-  }});
-
   // A page that can be seen tries again, also where another window has the keyboard, as in front of a class.
   document.hasFocus = () => document.visibilityState === 'visible';
   document.addEventListener('visibilitychange', () => window.dispatchEvent(new Event('focus')));

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
 from rotor.actuator.section import Host, Placement, active_section, section_spec, skin
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.blade import BladeStructure, Rotor
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
@@ -157,6 +157,7 @@ class InstalledActuator:
 
 
 @lru_cache(maxsize=64)
+@read_only
 def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> InstalledActuator:
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)

@@ -26,7 +26,7 @@ from rotor.actuator.installation import InstalledActuator, heavier, install
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline
 from rotor.actuator.section import Host, default_placement
 from rotor.actuator.verdict import Verdict, judge, layers_text
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation.concepts import find_concept
@@ -114,6 +114,7 @@ class BreakEven:
 
 
 @lru_cache(maxsize=16)
+@read_only
 def break_even(pair: ConditionPair) -> BreakEven:
     """The break-even line of a pair of flight conditions, any rotor; a second or two.
 

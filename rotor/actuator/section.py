@@ -16,7 +16,7 @@ import scipy
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.dynamics.structure import BendingStructure, glass, structure_data, titanium
 from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
 
@@ -200,6 +200,7 @@ def web_line(spec: SectionSpec, at: float, points: int = 12) -> Array:
 
 
 @lru_cache(maxsize=4)
+@read_only
 def _sides(name: str) -> tuple[Array, Array]:
     """Upper and lower outline, nose to trailing edge, chords."""
     fine = resample(load_contour(name), 401)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rotor.airfoil.section_table import MACH_STEP, N_MACH, held_beyond_peak
 from rotor.airfoil.stall_onset import ZERO, stall_onset
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 
 
@@ -122,6 +122,7 @@ def build_disk(
 
 
 @lru_cache(maxsize=16)
+@read_only
 def _disk(
     rotor: Rotor, elements: int, azimuths: int, only_mach: float | None, swept: bool, surface: bool, fine_tip: bool
 ) -> Disk:
@@ -172,6 +173,7 @@ def _disk(
 
 
 @lru_cache(maxsize=16)
+@read_only
 def build_onset(rotor: Rotor, disk: Disk, only_mach: float | None = None) -> tuple[Array, Array]:
     """`StallOnset.numbers` of every element, about the blade's reference line, and the tables of its sections.
 

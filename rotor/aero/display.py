@@ -18,7 +18,7 @@ from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, stall_angles
 from rotor.aero.stalling_section import StallingData, added_to, stalling
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.engine.waves import wave_grid
 
 ENOUGH_ELEMENTS = 40
@@ -36,6 +36,7 @@ _OVER_DISK = (
 
 
 @lru_cache(maxsize=16)
+@read_only
 def resampling(source: int, target: int) -> Array:
     """Fourier interpolation of evenly spaced periodic samples, (source, target); the samples themselves stay."""
     angle = 2.0 * np.pi * (np.arange(target) / target - np.arange(source)[:, None] / source)
@@ -153,6 +154,7 @@ def areas(
 
 
 @lru_cache(maxsize=16)
+@read_only
 def _finer_radii(root: float, r: tuple[float, ...]) -> tuple[Array, Array]:
     """Linear interpolation from elements at r/R to even radii, (radii, elements), and the parts of πR² about these.
 

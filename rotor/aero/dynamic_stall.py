@@ -236,16 +236,72 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
     n = len(x)
     steps = max(1, -(-_LEAST_FINE // n))
     fine, seeds = n * steps, 3 * n if slopes else 0
-    numbers, b, tip = data.numbers[one], data.half_chord[one], data.tip_mach
+    b, tip = data.half_chord[one], data.tip_mach
     unit = math.pi / fine / (b * tip)  # Travel in a step over the sum of the Mach numbers at its ends.
     every = np.zeros((5, fine, seeds))
     dx, dm, de, dp, df = every[0], every[1], every[2], every[3], every[4]
     xs, ms, es, ps = np.empty(fine), np.empty(fine), np.empty(fine), np.empty(fine)
     _spread(x, steps, xs)
     _spread(mach, steps, ms)
-    # Numbers over the Mach number, with slopes.
+    _seed(n, steps, dx, dm)
     cells, places, found = np.empty((2, fine), np.int32), np.empty((3, fine)), np.zeros((6, fine))
-    rows, middle = np.empty((8, 2, fine)), np.empty(fine)
+    rows = np.empty((8, 2, fine))
+    _numbers(data.numbers[one], ms, cells, places, rows)
+    mass, turning = np.empty(n), np.empty(n)
+    dmass, dturning = np.zeros((n, seeds)), np.zeros((n, seeds))
+    _apparent_mass(x, mach, q, b, tip, mass, turning, dmass, dturning)
+    _three_quarters(x, q, mass, steps, dx, dmass, es, ps, de, dp)
+    if not data.sheds:
+        _lift_deficiency(ms, dm, unit, es, de)
+    xf, dxf = np.empty(fine), np.empty((fine, seeds))
+    _leading_edge(rows, ms, dm, unit, es, de, ps, dp, xf, dxf)
+    _along(one, data.tables, data.section, data.weight[one], cells, places, xf, found)
+    f, dfs, m, dms = np.empty(fine), np.empty((fine, seeds)), np.empty(fine), np.empty((fine, seeds))
+    _separation(rows, ms, dm, unit, found, dxf, df, f, dfs, m, dms)
+    g, dg = np.empty(fine), dxf
+    _onset(rows, xf, dxf, dm, g, dg)
+    cv, tau = np.zeros(fine), np.zeros(fine)
+    dcv, dtau = np.zeros((fine, seeds)), np.zeros((fine, seeds))
+    if g.max() > 0.0:
+        _vortex(rows, ms, dm, es, de, f, dfs, g, dg, unit, cv, dcv, tau, dtau)
+    _along(one, data.tables, data.section, data.weight[one], cells, places, xs, found)
+    added[:] = 0.0
+    by[:] = 0.0
+    shown[:] = 0.0
+    _sum_up(rows, steps, found, xs, es, f, m, cv, tau, dx, dm, de, dfs, dms, dcv, dtau, added, by)
+    for k in range(n):
+        added[ADDED_N, k] += mass[k]
+        added[ADDED_M, k] -= 0.25 * (mass[k] + 0.25 * turning[k] - _PI * q[k])
+        at = k * steps
+        shown[SEPARATION, k], shown[VORTEX, k], shown[POSITION, k], shown[ONSET_GATE, k] = f[at], cv[at], tau[at], g[at]
+        if seeds:
+            _add(by[ADDED_N, k], 1.0, dmass[k])
+            _add(by[ADDED_M, k], -0.25, dmass[k])
+            _add(by[ADDED_M, k], -0.0625, dturning[k])
+            by[ADDED_M, k, 2 * n + k] += 0.25 * _PI
+
+
+@_compile
+def _seed(n: int, steps: int, dx: Any, dm: Any) -> None:
+    """Slopes of x and M on the finer azimuths by those at the azimuths given."""
+    fine, seeds = dx.shape
+    for k in range(fine if seeds else 0):
+        c, w = k // steps, (k % steps) / steps
+        after = (c + 1) % n
+        dx[k, c] += 1.0 - w
+        dx[k, after] += w
+        dm[k, n + c] += 1.0 - w
+        dm[k, n + after] += w
+
+
+@_compile
+def _numbers(numbers: Any, ms: Any, cells: Any, places: Any, rows: Any) -> None:
+    """The element's numbers at its Mach numbers, with slopes: those of lags in the middle of every step.
+
+    The Mach cells and places that are left are those of the azimuths themselves.
+    """
+    fine = len(ms)
+    middle = np.empty(fine)
     for k in range(fine):
         middle[k] = 0.5 * (ms[k] + ms[(k + 1) % fine])
     places_along_mach(middle, cells[1], places[1], places[2])
@@ -253,18 +309,14 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
     places_along_mach(ms, cells[1], places[1], places[2])
     _over_mach(numbers, 0, LAG_PRESSURE, cells[1], places, rows)
     _over_mach(numbers, TRAVEL, TRAVEL + 1, cells[1], places, rows)
-    for k in range(fine):
-        if seeds:
-            c, w = k // steps, (k % steps) / steps
-            after = (c + 1) % n
-            dx[k, c] += 1.0 - w
-            dx[k, after] += w
-            dm[k, n + c] += 1.0 - w
-            dm[k, n + after] += w
-    # x_E and apparent mass at the azimuths given.
-    raw, mass, turning = np.empty(n), np.empty(n), np.empty(n)
-    for k in range(n):
-        raw[k] = x[k] + q[k]
+
+
+@_compile
+def _apparent_mass(
+    x: Any, mach: Any, q: Any, b: float, tip: float, mass: Any, turning: Any, dmass: Any, dturning: Any
+) -> None:
+    """C_nᴵ and π dq/ds at the azimuths given, by differences of fourth order, and their slopes."""
+    n, seeds = dmass.shape
     quarter = n / (2.0 * _PI) / 12.0
     for k in range(n):
         v = mach[k] / tip
@@ -272,59 +324,88 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
         turning[k] = _PI * slow * quarter * (8.0 * (q[(k + 1) % n] - q[k - 1]) - q[(k + 2) % n] + q[k - 2])
         rise = quarter * (8.0 * (x[(k + 1) % n] - x[k - 1]) - x[(k + 2) % n] + x[k - 2])
         mass[k] = _PI * slow * rise + 0.5 * turning[k]
+    for k in range(n if seeds else 0):
+        v = mach[k] / tip
+        below = v * v + SLOWEST * SLOWEST
+        slow = b * v / below
+        for step, factor in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
+            at = (k + step) % n
+            dmass[k, at] += _PI * slow * quarter * factor
+            dmass[k, 2 * n + at] += 0.5 * _PI * slow * quarter * factor
+            dturning[k, 2 * n + at] += _PI * slow * quarter * factor
+        if v > 1e-12:
+            by_mach_number = b * (below - 2.0 * v * v) / (below * below) / tip / slow
+            dmass[k, n + k] += mass[k] * by_mach_number
+            dturning[k, n + k] += turning[k] * by_mach_number
+
+
+@_compile
+def _three_quarters(
+    x: Any, q: Any, mass: Any, steps: int, dx: Any, dmass: Any, es: Any, ps: Any, de: Any, dp: Any
+) -> None:
+    """x + q and C_nᴵ on the finer azimuths, and their slopes."""
+    n = len(x)
+    raw = np.empty(n)
+    for k in range(n):
+        raw[k] = x[k] + q[k]
     _spread(raw, steps, es)
     _spread(mass, steps, ps)
-    dmass, dturning = np.zeros((n, seeds)), np.zeros((n, seeds))
-    if seeds:
-        for k in range(n):
-            v = mach[k] / tip
-            below = v * v + SLOWEST * SLOWEST
-            slow = b * v / below
-            for step, factor in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
-                at = (k + step) % n
-                dmass[k, at] += _PI * slow * quarter * factor
-                dmass[k, 2 * n + at] += 0.5 * _PI * slow * quarter * factor
-                dturning[k, 2 * n + at] += _PI * slow * quarter * factor
-            if v > 1e-12:
-                by_mach_number = b * (below - 2.0 * v * v) / (below * below) / tip / slow
-                dmass[k, n + k] += mass[k] * by_mach_number
-                dturning[k, n + k] += turning[k] * by_mach_number
-        for k in range(fine):
-            c, w = k // steps, (k % steps) / steps
-            after = (c + 1) % n
-            de[k] = dx[k]
-            de[k, 2 * n + c] += 1.0 - w
-            de[k, 2 * n + after] += w
-            _combine(dp[k], 1.0 - w, dmass[c], w, dmass[after])
+    fine, seeds = dx.shape
+    for k in range(fine if seeds else 0):
+        c, w = k // steps, (k % steps) / steps
+        after = (c + 1) % n
+        de[k] = dx[k]
+        de[k, 2 * n + c] += 1.0 - w
+        de[k, 2 * n + after] += w
+        _combine(dp[k], 1.0 - w, dmass[c], w, dmass[after])
+
+
+@_compile
+def _lift_deficiency(ms: Any, dm: Any, unit: float, es: Any, de: Any) -> None:
+    """x_E in place of x + q: lagged by Jones' function."""
+    fine, seeds = dm.shape
     h, by_mach = np.empty(fine), np.empty(fine)
     lag = np.ones((2, fine))
     lag[1] = 0.0
-    if not data.sheds:
-        total, dtotal = np.zeros(fine), np.zeros((fine, seeds))
-        z, dz = np.empty(fine), np.empty((fine, seeds))
-        share = 1.0
-        for amplitude, rate in _JONES:
-            lag[0] = 1.0 / rate
-            _steps(lag, fine, ms, unit, h, by_mach)
-            _lag(es, de, h, by_mach, dm, z, dz)
-            share -= amplitude
-            for k in range(fine):
-                total[k] += amplitude * z[k]
-                _add(dtotal[k], amplitude, dz[k])
+    total, dtotal = np.zeros(fine), np.zeros((fine, seeds))
+    z, dz = np.empty(fine), np.empty((fine, seeds))
+    share = 1.0
+    for amplitude, rate in _JONES:
+        lag[0] = 1.0 / rate
+        _steps(lag, fine, ms, unit, h, by_mach)
+        _lag(es, de, h, by_mach, dm, z, dz)
+        share -= amplitude
         for k in range(fine):
-            es[k] = share * es[k] + total[k]
-            _combine(de[k], share, de[k], 1.0, dtotal[k])
-    # x_f, f″ and m″.
+            total[k] += amplitude * z[k]
+            _add(dtotal[k], amplitude, dz[k])
+    for k in range(fine):
+        es[k] = share * es[k] + total[k]
+        _combine(de[k], share, de[k], 1.0, dtotal[k])
+
+
+@_compile
+def _leading_edge(
+    rows: Any, ms: Any, dm: Any, unit: float, es: Any, de: Any, ps: Any, dp: Any, xf: Any, dxf: Any
+) -> None:
+    """x_f with its slopes; ps, C_nᴵ before, is x_E + C_nᴵ/C_nα after."""
+    fine = len(ms)
     for k in range(fine):
         slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
         _combine(dp[k], 1.0 / slope, dp[k], 1.0, de[k])
         _add(dp[k], -ps[k] * by_m / (slope * slope), dm[k])
         ps[k] = es[k] + ps[k] / slope
-    xf, dxf = np.empty(fine), np.empty((fine, seeds))
+    h, by_mach = np.empty(fine), np.empty(fine)
     _steps(rows[LAG_PRESSURE], fine, ms, unit, h, by_mach)
     _lag(ps, dp, h, by_mach, dm, xf, dxf)
-    _along(one, data.tables, data.section, data.weight[one], cells, places, xf, found)
-    f, dfs, m, dms = np.empty(fine), np.empty((fine, seeds)), np.empty(fine), np.empty((fine, seeds))
+
+
+@_compile
+def _separation(
+    rows: Any, ms: Any, dm: Any, unit: float, found: Any, dxf: Any, df: Any, f: Any, dfs: Any, m: Any, dms: Any
+) -> None:
+    """f″ and m″ with their slopes; df is overwritten."""
+    fine = len(ms)
+    h, by_mach = np.empty(fine), np.empty(fine)
     _steps(rows[LAG_SEPARATION], fine, ms, unit, h, by_mach)
     for k in range(fine):
         _combine(df[k], found[1, k], dxf[k], found[2, k], dm[k])
@@ -332,21 +413,25 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
     for k in range(fine):
         _combine(df[k], found[4, k], dxf[k], found[5, k], dm[k])
     _lag(found[3], df, h, by_mach, dm, m, dms)
-    # Onset, travel of the vortex and its feed.
-    g, dg = np.empty(fine), dxf
-    for k in range(fine):
+
+
+@_compile
+def _onset(rows: Any, xf: Any, dxf: Any, dm: Any, g: Any, dg: Any) -> None:
+    """g with its slopes; dg may be dxf."""
+    for k in range(len(xf)):
         edge = POSITIVE if xf[k] > 0.0 else NEGATIVE
         g[k], by_x, by_onset = _gate(xf[k], rows[edge, 0, k])
         _combine(dg[k], by_x, dxf[k], by_onset * rows[edge, 1, k], dm[k])
-    cv, tau = np.zeros(fine), np.zeros(fine)
-    dcv, dtau = np.zeros((fine, seeds)), np.zeros((fine, seeds))
-    if g.max() > 0.0:
-        _vortex(rows, ms, dm, es, de, f, dfs, g, dg, unit, cv, dcv, tau, dtau)
-    # Sums, brought back to the azimuths given.
-    _along(one, data.tables, data.section, data.weight[one], cells, places, xs, found)
-    added[:] = 0.0
-    by[:] = 0.0
-    shown[:] = 0.0
+
+
+@_compile
+def _sum_up(
+    rows: Any, steps: int, found: Any, xs: Any, es: Any, f: Any, m: Any, cv: Any, tau: Any, dx: Any, dm: Any, de: Any,
+    dfs: Any, dms: Any, dcv: Any, dtau: Any, added: Any, by: Any,
+) -> None:  # fmt: skip
+    """What is added, but for apparent mass, brought back to the azimuths given."""
+    fine, seeds = dx.shape
+    n = fine // steps
     row = np.empty((3, seeds))
     value = np.empty(3)
     for k in range(fine):
@@ -382,16 +467,6 @@ def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: 
             if seeds:
                 _add(by[o, c], (1.0 - w) / steps, row[o])
                 _add(by[o, after], w / steps, row[o])
-    for k in range(n):
-        added[ADDED_N, k] += mass[k]
-        added[ADDED_M, k] -= 0.25 * (mass[k] + 0.25 * turning[k] - _PI * q[k])
-        at = k * steps
-        shown[SEPARATION, k], shown[VORTEX, k], shown[POSITION, k], shown[ONSET_GATE, k] = f[at], cv[at], tau[at], g[at]
-        if seeds:
-            _add(by[ADDED_N, k], 1.0, dmass[k])
-            _add(by[ADDED_M, k], -0.25, dmass[k])
-            _add(by[ADDED_M, k], -0.0625, dturning[k])
-            by[ADDED_M, k, 2 * n + k] += 0.25 * _PI
 
 
 @_compile

@@ -108,6 +108,7 @@ REVERSE_FLOW_DEG = (165.0, 172.0)
 
 
 @lru_cache(maxsize=32)
+@read_only
 def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     """C_m of a section about the quarter chord, (α cells, Mach cells, 4, 4); zero where its source has none.
 
@@ -156,7 +157,6 @@ def build_torsion(
 
 
 @lru_cache(maxsize=32)
-@read_only
 def _at_unit_density(
     rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int, count: int
 ) -> BladeTorsion:

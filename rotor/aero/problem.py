@@ -132,12 +132,9 @@ class Truncation(NamedTuple):
     """Pitch at 0.75 R of the modes of bending [rad]."""
 
 
-AS_USUAL = Truncation()
-
-
-def build_problem(design: Design, cut: Truncation = AS_USUAL) -> Problem:
+def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
     """The design on its grid."""
-    rotor, condition, models = design.rotor, design.condition, design.models
+    rotor, condition, models, cut = design.rotor, design.condition, design.models, cut or Truncation()
     drag, down = design.drag_parts
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:

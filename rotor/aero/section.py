@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach, wrapped
-from rotor.arrays import Array, Booleans, Integers
+from rotor.arrays import Array, Booleans, Integers, fix
 from rotor.compiled import compiled
 
 CHANNELS = (TH, UT, UP, UR, LOSS, RATE) = tuple(range(6))
@@ -84,6 +84,7 @@ NOTHING_ADDED = np.zeros((3, 0, 0))
 """`SectionData.added` in steady flow."""
 NO_MOMENT = *(np.zeros(0),) * 3, np.zeros((0,) * 6), np.zeros(0)
 """The last five of `SectionData` for a rigid blade."""
+fix(NO_MOMENT)  # As those of a blade that twists: kernels are compiled for either kind of array.
 
 # Contraction (fused multiply-add) is the only deviation from strict IEEE arithmetic. The loops below run along one row
 # of azimuths and have no branches: so the compiler makes vector code of them, and four elements take about as long as

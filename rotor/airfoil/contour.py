@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.assets import asset_path
 
 POINTS = 161
@@ -127,6 +127,7 @@ def parse_contour(text: str, name: str) -> Contour:
 
 
 @lru_cache(maxsize=32)
+@read_only
 def load_contour(name: str) -> Contour:
     """The bundled outline of `name`, one of `SECTION_NAMES`, or a NACA outline of four or five digits by formula.
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.section_table import ALPHA_STEP, N_ALPHA, N_MACH, SectionTable, make_table
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.assets import asset_path
 
 THESIS_NAME = "sc1095-thesis"
@@ -153,6 +153,7 @@ def fit_error_study(
 
 
 @lru_cache(maxsize=16)
+@read_only
 def polynomial_section(reading: PolynomialReading = PolynomialReading()) -> PolynomialSection:
     """The fit with the document's orders to the bundled polar of a reading."""
     return fit_polynomials(thesis_polar(reading), range_deg=reading.range_deg)
@@ -181,6 +182,7 @@ def _cubic_cells(value: Array, slope: Array) -> Array:
 
 
 @lru_cache(maxsize=16)
+@read_only
 def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> SectionTable:
     """The document's section on the common grid, the same at every Mach, with its treatment of reverse flow.
 

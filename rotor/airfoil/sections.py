@@ -14,6 +14,7 @@ from rotor.airfoil.contour import SECTION_NAMES, Contour, load_contour, parse_co
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polynomial import THESIS_NAME, parse_reading, polynomial_table
 from rotor.airfoil.section_table import SectionTable, table_from_deck
+from rotor.arrays import read_only
 from rotor.assets import asset_path
 from rotor.user_input import did_you_mean
 
@@ -27,6 +28,7 @@ _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility
 
 
 @lru_cache(maxsize=16)
+@read_only
 def load_section(name: str) -> SectionTable:
     """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached; takes about 20 ms."""
     if name.startswith(THESIS_NAME):
@@ -86,6 +88,7 @@ def load_installed(name: str) -> Section:
 
 
 @lru_cache(maxsize=16)
+@read_only
 def install_own(own: OwnSection) -> Section:
     """A user's section; read once per process and cached; takes some 30 ms.
 

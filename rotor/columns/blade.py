@@ -17,7 +17,7 @@ from collections.abc import Hashable
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
-from rotor.engine.terms import ONE, Addend, Shape, Structure
+from rotor.engine.terms import ONE, Addend, Shape, Structure, Sum
 from rotor.engine.waves import COS, SIN, STEADY, rate_of
 
 CYCLIC = (("cyclic_1c", COS), ("cyclic_1s", SIN))
@@ -44,18 +44,17 @@ def add_pitch_rates(s: Structure) -> None:
             s.column(RATE, "one", *rate_of(wave), s.states[name])
 
 
-_Sum = list[tuple[float, int, int, int]]
 _POWER = {UT: (1.0, FX), UP: (-1.0, FZ), UR: (1.0, FR)}
 """Sign and force of each velocity in U dD = U_T F_x − U_P F_z + U_R F_r."""
 
 
-def power_of_air(s: Structure) -> tuple[_Sum, _Sum, _Sum]:
+def power_of_air(s: Structure) -> tuple[Sum, Sum, Sum]:
     """H and C_Q of the blade, and the power that the air gives its motion, from the columns that there are by now.
 
     By virtual power: what a velocity has of µ_x is the place of its force in H; what else U_R has is the arm of F_r
     about the shaft; what else U_T and U_P have is the blade's own velocity, away from the air and up.
     """
-    mu_x, drag, motion = s.derived["mu_x"], _Sum(), _Sum()
+    mu_x, drag, motion = s.derived["mu_x"], Sum(), Sum()
     torque = [(1.0, ONE, ONE, s.measure(FX, "r", STEADY))]
     for channel, row, wave, i, j, factor in s.columns:
         if channel not in _POWER:
@@ -87,10 +86,9 @@ class Freedom(ABC):
         """The same for the same columns and equations: its class and its fields."""
         return type(self), *vars(self).items()
 
+    @abstractmethod
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
-        """Values of the numbers in its equations, by name; none."""
-        del problem
-        return {}
+        """Values of the numbers in its equations, by name."""
 
     @abstractmethod
     def build(self, s: Structure) -> None:

@@ -306,10 +306,8 @@ def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array, A
 def disk_sums(point: Point) -> DiskSums:
     """Thrust, H-force and torque at a point of a flight or of hover."""
     s, z, q = point.system.structure, point.z, point.q
-    drag, torque, motion, damping = (
-        float(s.sums[name].value(z, q)[0]) for name in ("drag", "torque", "motion", "damping")
-    )
-    return DiskSums(float(q[s.measure(FZ, "one", STEADY)]), drag, torque, motion, damping)
+    sums = [float(s.sums[name].value(z, q)[0]) for name in ("drag", "torque", "motion", "damping")]
+    return DiskSums(float(q[s.measure(FZ, "one", STEADY)]), *sums)
 
 
 def elements_of(problem: Problem, point: Point) -> BladeElements:

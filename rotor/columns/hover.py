@@ -82,7 +82,7 @@ def lift_curve(problem: Problem) -> tuple[Array, Array]:
     """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
     disk, blade = problem.disk, problem.design.rotor.blade
     names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
-    slopes, zeros = np.array([_straight_line(blade.installed(name)) for name in names]).T
+    slopes, zeros = np.array([_straight_line(blade.installed(name), LIFT_CURVE_MACH) for name in names]).T
     first, second = disk.section.T
     return (
         slopes[first] + disk.weight * (slopes[second] - slopes[first]),
@@ -91,9 +91,9 @@ def lift_curve(problem: Problem) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=64)
-def _straight_line(section_: Section) -> tuple[float, float]:
-    zero = float(section_.table.zero_lift_alpha(LIFT_CURVE_MACH)) + section_.incidence_offset
-    return float(section_.table.lift_slope(LIFT_CURVE_MACH)), zero
+def _straight_line(section_: Section, mach: float) -> tuple[float, float]:
+    zero = float(section_.table.zero_lift_alpha(mach)) + section_.incidence_offset
+    return float(section_.table.lift_slope(mach)), zero
 
 
 class Annuli(NamedTuple):

@@ -22,7 +22,6 @@ leaves it out of the unknowns.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rotor.aero.elements import TrimState, Unknown
@@ -30,7 +29,7 @@ from rotor.aero.problem import Problem
 from rotor.aero.section import FZ
 from rotor.columns.bending import FLAPPING_STATES, bends
 from rotor.design.design import Design
-from rotor.engine.terms import Structure
+from rotor.engine.terms import Structure, Sum
 from rotor.engine.waves import COS, SIN, STEADY
 
 
@@ -130,9 +129,7 @@ def declare_equations(s: Structure, trim: Trim) -> None:
             s.equation(name)
 
 
-def add_equations(
-    s: Structure, trim: Trim, drag: Sequence[tuple[float, int, int, int]], torque: Sequence[tuple[float, int, int, int]]
-) -> None:  # fmt: skip
+def add_equations(s: Structure, trim: Trim, drag: Sum, torque: Sum) -> None:
     """Their terms, see the head of this file; H and C_Q: of `power_of_air`."""
     z, q = {**s.numbers, **s.states, **s.derived}, s.measure
     thrust = q(FZ, "one", STEADY)

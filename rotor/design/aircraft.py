@@ -128,6 +128,9 @@ class FlightCondition:
     climb_speed: float = 0.0
     """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
 
+    rotor_speed_percent: float = 100.0
+    """Ω over that of the rotor file [%]; the tail rotor is geared to it."""
+
     def __post_init__(self) -> None:
         tested = self.stand is not None
         for row in CONDITION.values():
@@ -137,6 +140,11 @@ class FlightCondition:
             raise ValueError(
                 f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
                 "through the disk"
+            )
+        if self.stand is not None and self.stand.tip_mach is not None and self.rotor_speed_percent != 100.0:
+            raise ValueError(
+                f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast "
+                "the rotor turns: give one of them"
             )
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
@@ -208,7 +216,7 @@ def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
 def changed_condition(
     condition: FlightCondition, tip_speed: float, asked: Mapping[str, Any], **fields: Any
 ) -> FlightCondition:
-    """The condition with the quantities asked for, by name; None leaves one as it is. `tip_speed` is ΩR [m/s].
+    """The condition with the quantities asked for, by name; None leaves one as it is. `tip_speed` is ΩR [m/s] as built.
 
     `fields`: of the condition, where nothing else is asked for.
 
@@ -226,7 +234,8 @@ def changed_condition(
     if hover:
         changed["advance_ratio"] = 0.0
     elif "speed_kt" in given:
-        changed["advance_ratio"] = QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / tip_speed
+        share = changed.get("rotor_speed_percent", condition.rotor_speed_percent) / 100.0
+        changed["advance_ratio"] = QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / (tip_speed * share)
     return replace(condition, **(fields | changed))
 
 

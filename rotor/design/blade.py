@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -191,6 +191,9 @@ class Rotor:
     precone: float | None = None
     """Coning angle that the hub fixes [rad], as a gimbal or a teetering bar does; None: the blades cone freely."""
 
+    own_speed: float | None = field(default=None, repr=False)
+    """Ω as built [rad/s] where the rotor turns at another; None where it turns as built."""
+
     def __post_init__(self) -> None:
         if self.blades < 2 or self.radius <= 0.0 or self.angular_speed <= 0.0:
             raise ValueError(
@@ -202,6 +205,13 @@ class Rotor:
     def __repr__(self) -> str:
         size = f"{self.blades} blades, R {self.radius:.4g} m, tip speed {self.tip_speed:.4g} m/s"
         return f"Rotor({self.name}, {size}, twist {self.builtin_twist.spec()})"
+
+    def at_speed(self, percent: float) -> "Rotor":
+        """The same rotor at this part of the speed it is built for; 100 is itself."""
+        own = self.angular_speed if self.own_speed is None else self.own_speed
+        if percent == 100.0:
+            return self if self.own_speed is None else replace(self, angular_speed=own, own_speed=None)
+        return replace(self, angular_speed=own * (percent / 100.0), own_speed=own)
 
     @property
     def tip_speed(self) -> float:

@@ -177,6 +177,7 @@ class Design:
 
     def __post_init__(self) -> None:
         check_root_pitch(self.pitch_per_rev)
+        object.__setattr__(self, "rotor", self.rotor.at_speed(self.condition.rotor_speed_percent))
         trim, stand = self.models.trim, self.condition.stand
         if self.condition.climb_speed and not self.models.disk_axial_flow:
             raise ValueError(
@@ -227,6 +228,7 @@ class Design:
         mass_kg: float | None = None,
         altitude_m: float | None = None,
         climb_m_s: float | None = None,
+        rotor_speed_percent: float | None = None,
     ) -> "Design":
         """The same design at another flight condition; what is left out stays as it is.
 
@@ -234,7 +236,7 @@ class Design:
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
         asked = locals()
-        return replace(self, condition=changed_condition(self.condition, self.rotor.tip_speed, asked))
+        return replace(self, condition=changed_condition(self.condition, self.rotor.at_speed(100.0).tip_speed, asked))
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """The same design with another twist: a law, or a SPEC as `parse_twist` reads it.
@@ -250,7 +252,7 @@ class Design:
 
     def to_dict(self) -> dict[str, Any]:
         """The record of a design file: texts, numbers and lists only."""
-        changed = self.rotor != self.aircraft.rotor_for(self.preset)
+        changed = self.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
         # Where Prandtl's factors act is always in a file of the preset `thesis`: see `design_from_record`.

@@ -7,7 +7,7 @@ quantity of studies and sweeps, columns of tables, keys of JSON, and on the page
 by the name of the page's input. `ARGUMENTS`, `CONDITION`, `SWITCHES` and `STAND` are the rows of a kind, in order.
 `row.of(design)` is the value that a design has, in the unit at the end of the name, `row.put(design, value)` the
 design with another, `row.check(value)` refuses what lies outside its bounds, `row.said(value)` is it in words, and
-`row.slider` what the page shows. How to add one: docs/quantities.md. One file, because it is one table.
+`row.slider` what the page shows. How to add one: CONTRIBUTING.md. One file, because it is one table.
 """
 
 from typing import Literal, get_args
@@ -154,6 +154,13 @@ _CONDITION = (
         input="climb_m_s", slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
         aviation=Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)"),
         hint="Rate of climb, negative in descent; µ is of the horizontal speed. | section 2",
+    ),
+    Quantity(
+        "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays",
+        place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", low=70.0, high=110.0,
+        default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm", section="fixed",
+        input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
+        hint="Rotor speed over that of the rotor file; µ stays, and the tail rotor is geared to it. | section 2",
     ),
 )  # fmt: skip
 

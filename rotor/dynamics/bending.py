@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array, Integers, read_only
 from rotor.design.blade import BladeStructure
 
 ELEMENTS = 40
@@ -175,6 +175,7 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=32)
+@read_only
 def blade_bending_modes(
     structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...],
     count: tuple[int, int],

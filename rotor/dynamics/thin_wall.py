@@ -74,12 +74,6 @@ def free_strain_in_wall_axes(layer: Layer) -> Array:
     return strain_rotation(-layer.angle) @ np.array([*layer.free_strain, 0.0])
 
 
-def blocked_shear_flow(layer: Layer) -> float:
-    """Shear flow of a blocked sheet [N/m]; at 45° ½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2], zero for an isotropic one."""
-    blocked = rotated_stiffness(layer.material, layer.angle) @ free_strain_in_wall_axes(layer)
-    return layer.thickness * float(blocked[2])
-
-
 @dataclass(frozen=True, eq=False)
 class Wall:
     """A laminate as a beam's wall, free of hoop force: N_x, q = stiffness · (ε_x, γ) − actuation."""
@@ -233,11 +227,6 @@ def _extension_at_centre(section: WallSection) -> float:
 def induced_twist_rate(section: WallSection) -> float:
     """θ'_a of the free section at the full voltage range of its plies [rad/m]."""
     return respond(section, voltage=1.0).twist_rate
-
-
-def actuation_moment(section: WallSection) -> float:
-    """M_a = GJ θ'_a: the end moment that twists the passive section by the same rate [N m]."""
-    return torsional_stiffness(section) * induced_twist_rate(section)
 
 
 def mass_per_length(section: WallSection) -> float:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh, solveh_banded
 
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.blas_threads import one_blas_thread
 from rotor.design.blade import BladeStructure
 
@@ -181,6 +181,7 @@ def torsion_modes(beam: TorsionBeam, count: int) -> TorsionModes:
 
 
 @lru_cache(maxsize=32)
+@read_only
 def blade_modes(structure: BladeStructure, angular_speed: float, count: int) -> TorsionModes:
     """The modes of a blade at a rotor speed [rad/s], on its control system."""
     return torsion_modes(torsion_beam(structure, angular_speed, control=True), count)

@@ -368,9 +368,7 @@ def _coefficient_slopes(point: Point) -> csr_matrix:
     _, i, j, factor = structure.column_arrays
     order, indices, first = structure.by_atom
     values = np.concatenate([factor * z[j], factor * z[i]])[order]
-    own = csr_matrix((len(first) - 1, len(structure.coefficient_places)))
-    own.data, own.indices, own.indptr = values, indices, first  # Their check takes longer than a product.
-    return own
+    return csr_matrix((values, indices, first), (len(first) - 1, len(structure.coefficient_places)))
 
 
 def _measure_slopes(point: Point) -> Array:

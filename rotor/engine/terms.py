@@ -49,6 +49,7 @@ Term = tuple[int, int, int, int, float] | tuple[int, int, int, int, float, int]
 """(equation, measure, z_i, z_j, factor), and a number by which it is multiplied."""
 
 
+Sum = list[tuple[float, int, int, int]]
 Addend = tuple[float, int, int, int] | tuple[float, int, int, int, int]
 """(factor, z_i, z_j, Q) and a number: of a sum."""
 
@@ -218,10 +219,6 @@ class Structure:
         """1, numbers and states."""
         return 1 + len(self.numbers) + len(self.states)
 
-    @property
-    def atoms(self) -> int:
-        return self.given + len(self.derived)
-
     @fixed_property
     def first_state(self) -> int:
         return 1 + len(self.numbers)
@@ -295,7 +292,7 @@ class Structure:
         atoms, column = np.concatenate([i, j]) - self.first_state, np.tile(column, 2)
         order = np.argsort(atoms, kind="stable")
         order = order[atoms[order] >= 0]
-        first = np.searchsorted(atoms[order], np.arange(self.atoms - self.first_state + 1))
+        first = np.searchsorted(atoms[order], np.arange(self.given + len(self.derived) - self.first_state + 1))
         return order, column[order].astype(np.int32), first.astype(np.int32)
 
     @fixed_property

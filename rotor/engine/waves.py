@@ -1,11 +1,11 @@
 """Waves around the azimuth, numbered 1, cos ψ, sin ψ, cos 2ψ, …: products of two, rates, and their values on a grid."""
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array, Integers, fixed_property, read_only
 
 STEADY, COS, SIN = range(3)
 """The first three waves."""
@@ -39,6 +39,7 @@ def times_wave(p: int, s: int) -> list[tuple[int, float]]:
 
 
 @lru_cache(maxsize=16)
+@read_only
 def products(waves: int) -> tuple[Integers, Array]:
     """Numbers and factors of `times_wave` for all pairs of waves, (2, waves, waves) both."""
     number, factor = np.zeros((2, waves, waves), dtype=np.int64), np.zeros((2, waves, waves))
@@ -63,22 +64,22 @@ class WaveGrid:
     waves: int
     azimuths: int
 
-    @cached_property
+    @fixed_property
     def psi(self) -> Array:
         """[rad], (azimuths,)"""
         return 2.0 * np.pi * np.arange(self.azimuths) / self.azimuths
 
-    @cached_property
+    @fixed_property
     def at(self) -> Array:
         """(waves, azimuths)"""
         return waves_at(self.waves, self.psi)
 
-    @cached_property
+    @fixed_property
     def mean(self) -> Array:
         """By which a function of azimuth becomes its means with the waves, (azimuths, waves)."""
         return np.ascontiguousarray(self.at.T / self.azimuths)
 
-    @cached_property
+    @fixed_property
     def mean_of_products(self) -> Array:
         """The same with all waves in products of two, one in a row, (2 waves − 1, azimuths)."""
         return waves_at(2 * self.waves - 1, self.psi) / self.azimuths

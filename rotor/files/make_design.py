@@ -108,6 +108,7 @@ def make_design(
     mass_kg: float | None = None,
     altitude_m: float | None = None,
     climb_m_s: float | None = None,
+    rotor_speed_percent: float | None = None,
     preset: str | None = None,
     inflow: str | None = None,
     low_speed: str | None = None,

@@ -12,7 +12,7 @@ the shipped table.
 
 import math
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache
 
 import numpy as np
 import scipy
@@ -22,7 +22,7 @@ from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import LiftingLine, influence
 from rotor.aero.problem import build_problem
-from rotor.arrays import Array
+from rotor.arrays import Array, fixed_property, read_only
 from rotor.assets import asset_path, csv_rows
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
@@ -51,17 +51,17 @@ class LinesInWake:
     line: LiftingLine
     course: WakeCourse
 
-    @cached_property
+    @fixed_property
     def matrix(self) -> Array:
         """A, (points, points)."""
         return influence(self.line, self.course)
 
-    @cached_property
+    @fixed_property
     def dr(self) -> Array:
         """Widths of the panels, (panels,)."""
         return np.diff(self.line.edges)
 
-    @cached_property
+    @fixed_property
     def u_t(self) -> Array:
         """r + µ_x sin ψ, (panels, azimuths)."""
         return self.line.r[:, None] + self.course.mu_x * np.sin(self.line.psi)
@@ -320,6 +320,7 @@ def _between(x: float, places: Array, values: Array) -> float:
 
 
 @cache
+@read_only
 def _table() -> tuple[Array, Array, Array]:
     """Advance ratios, thrust coefficients, lift-limited κ (speeds, thrusts)."""
     rows = csv_rows(asset_path("ideal_bound.csv"))

@@ -89,7 +89,7 @@ def over_conditions(
             raise TypeError(f"condition {pair!r} is not a pair: give advance ratio and weight, {example}")
         where, weight = pair
         if isinstance(where, Design):
-            if where.rotor.tip_speed != design.rotor.tip_speed:
+            if where.rotor.at_speed(100.0).tip_speed != design.rotor.at_speed(100.0).tip_speed:
                 raise ValueError(f"a condition of {where.rotor.name} for {design.rotor.name}: give the same rotor")
             flight = where.condition
         else:

@@ -291,18 +291,32 @@ def optimise(
 ) -> Optimum:
     """The twist of a concept with the least power, or vibration, at the design's own flight condition or over several.
 
-    concept: `linear`, `quadratic`, `two-segment`, `three-segment`, `free-form` or another name in `CONCEPTS`.
-    conditions: pairs of advance ratio and weight, `[(0.0, 1), (0.3, 2)]`, whose weighted mean is made small; in place
-    of an advance ratio a design, as in `(design.at(speed_kt=140, mass_kg=9000), 2)`, whose flight condition counts.
-    division: r/R where the segments meet, for the concepts that hold it fixed.
-    quantity: what to make small: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
-    N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
-    limits: `rotor.Limits` on twist rates, on the change of twist, on the stalled area and on the vibration index; by
-    default the concept's own bounds.
-    starts, seed: number of descents, and the seed of their starting points.
+    Parameters:
+        design: the design whose twist is replaced; its own twist is the baseline of `saving_percent`.
+        concept: `linear`, `quadratic`, `two-segment`, `three-segment`, `free-form` or another name in `CONCEPTS`.
+        conditions: pairs of advance ratio and weight, `[(0.0, 1), (0.3, 2)]`, whose weighted mean is made small; in
+            place of an advance ratio a design, as in `(design.at(speed_kt=140, mass_kg=9000), 2)`, whose flight
+            condition counts.
+        division: r/R where the segments meet, for the concepts that hold it fixed.
+        quantity: what to make small: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
+            N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
+        limits: `rotor.Limits` on twist rates, on the change of twist, on the stalled area and on the vibration index;
+            by default the concept's own bounds.
+        starts: number of descents.
+        seed: of their starting points.
 
-    The design's own twist is the baseline of `saving_percent`. A search always returns; its `status` and `message` say
-    how it ended. Raises TypeError or ValueError with one sentence for an argument that cannot be used.
+    Returns:
+        The optimum. A search always returns; its `status` and `message` say how it ended.
+
+    Raises:
+        TypeError: an argument is of another type.
+        ValueError: an argument cannot be used; one sentence names the value and the remedy.
+
+    Example:
+        >>> design = rotor.make_design(inflow="uniform", mu=0.2)
+        >>> optimum = rotor.optimise(design, "linear", starts=1)
+        >>> optimum.best.power <= optimum.baseline_power  # [W]
+        True
     """
     for name, value in (("starts", starts), ("seed", seed)):
         if not isinstance(value, int):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything

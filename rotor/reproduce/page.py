@@ -6,13 +6,13 @@ import importlib
 import math
 from collections import Counter
 from collections.abc import Sequence
-from html import escape as escape_html
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from rotor.assets import asset_path
 from rotor.chart import Chart
+from rotor.markup import Content, Markup, document, group, tag
 from rotor.plots import draw_chart
 from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
 from rotor.reproduce.misprints import misprint_table
@@ -100,10 +100,6 @@ COLOURS = {
 }
 
 
-def escape(text: str) -> str:
-    return escape_html(typographic(text))
-
-
 TALK = "today.html"
 MISPRINTS_PAGE = "misprints.html"
 
@@ -114,131 +110,168 @@ def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> N
     if report is None:
         return
     answer, *others = report.tables
-    rows = "".join(f"<dt>{escape(str(words))}</dt><dd>{escape(str(text))}</dd>" for words, text in answer.rows)
-    files = " · ".join(f'<a href="{csv_name(report, one)}">CSV {escape(one.name)}</a>' for one in others)
+    rows = [(tag("dt", typographic(str(words))), tag("dd", typographic(str(text)))) for words, text in answer.rows]
+    files = [tag("a", f"CSV {typographic(one.name)}", href=csv_name(report, one)) for one in others]
+    picture = tag("div", _image(report, folder), tag("p.small", typographic(report.caption)))
     body = (
-        f"<p class=lead>{escape(report.ours)}</p><div class=two><div>{_image(report, folder)}"
-        f"<p class=small>{escape(report.caption)}</p></div><dl>{rows}</dl></div>"
-        f"<p class=small>{escape(report.because)} {files}</p>"
+        tag("p.lead", typographic(report.ours)),
+        tag("div.two", picture, tag("dl", rows)),
+        tag("p.small", typographic(report.because), " ", _listed(files)),
     )
     _write_beside(folder / TALK, "What the thesis would have found", body, kind="talk")
 
 
 def write_misprints(folder: Path) -> Path:
     """Write the page of what the thesis omits or misprints into `folder`; its path."""
-    shown = f'<div class="shown text">{_rows(misprint_table())}</div>'
-    body = f"<p>Each with two lines that were run to make this page.</p>{shown}"
+    body = (
+        tag("p", "Each with two lines that were run to make this page."),
+        tag("div.shown.text", _rows(misprint_table())),
+    )
     return _write_beside(folder / MISPRINTS_PAGE, "What the thesis omits or misprints", body)
 
 
-def _write_beside(path: Path, title: str, body: str, kind: str = "") -> Path:
+def _write_beside(path: Path, title: str, body: Content, kind: str | None = None) -> Path:
     """Write a page that leads back to the index; its path."""
-    back = '<p class=small><a href="index.html">The thesis, rebuilt</a></p>'
-    path.write_text(f"{_opening(title, kind)}{back}<h1>{title}</h1>{body}</main></html>\n", encoding="utf-8")
+    back = tag("p.small", tag("a", "The thesis, rebuilt", href="index.html"))
+    path.write_text(_page(title, back, tag("h1", title), body, kind=kind), encoding="utf-8")
     return path
+
+
+def _page(title: str, *content: Content, kind: str | None = None) -> str:
+    """A whole file."""
+    style = Markup(asset_path("thesis_page.css").read_text(encoding="utf-8"))
+    head = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("title", typographic(title)),
+        tag("meta", name="viewport", content="width=device-width,initial-scale=1"),
+        tag("style", style),
+    )
+    return document(head, tag("body", tag("main", *content)), lang="en", class_=kind)
+
+
+def _listed(parts: Sequence[Markup]) -> list[Content]:
+    """With dots between them."""
+    return [part for one in parts for part in (" · ", one)][1:]
 
 
 def _talk_of(made: Sequence[tuple[CatalogueEntry, Report]]) -> Report | None:
     return next((report for entry, report in made if entry.number == "today"), None)
 
 
-def _opening(title: str, kind: str = "") -> str:
-    return (
-        f'<!doctype html><html lang="en" class="{kind}"><meta charset="utf-8"><title>{escape(title)}</title>'
-        '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<style>{asset_path('thesis_page.css').read_text(encoding='utf-8')}</style><main>"
-    )
-
-
-def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> str:
+def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
     counts = Counter(report.verdict for _, report in made)
     summary = ", ".join(
         f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.NO_REFERENCE
     )
     checkable, captions = (sum(getattr(report, name) for _, report in made) for name in ("checkable", "caption_only"))
     drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
-    rows = "".join(
-        f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
-        f"<td>{escape(report.statement)}</td></tr>"
+    rows = [
+        tag(
+            "tr",
+            tag("td", tag("a", typographic(report.title), href=f"#{report.stem}")),
+            tag("td", _chip(report.verdict)),
+            tag("td", typographic(report.statement)),
+        )
         for _, report in made
-    )
-    talk = f' <a href="{TALK}">Its main results then and now, on one page</a>.' if _talk_of(made) else ""
-    return (
-        f"{_opening('The thesis, rebuilt')}<h1>The thesis, rebuilt</h1>"
-        "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
-        "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
-        "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
-        "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
-        "the captions.</p>"
-        f"<p>{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {captions} ours under its "
-        f"captions; {len(made) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures of the "
-        "thesis that show nothing of its model, not rebuilt. "
-        f'<a href="{MISPRINTS_PAGE}">What the thesis omits or misprints</a>.{talk}</p>'
-        f"<details open><summary>Contents</summary><table class=toc>{rows}</table>"
-        f"<p class=small>Not rebuilt: figures {escape(drawings)}.</p></details>"
+    ]
+    talk = (" ", tag("a", "Its main results then and now, on one page", href=TALK), ".") if _talk_of(made) else None
+    return group(
+        tag("h1", "The thesis, rebuilt"),
+        tag(
+            "p",
+            "Figures and tables of M. Lonoce, ",
+            tag("i", "Helicopter Blade Twist Optimization in Forward Flight"),
+            " (MSc thesis, Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken "
+            "from there. ",
+            tag("b", "thesis"),
+            " is the model as printed, ",
+            tag("b", "flight"),
+            " the best available, ",
+            tag("b", "thesis-wake"),
+            " the thesis preset with a wake that responds to loading. The text is available up to figure 3.15; of "
+            "chapters 4 to 6 only the captions.",
+        ),
+        tag(
+            "p",
+            f"{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {captions} ours under its "
+            f"captions; {len(made) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures of "
+            "the thesis that show nothing of its model, not rebuilt. ",
+            tag("a", "What the thesis omits or misprints", href=MISPRINTS_PAGE),
+            ".",
+            talk,
+        ),
+        tag(
+            "details",
+            tag("summary", "Contents"),
+            tag("table.toc", rows),
+            tag("p.small", f"Not rebuilt: figures {typographic(drawings)}."),
+            open=True,
+        ),
     )
 
 
-def _article(report: Report, folder: Path) -> str:
-    image = _image(report, folder) if report.panels else ""
-    files = [f'<a href="{csv_name(report, one)}">CSV {escape(one.name.replace("_", " "))}</a>' for one in report.tables]
+def _article(report: Report, folder: Path) -> Markup:
+    image = _image(report, folder) if report.panels else None
+    files = [
+        tag("a", f"CSV {typographic(one.name.replace('_', ' '))}", href=csv_name(report, one)) for one in report.tables
+    ]
     if image:
-        files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
-    tables = "".join(_details(one) for one in report.tables if not one.shown)
-    result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
+        files += [tag("a", end.upper(), href=f"{report.stem}.{end}") for end in ("svg", "png")]
     words = (("The thesis", report.statement), ("Ours", report.ours),
              (report.verdict.value.capitalize(), report.because))  # fmt: skip
-    said = "".join(f"<dt>{escape(head)}</dt><dd>{escape(text)}</dd>" for head, text in words)
-    said = f"<dl>{said}</dl>"
+    said = tag("dl", [(tag("dt", head), tag("dd", typographic(text))) for head, text in words])
     if report.caption_only:
-        more = f"<details><summary>more</summary><p>{escape(report.because)} {escape(report.statement)}</p></details>"
-        said = f"<p>{escape(report.ours)}</p>{more}"
-    return (
-        f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
-        f"<div>{escape(report.caption)}</div>{image}{result}{said}"
-        f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
+        more = tag("summary", "more"), tag("p", typographic(f"{report.because} {report.statement}"))
+        said = group(tag("p", typographic(report.ours)), tag("details", *more))
+    return tag(
+        "article",
+        tag("h3", typographic(report.title), " ", _chip(report.verdict)),
+        tag("div", typographic(report.caption)),
+        image,
+        [tag(f"div.{_shown_as(one)}", _rows(one)) for one in report.tables if one.shown],
+        said,
+        tag("div.small.files", _listed(files)),
+        [_details(one) for one in report.tables if not one.shown],
+        id=report.stem,
     )
 
 
-def _image(report: Report, folder: Path) -> str:
+def _image(report: Report, folder: Path) -> Markup:
     data = base64.b64encode((folder / f"{report.stem}.svg").read_bytes()).decode("ascii")
     # In print a picture of three rows and more is higher.
     kind = "tall" if len(report.panels) > 4 and len(report.panels) % 3 else "plot"
-    return f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+    return tag(f"img.{kind}", alt=typographic(report.title), src=f"data:image/svg+xml;base64,{data}")
 
 
-def _details(one: ReportTable) -> str:
-    left = f"<p class=small>{len(one.rows) - ROWS} more rows in the CSV.</p>" if len(one.rows) > ROWS else ""
-    return (
-        f"<details><summary>{escape(one.name.replace('_', ' '))}</summary><div class=scroll>{_rows(one)}</div>"
-        f"{left}</details>"
-    )
+def _details(one: ReportTable) -> Markup:
+    left = tag("p.small", f"{len(one.rows) - ROWS} more rows in the CSV.") if len(one.rows) > ROWS else None
+    title = tag("summary", typographic(one.name.replace("_", " ")))
+    return tag("details", title, tag("div.scroll", _rows(one)), left)
 
 
-def _rows(one: ReportTable) -> str:
+def _rows(one: ReportTable) -> Markup:
     """The first rows of a table, for the page."""
-    head = "".join(f"<th>{escape(column)}</th>" for column in one.columns)
-    body = "".join("<tr>" + "".join(_cell(cell) for cell in row) + "</tr>" for row in one.rows[:ROWS])
-    return f"<table><tr>{head}</tr>{body}</table>"
+    head = tag("tr", [tag("th", typographic(column)) for column in one.columns])
+    return tag("table", head, [tag("tr", map(_cell, row)) for row in one.rows[:ROWS]])
 
 
-def _cell(cell: TableCell) -> str:
+def _cell(cell: TableCell) -> Markup:
     if not isinstance(cell, str):
-        return f"<td>{cell:.5g}</td>"
+        return tag("td", f"{cell:.5g}")
     if "\n" in cell:
-        return f"<td class=code>{escape_html(cell)}</td>"  # To be copied: its hyphens stay.
-    kind = " class=yes" if cell.startswith("yes ") else ""
-    return f"<td{kind}>{escape(cell)}</td>"
+        return tag("td.code", cell)  # To be copied: its hyphens stay.
+    return tag("td.yes" if cell.startswith("yes ") else "td", typographic(cell))
 
 
 def _shown_as(one: ReportTable) -> str:
-    """Class of an open table: sentences may be broken into lines, numbers not."""
+    """Classes of an open table: sentences may be broken into lines, numbers not."""
     longest = max(len(cell) for row in one.rows for cell in row if isinstance(cell, str))
-    return "shown text" if longest > LONG else "shown"
+    return "shown.text" if longest > LONG else "shown"
 
 
-def _chip(verdict: Agreement) -> str:
-    return f'<span class=chip style="background:{COLOURS[verdict]}">{verdict.value}</span>'
+def _chip(verdict: Agreement) -> Markup:
+    return tag("span.chip", verdict.value, style=f"background:{COLOURS[verdict]}")
 
 
 @CachedFunction
@@ -276,9 +309,9 @@ def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Pa
     write_misprints(folder)
     write_talk(made, folder)
     parts = [_head(made)]
-    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
-        parts.append(f"<h2>{escape(chapter)}</h2>")
-        parts += [_article(report, folder) for _, report in group]
+    for chapter, entries in groupby(made, key=lambda pair: pair[0].chapter):
+        parts.append(tag("h2", typographic(chapter)))
+        parts += [_article(report, folder) for _, report in entries]
     path = folder / "index.html"
-    path.write_text("\n".join([*parts, "</main></html>\n"]), encoding="utf-8")
+    path.write_text(_page("The thesis, rebuilt", parts), encoding="utf-8")
     return path

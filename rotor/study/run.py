@@ -74,8 +74,30 @@ def run_study(
 ) -> Results:
     """Compute the points of a study file, or those that are still missing in its folder, and return its results.
 
-    study: the study file. executor: where its chunks are computed. out: the folder of its results. workers: processes
-    of this machine. notify: called with the points done and all points after each chunk.
+    Parameters:
+        study: a study file, or the name of a shipped one (docs/scale.md).
+        executor: where chunks are computed: any `concurrent.futures.Executor` whose workers have this package, for
+            example `client.get_executor()` of a Dask client, or `mpi4py.futures.MPIPoolExecutor()`. By default
+            processes of this machine.
+        out: the folder of the results, by default named as the file.
+        workers: how many processes of this machine, by default one per core.
+        notify: called with the number of points done, and of all points, after each chunk.
+
+    Returns:
+        The whole table: `columns["power_total_w"]` and others by name, arrays by point.
+
+    Raises:
+        TypeError: the executor is none.
+        ValueError: the file or the folder cannot be used, or a worker has another version; one sentence with the
+            remedy. MissingExtra, one of these, where pyarrow is not installed.
+        RuntimeError: the executor is gone, chunks repeatedly stopped their workers, or the disk is full. Finished
+            chunks are kept, and the next call continues.
+
+    Example:
+        >>> _ = pathlib.Path("speeds.toml").write_text("axes.mu = [0.1, 0.2]")
+        >>> results = rotor.run_study("speeds.toml", workers=1)
+        >>> results.columns["mu"].tolist()
+        [0.1, 0.2]
     """
     if executor is not None and not isinstance(executor, Executor):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(

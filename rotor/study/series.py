@@ -119,14 +119,34 @@ def sweep(
     mass_kg: Iterable[float] | None = None,
     altitude_m: Iterable[float] | None = None,
     climb_m_s: Iterable[float] | None = None,
+    rotor_speed_percent: Iterable[float] | None = None,
 ) -> SweepTable:
     """Solve the design, or each of several, over one quantity of the flight condition, in order.
 
-    mu, speed_kt and the others, as in `Design.at`: the values of one of them; all else stays as in the design.
-    start: an earlier solution to begin from, for designs of the same rotor.
+    Each trim starts from the last that converged.
 
-    Each trim starts from the last that converged. Raises TypeError or ValueError with one sentence, before anything is
-    solved, where a design or a value cannot be used.
+    Parameters:
+        design: one design, or several.
+        mu: advance ratios. Give this or one of the next four; all else stays as in the design.
+        start: an earlier solution to begin from, for designs of the same rotor.
+        speed_kt: airspeeds [kt].
+        mass_kg: masses of the aircraft [kg].
+        altitude_m: pressure altitudes [m].
+        climb_m_s: rates of climb, negative in descent [m/s].
+
+    Returns:
+        The solutions in order, also those that did not converge, as a table.
+
+    Raises:
+        TypeError: a design is none, or not one quantity is given. Nothing has been solved then.
+        ValueError: a value cannot be used.
+
+    Example:
+        >>> table = rotor.sweep(rotor.make_design(inflow="uniform"), mu=[0.1, 0.2, 0.3])
+        >>> table.to_dict()["mu"]
+        [0.1, 0.2, 0.3]
+        >>> [solution.converged for solution in table]
+        [True, True, True]
     """
     asked = locals()
     axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked[name] is not None}
@@ -162,12 +182,30 @@ def schedule(
 ) -> Schedule:
     """The best twist at each advance ratio, the best fixed blade, and what a twist that moves saves beyond it.
 
-    concepts: names in `rotor.optimisation.CONCEPTS`, for example `linear` or `two-segment`.
-    hours: time at each advance ratio [h]; by default the same at all.
-    quantity, limits, starts, seed: as in `optimise`. processes: how many to use.
+    Parameters:
+        design: the design whose twist is replaced; its own twist is the baseline.
+        mu: advance ratios.
+        concepts: names in `rotor.optimisation.CONCEPTS`, for example `linear` or `two-segment`.
+        hours: time at each advance ratio [h]; by default the same at all.
+        quantity: what to make small, as in `optimise`.
+        limits: of each search, as in `optimise`.
+        starts: number of descents in each search.
+        seed: of their starting points.
+        processes: processes of this machine; the numbers do not depend on them.
 
-    `Schedule.at(k, concept)` is the optimum at the k-th advance ratio in ascending order, `at(None, concept)` the fixed
-    blade, `in_flight_gain(concept)` the gain of moving. Raises ValueError with one sentence for what cannot be used.
+    Returns:
+        `Schedule.at(k, concept)` is the optimum at the k-th advance ratio in ascending order, `at(None, concept)` the
+        fixed blade, `in_flight_gain(concept)` the gain of moving.
+
+    Raises:
+        TypeError: the design or the advance ratios are of another type.
+        ValueError: a concept, a speed or a limit cannot be used.
+
+    Example:
+        >>> design = rotor.make_design(inflow="uniform", elements=12, azimuths=24)
+        >>> gain = rotor.schedule(design, mu=[0.1, 0.3], starts=1).in_flight_gain("linear")
+        >>> gain.moving <= gain.fixed <= gain.baseline  # mean power [W]
+        True
     """
     if isinstance(mu, str) or not hasattr(mu, "__iter__"):
         raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={list(SWEPT['mu'].examples)}")

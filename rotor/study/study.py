@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.quantities import BESIDE, STAND
@@ -155,6 +155,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 
 
 @cache
+@read_only
 def _spread(sample: Sample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
     from scipy.stats import qmc  # Here, for it takes 0.4 s to import.

@@ -14,6 +14,7 @@ from functools import lru_cache
 from itertools import chain
 
 from rotor.aero.elements import TrimState
+from rotor.aero.inflow import inflow_model
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
@@ -31,16 +32,20 @@ SLOWEST = 1e-4
 """Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
 
 
-def with_course(problem: Problem, flown: Design | None = None) -> Problem:
-    """The problem with the course of its wake, or that of `flown`; itself where the inflow has none, and in hover."""
-    design = flown or problem.design
-    if design.hovering or not problem.inflow.fine_tip:
-        return problem
+def with_course(problem: Problem) -> Problem:
+    """The problem with the course of its wake; itself where the inflow has none, and in hover."""
+    course = found_course(problem.design)
+    return problem if course is None else replace(problem, course=course)
+
+
+def found_course(design: Design) -> WakeCourse | None:
+    """The course of the wake of a design; None where the inflow has none or it is not found, and in hover."""
+    if design.hovering or not inflow_model(design.models.inflow).fine_tip:
+        return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
-    course = _course(
+    return _course(
         replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
     )
-    return problem if course is None else replace(problem, course=course)
 
 
 @lru_cache(maxsize=64)

@@ -20,7 +20,7 @@ import numpy as np
 from rotor.aero.bending import BladeBending, can_bend
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
 from rotor.engine.linearise import Point
@@ -212,6 +212,7 @@ class Deflections:
 
 
 @lru_cache(maxsize=4)
+@read_only
 def deflections(solution: Solution) -> Deflections | None:
     """Of a converged solution; None where its blades do not bend. Deflections are small and to first order.
 

@@ -19,12 +19,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from rotor.aero.inflow import Wake, inflow_model
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
-from rotor.arrays import Array
+from rotor.arrays import Array, fix
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
-from rotor.trim.forward import SLOWEST, with_course
+from rotor.trim.forward import SLOWEST, found_course, with_course
 from rotor.trim.hover import hover
 from rotor.trim.newton import TrimResult
 
@@ -48,8 +49,8 @@ class HoverDifference:
 
 
 @lru_cache(maxsize=32)
-def hover_difference(design: Design) -> HoverDifference | None:
-    """The difference for a hovering design; None where hover does not converge."""
+def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifference | None:
+    """The difference for a hovering design with the course of its wake at `SLOWEST`; None where it does not hover."""
     problem = build_problem(design)
     hovering = hover(problem)
     if not hovering.converged:
@@ -57,10 +58,13 @@ def hover_difference(design: Design) -> HoverDifference | None:
     elements, disk = hovering.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
-    axial, slope = with_course(problem, design.at(mu=SLOWEST)).inflow_terms.axial(flow, elements.u_t[:, 0])
+    flown = problem if course is None else replace(problem, course=course)
+    axial, slope = flown.inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     inflow = elements.induced[:, 0] - axial @ load
-    return HoverDifference(hovering, axial, slope * load, inflow, elements.swirl - uniform)
+    found = axial, slope * load, inflow, elements.swirl - uniform
+    fix(found)
+    return HoverDifference(hovering, *found)
 
 
 def axial_share(mu: float, thrust: float) -> float:
@@ -88,7 +92,10 @@ def trim_problem(design: Design, freedoms: Sequence[Freedom] = ()) -> Problem:
 def joined_hover(design: Design) -> tuple[float, HoverDifference] | None:
     """s, and the hovering rotor that a design in forward flight passes over to; None at speed and without hover."""
     share = hover_share(design)
-    difference = hover_difference(replace(in_hover(design), active_twist=None, pitch_per_rev=())) if share else None
+    if not share:
+        return None
+    hovering = replace(in_hover(design), active_twist=None, pitch_per_rev=())
+    difference = hover_difference(hovering, found_course(hovering.at(mu=SLOWEST)))
     return None if difference is None else (share, difference)
 
 

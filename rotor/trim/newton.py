@@ -120,14 +120,6 @@ class TrimResult:
         return LinearisedTrim(self.problem, point)
 
     @property
-    def freedom_states(self) -> dict[str, float]:
-        """States of `Problem.freedoms` by name."""
-        states, own = self.point.system.structure.states, dict[str, float]()
-        for freedom in self.problem.freedoms:
-            own |= {str(name): float(self.point.x[states[name]]) for name in freedom.states}
-        return own
-
-    @property
     def guess(self) -> Guess:
         """A start for trims nearby."""
         if self.problem.design.hovering:

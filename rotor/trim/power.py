@@ -22,6 +22,7 @@ the power.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -77,7 +78,9 @@ def tail_power(design: Design, main: float) -> tuple[float, float]:
     if design.tail_rotor is None or not design.models.tail_rotor_solved:
         return FIXED_SHARE * abs(main), math.copysign(FIXED_SHARE, main)
     speed = design.rotor.angular_speed
-    tail, slope = tail_rotor_power(design.tail_rotor, main / speed, design.flight_speed, design.condition.density)
+    share = design.condition.rotor_speed_percent / 100.0
+    geared = replace(design.tail_rotor, angular_speed=design.tail_rotor.angular_speed * share)
+    tail, slope = tail_rotor_power(geared, main / speed, design.flight_speed, design.condition.density)
     return tail, slope / speed
 
 

@@ -36,13 +36,28 @@ def solve(
     design: Design, start: Solution | Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS, *,
     freedoms: Sequence[Freedom] = (),
 ) -> Solution:  # fmt: skip
-    """Trim the design; `start` is any earlier solution, or a guess, from which the iteration begins.
+    """Trim a design: the controls, inflow and blade motion at which forces and moments balance.
 
-    freedoms: of the blade, beside those of the design, in forward flight with blades that do not bend.
+    Parameters:
+        design: what is trimmed, as `make_design` makes it.
+        start: an earlier solution, or a guess, from which the iteration begins. The answer does not depend on it.
+        options: limits of the iteration.
+        freedoms: of the blade, beside those of the design, in forward flight with blades that do not bend.
 
-    Returns for every design: one that does not trim comes back with `Status.NOT_CONVERGED` and one sentence. Among
-    several trims of a design the one of least power is meant. TypeError for a design, a start or a freedom of another
-    type; ValueError for freedoms where there can be none, or whose equations and `power` contradict their columns.
+    Returns:
+        The trim of least power where there are several. A design that does not trim comes back as well, with
+        `Status.NOT_CONVERGED` and one sentence in `message`.
+
+    Raises:
+        TypeError: a design, a start or a freedom is of another type.
+        ValueError: there can be no freedoms here, or their equations and `power` contradict their columns.
+
+    Example:
+        >>> trim = rotor.solve(rotor.make_design(twist="linear:-8", mu=0.2))
+        >>> trim.converged
+        True
+        >>> 0.0 < trim.power.induced < trim.power.main_rotor < trim.power.total  # [W]
+        True
     """
     begin = time.perf_counter()
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
@@ -89,6 +104,7 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
 
 def _assemble(result: TrimResult, begin: float) -> Solution:
     problem, design, elements = result.problem, result.problem.design, result.linear.elements
+    x, states = result.point.x, result.point.system.structure.states
     total = disk_sums(result.linear.point)
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
@@ -121,7 +137,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=tuple(caveats(problem, elements, total, fields, stalled, moment, power, elastic)) if converged else (),
+        caveats=tuple(caveats(problem, total, fields, stalled, moment, power, elastic)) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -140,7 +156,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         wake_course=course_of(problem),
         linear=result.linear,
         freedoms=problem.freedoms,
-        freedom_states=result.freedom_states,
+        freedom_states={str(name): float(x[states[name]]) for own in problem.freedoms for name in own.states},
         find_hub_loads=partial(hub_loads, solve=solve),
     )
 

@@ -1,7 +1,12 @@
-"""The limits of validity of a solution, and why a design did not trim, in sentences for the user."""
+"""The limits of validity of a solution, and why a design did not trim or a trim is refused, in sentences for the user.
+
+Caveats are a table of name, condition and sentence; it makes the file long, and is read from top to bottom. The
+sentences of failures below share its limits.
+"""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,15 +30,6 @@ HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
 HOVER_CAUTION = 0.12
 """C_T/σ in hover from which maximum lift decides, the least certain part of the section data. Our choice."""
-HOVER_LIMIT = 0.17
-"""Largest C_T/σ: every blade element at its maximum lift, as tests show (Prouty, Helicopter Performance, Stability, and
-Control, 1986, figure 5.2; Bousman, NASA TM-2000-209601, is quoted with 0.18 for SC1095 at tip Mach 0.65)."""
-LARGEST_FLAPPING = math.radians(20.0)
-"""Coning and flapping, whose equations are those of small angles."""
-LARGEST_CONTROL = math.radians(35.0)
-"""Collective at 0.75 R and cyclic: no rotor's controls reach further."""
-LARGEST_TILT = math.radians(40.0)
-"""Shaft tilt: beyond it the rotor flies as a propeller."""
 LARGEST_BUILT_TWIST = math.radians(25.0)
 """Root to tip, with a margin: the UH-60A has 18° nominal. Only tiltrotor blades, propellers in cruise, have more."""
 STALL_SHARE = 0.02
@@ -44,9 +40,280 @@ FAST_PITCH = 0.2
 """Reduced frequency ωc/2V at 0.75 R from which it is named. Our choice: Theodorsen's |C(k)| has fallen to 0.75."""
 
 
+@dataclass(frozen=True)
+class _Trim:
+    """A converged trim, and what several caveats read of it."""
+
+    problem: Problem
+    total: DiskSums
+    fields: DiskFields
+    stalled: float
+    moment: HubMoment
+    power: PowerBudget
+    elastic: ElasticTwist | None
+
+    @property
+    def design(self) -> Design:
+        return self.problem.design
+
+    @property
+    def mu(self) -> float:
+        return self.design.condition.advance_ratio
+
+    @property
+    def on_stand(self) -> bool:
+        return self.design.condition.stand is not None
+
+    @property
+    def fixed_inflow(self) -> bool:
+        """Whether the inflow does not respond to where the lift is."""
+        return not self.problem.inflow.load_dependent
+
+    @property
+    def twist(self) -> float:
+        """From root to tip [rad]."""
+        ends = self.design.twist(np.array([self.design.rotor.blade.root_cutout, 1.0]))
+        return float(ends[1] - ends[0])
+
+    @property
+    def loading(self) -> float:
+        """C_T/σ."""
+        return self.total.thrust / self.design.rotor.solidity
+
+    @property
+    def descent(self) -> tuple[float, float]:
+        """Rate of descent, and that at which the vortex ring state begins, over the induced velocity in hover."""
+        inflow = math.sqrt(0.5 * self.design.weight_coefficient)
+        return -self.design.climb_ratio / inflow, -vortex_ring_edge(self.mu / inflow)
+
+    @property
+    def highest_wave(self) -> int:
+        """The highest harmonic of rotor speed in the pitch."""
+        return max((one.per_rev for wave in self.design.pitch_waves for one in wave.harmonics), default=0)
+
+    @property
+    def reduced_frequency(self) -> float:
+        """ωc/2V of that harmonic at 0.75 R."""
+        return self.highest_wave * self.design.rotor.reference_chord / (1.5 * self.design.rotor.radius)
+
+    @property
+    def control_power(self) -> float:
+        """What pitch links and actuators put into the blades [W]."""
+        return 0.0 if self.elastic is None else self.elastic.control_power
+
+    @property
+    def top_mach(self) -> float:
+        return float(self.fields.mach.max())
+
+    @property
+    def by_polynomials(self) -> bool:
+        """Whether section data are polynomials of one Mach number."""
+        return self.problem.disk.fit_range is not None
+
+    @property
+    def clamped(self) -> float:
+        """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
+        if self.problem.disk.fit_range is None:
+            return 0.0
+        low, high = self.problem.disk.fit_range
+        outside = ((self.fields.alpha < low) | (self.fields.alpha > high)) & (self.fields.u_t >= 0.0)
+        return float(self.fields.cells @ outside.sum(axis=1))
+
+
+@dataclass(frozen=True)
+class _Rule:
+    name: str
+    applies: Callable[[_Trim], object]
+    sentence: Callable[[_Trim], str]
+
+
+_RULES = (
+    _Rule(
+        "teetering",
+        lambda trim: trim.design.aircraft.hub == "teetering" and trim.design.rotor.precone is None,
+        lambda trim: "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
+    ),
+    _Rule(
+        "twist-beyond-built",
+        lambda trim: trim.design.twist != trim.design.rotor.builtin_twist and abs(trim.twist) > LARGEST_BUILT_TWIST,
+        lambda trim: (
+            f"The blade twists by {math.degrees(trim.twist):.0f}° from root to tip; helicopter blades are built with "
+            "about 20° or less. Read the result as an extrapolation."
+        ),
+    ),
+    _Rule(
+        "no-tail-rotor",
+        lambda trim: trim.design.tail_rotor is None and trim.design.models.tail_rotor_solved and not trim.on_stand,
+        lambda trim: (
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
+        ),
+    ),
+    _Rule(
+        "thesis-models",
+        lambda trim: trim.design.preset == "thesis" and trim.design.aircraft.stated is None,
+        lambda trim: (
+            f"The document does not treat the {trim.design.aircraft.name}: these are its models with this rotor's "
+            "blade."
+        ),
+    ),
+    _Rule(
+        "no-blade-structure",
+        lambda trim: trim.design.models.has("elastic_twist") and trim.design.rotor.blade.structure is None,
+        lambda trim: (
+            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "degrees in flight."
+        ),
+    ),
+    _Rule("switched-off", lambda trim: switched_off(trim.design.models), lambda trim: _switches(trim.design)),
+    _Rule(
+        "rigid-blades",
+        lambda trim: not trim.design.models.flapping and trim.mu > 0.0,
+        lambda trim: _rigid(trim.moment),
+    ),
+    _Rule(
+        "rigid-blades-linear-inflow",
+        lambda trim: not trim.design.models.flapping and trim.mu > 0.0 and trim.fixed_inflow,
+        lambda trim: "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
+    ),
+    _Rule(
+        "active-twist-rests",
+        lambda trim: trim.design.active_twist and trim.design.hovering,
+        lambda trim: "Active twist is off in hover, where only the twist law acts.",
+    ),
+    _Rule(
+        "root-pitch-rests",
+        lambda trim: trim.design.pitch_per_rev and trim.design.hovering,
+        lambda trim: "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth.",
+    ),
+    _Rule(
+        "fast-pitch",
+        lambda trim: trim.reduced_frequency > FAST_PITCH and not trim.design.models.dynamic_stall,
+        lambda trim: (
+            f"At {trim.highest_wave}/rev the reduced frequency at 0.75 R is {trim.reduced_frequency:.2f}; section data "
+            "are steady, and only the wake that a lifting line sheds and the damping of the pitch rate answer to it."
+        ),
+    ),
+    _Rule(
+        "control-power",
+        lambda trim: trim.design.pitch_waves and abs(trim.control_power) > CONTROL_SHARE * abs(trim.power.main_rotor),
+        lambda trim: (
+            f"Pitch links and actuators put {trim.control_power / 1e3:.1f} kW into the pitching blades; that is not "
+            "part of the power here."
+        ),
+    ),
+    _Rule(
+        "low-speed-inflow",
+        lambda trim: 0.0 < trim.mu < LOW_SPEED and trim.fixed_inflow,
+        lambda trim: f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {trim.mu:.3f}.",
+    ),
+    _Rule(
+        "low-speed-inflow",
+        lambda trim: 0.0 < trim.mu < LOWEST_SPEED and not trim.fixed_inflow,
+        lambda trim: f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {trim.mu:.3f}.",
+    ),
+    _Rule(
+        "low-speed-not-matched",
+        lambda trim: hover_share(trim.design) and trim.problem.joined is None,
+        lambda trim: (
+            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
+        ),
+    ),
+    _Rule(
+        "vortex-ring",
+        lambda trim: (
+            trim.design.condition.climb_speed < 0.0
+            and trim.descent[0] > -VORTEX_RING_ONSET
+            and trim.descent[1] < math.inf
+        ),
+        lambda trim: (
+            f"The descent is {trim.descent[0]:.2f} of the induced velocity in hover: at this low speed measured inflow "
+            f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {trim.descent[1]:.2f} the vortex "
+            "ring state begins."
+        ),
+    ),
+    _Rule(
+        "beyond-autorotation",
+        lambda trim: trim.power.main_rotor < 0.0 and not trim.on_stand,
+        lambda trim: (
+            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
+            "engine off the rotor turns faster."
+        ),
+    ),
+    _Rule(
+        "installed-power",
+        lambda trim: trim.power.total > (trim.design.aircraft.installed_power or math.inf) and not trim.on_stand,
+        lambda trim: (
+            f"The rotors take {1e-3 * trim.power.total:.0f} kW; the engines give "
+            f"{1e-3 * (trim.design.aircraft.installed_power or 0.0):.0f} kW at sea level, and less at altitude."
+        ),
+    ),
+    _Rule(
+        "high-speed",
+        lambda trim: trim.mu > HIGH_SPEED,
+        lambda trim: (
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
+            "approximation."
+        ),
+    ),
+    _Rule(
+        "blade-loading",
+        lambda trim: trim.design.hovering and trim.loading > HOVER_CAUTION,
+        lambda trim: (
+            f"C_T/σ {trim.loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes "
+            f"out too low. {_nearest_to_stall(trim.fields.stall_margin, trim.problem.disk.r)}"
+        ),
+    ),
+    _Rule(
+        "stall",
+        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is None,
+        lambda trim: (
+            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall."
+        ),
+    ),
+    _Rule(
+        "stall",
+        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is not None,
+        lambda trim: (
+            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; the lags of dynamic stall are those of a NACA 0012."
+        ),
+    ),
+    _Rule(
+        "no-compressibility",
+        lambda trim: trim.by_polynomials and trim.top_mach > 0.5,
+        lambda trim: f"The section polar holds for one Mach number; the tip reaches Mach {trim.top_mach:.2f}.",
+    ),
+    _Rule(
+        "mixed-section-data",
+        lambda trim: (
+            trim.by_polynomials
+            and any(not span.section.startswith(THESIS_NAME) for span in trim.design.rotor.blade.spans)
+        ),
+        lambda trim: (
+            f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest "
+            "tables with Mach number: their difference is one of data, not of airfoils."
+        ),
+    ),
+    _Rule(
+        "polynomial-clamped",
+        lambda trim: trim.clamped > 0.0,
+        lambda trim: (
+            f"{100.0 * trim.clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
+        ),
+    ),
+    _Rule(
+        "mach-outside-data",
+        lambda trim: not trim.by_polynomials and trim.top_mach > trim.problem.disk.mach_limit,
+        lambda trim: (
+            f"The tip reaches Mach {trim.top_mach:.2f}; section data end at {trim.problem.disk.mach_limit:.2f} and are "
+            "constant above."
+        ),
+    ),
+)
+"""Caveats in the order in which they are listed."""
+
+
 def caveats(
     problem: Problem,
-    elements: BladeElements,
     total: DiskSums,
     fields: DiskFields,
     stalled: float,
@@ -55,163 +322,17 @@ def caveats(
     elastic: ElasticTwist | None,
 ) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
-    design, disk = problem.design, problem.disk
-    mu = design.condition.advance_ratio
-    for remark in design.aircraft.remarks:
+    for remark in problem.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        yield Caveat(
-            "teetering",
-            "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
-        )
-    root = design.rotor.blade.root_cutout
-    if design.twist != design.rotor.builtin_twist:
-        ends = design.twist(np.array([root, 1.0]))
-        change = float(ends[1] - ends[0])
-        if abs(change) > LARGEST_BUILT_TWIST:
-            yield Caveat(
-                "twist-beyond-built",
-                f"The blade twists by {math.degrees(change):.0f}° from root to tip; helicopter blades are built with "
-                "about 20° or less. Read the result as an extrapolation.",
-            )
-    if design.tail_rotor is None and design.models.tail_rotor_solved and design.condition.stand is None:
-        yield Caveat(
-            "no-tail-rotor",
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead.",
-        )
-    if design.preset == "thesis" and design.aircraft.stated is None:
-        yield Caveat(
-            "thesis-models",
-            f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade.",
-        )
-    if design.models.has("elastic_twist") and design.rotor.blade.structure is None:
-        yield Caveat(
-            "no-blade-structure",
-            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
-            "degrees in flight.",
-        )
-    off = switched_off(design.models)
-    if off:
-        names = ", ".join(switch.title.lower() for switch in off)
-        yield Caveat("switched-off", f"Switched off: {names}. The result is for teaching, not for the aircraft.")
-    if not design.models.flapping and mu > 0.0:
-        yield Caveat("rigid-blades", _rigid(moment))
-        if not problem.inflow.load_dependent:
-            yield Caveat(
-                "rigid-blades-linear-inflow",
-                "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
-            )
-    if design.active_twist and design.hovering:
-        yield Caveat("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
-    if design.pitch_per_rev and design.hovering:
-        yield Caveat(
-            "root-pitch-rests", "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
-        )
-    if design.pitch_waves:
-        yield from _pitch_waves(design, power, elastic)
-    if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
-        yield Caveat(
-            "low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
-        )
-    elif 0.0 < mu < LOWEST_SPEED:
-        yield Caveat(
-            "low-speed-inflow",
-            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
-        )
-    if hover_share(design) and problem.joined is None:
-        yield Caveat(
-            "low-speed-not-matched",
-            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed.",
-        )
-    if design.condition.climb_speed < 0.0:
-        inflow = math.sqrt(0.5 * design.weight_coefficient)
-        descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
-        if descent > -VORTEX_RING_ONSET and edge < math.inf:
-            yield Caveat(
-                "vortex-ring",
-                f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
-                f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {edge:.2f} the vortex ring "
-                "state begins.",
-            )
-    if power.main_rotor < 0.0 and design.condition.stand is None:
-        yield Caveat(
-            "beyond-autorotation",
-            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
-            "engine off the rotor turns faster.",
-        )
-    installed = design.aircraft.installed_power
-    if installed is not None and power.total > installed and design.condition.stand is None:
-        yield Caveat(
-            "installed-power",
-            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
-            "and less at altitude.",
-        )
-    if mu > HIGH_SPEED:
-        yield Caveat(
-            "high-speed",
-            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
-            "approximation.",
-        )
-    loading = total.thrust / design.rotor.solidity
-    if design.hovering and loading > HOVER_CAUTION:
-        yield Caveat(
-            "blade-loading",
-            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
-            f"too low. {_nearest_to_stall(fields.stall_margin, disk.r)}",
-        )
-    if stalled > STALL_SHARE:
-        yield Caveat(
-            "stall",
-            f"{100.0 * stalled:.1f} % of the disk is stalled; "
-            + (
-                "section data are steady, without dynamic stall."
-                if fields.unsteady is None
-                else "the lags of dynamic stall are those of a NACA 0012."
-            ),
-        )
-    top_mach = float(fields.mach.max())
-    if disk.fit_range is not None:
-        if top_mach > 0.5:
-            yield Caveat(
-                "no-compressibility",
-                f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}.",
-            )
-        if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
-            yield Caveat(
-                "mixed-section-data",
-                f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest "
-                "tables with Mach number: their difference is one of data, not of airfoils.",
-            )
-        clamped = _outside_fit(fields, disk.fit_range)
-        if clamped > 0.0:
-            yield Caveat(
-                "polynomial-clamped",
-                f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped.",
-            )
-    elif top_mach > disk.mach_limit:
-        yield Caveat(
-            "mach-outside-data",
-            f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant above.",
-        )
+    trim = _Trim(problem, total, fields, stalled, moment, power, elastic)
+    for rule in _RULES:
+        if rule.applies(trim):
+            yield Caveat(rule.name, rule.sentence(trim))
 
 
-def _pitch_waves(design: Design, power: PowerBudget, elastic: ElasticTwist | None) -> Iterator[Caveat]:
-    """What the models leave out of pitch that follows the azimuth."""
-    highest = max((one.per_rev for wave in design.pitch_waves for one in wave.harmonics), default=0)
-    frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)
-    if frequency > FAST_PITCH and not design.models.dynamic_stall:
-        yield Caveat(
-            "fast-pitch",
-            f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and "
-            "only the wake that a lifting line sheds and the damping of the pitch rate answer to it.",
-        )
-    moved = 0.0 if elastic is None else elastic.control_power
-    if abs(moved) > CONTROL_SHARE * abs(power.main_rotor):
-        yield Caveat(
-            "control-power",
-            f"Pitch links and actuators put {moved / 1e3:.1f} kW into the pitching blades; that is not part of the "
-            "power here.",
-        )
+def _switches(design: Design) -> str:
+    names = ", ".join(switch.title.lower() for switch in switched_off(design.models))
+    return f"Switched off: {names}. The result is for teaching, not for the aircraft."
 
 
 def _nearest_to_stall(margin: Array, r: Array) -> str:
@@ -229,6 +350,17 @@ def _rigid(moment: HubMoment) -> str:
         f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
         f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
     )
+
+
+HOVER_LIMIT = 0.17
+"""Largest C_T/σ: every blade element at its maximum lift, as tests show (Prouty, Helicopter Performance, Stability, and
+Control, 1986, figure 5.2; Bousman, NASA TM-2000-209601, is quoted with 0.18 for SC1095 at tip Mach 0.65)."""
+LARGEST_FLAPPING = math.radians(20.0)
+"""Coning and flapping, whose equations are those of small angles."""
+LARGEST_CONTROL = math.radians(35.0)
+"""Collective at 0.75 R and cyclic: no rotor's controls reach further."""
+LARGEST_TILT = math.radians(40.0)
+"""Shaft tilt: beyond it the rotor flies as a propeller."""
 
 
 def vortex_ring(design: Design) -> str:
@@ -329,10 +461,3 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
         near = easier_condition(design, reached).stand
         how_far = f" The nearest trim found is at C_T/σ {near.ct_over_sigma:.4f}." if near is not None else ""
     return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."
-
-
-def _outside_fit(fields: DiskFields, fit_range: tuple[float, float]) -> float:
-    """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
-    low, high = fit_range
-    outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
-    return float(fields.cells @ outside.sum(axis=1))

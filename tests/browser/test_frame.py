@@ -249,7 +249,7 @@ def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(w
     assert words == "jig flown, band over azimuth"
     assert page.locator("[data-curve] [data-band]").count() == 1
     knots = page.evaluate("() => RX.state.twist.knots.map(k => k.theta)")
-    jig = page.evaluate("() => { const own = RX.state.twist.lines.at(-1); return [own.y[0], own.y.at(-1)]; }")
+    jig = page.evaluate("() => { const own = RX.state.twist.series.at(-1); return [own.y[0], own.y.at(-1)]; }")
     assert knots[0] == pytest.approx(jig[0], abs=0.1)
     assert knots[-1] == pytest.approx(jig[1], abs=0.1)
     page.wait_for_function("() => RX.state.inset.name === 'flown, ψ 65°'")
@@ -261,6 +261,6 @@ def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(w
     page.wait_for_function("() => RX.state.inset.name === 'flown, ψ 65°'")
     page.get_by_text("Model", exact=True).click()
     page.get_by_label("Elastic twist").click()  # A rigid blade has one curve.
-    page.wait_for_function("() => RX.state.twist.band === null && RX.state.inset.name === 'this blade'")
+    page.wait_for_function("() => RX.state.twist.series.length === 2 && RX.state.inset.name === 'this blade'")
     page.wait_for_function("() => !document.querySelector('[data-curve] [data-band]')")
     page.get_by_text("Model", exact=True).click()

@@ -16,13 +16,13 @@ def until(watched: Watched, condition: str) -> None:
 
 def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched):
     watched.page.locator(".rxf-rotor").select_option(label="XV-15 metal blade")
-    until(watched, f"() => ({CHART})()?.marks.length === 50")
+    until(watched, f"() => ({CHART})()?.series[1].x.length === 50")
     watched.choose("Measured in", "Tunnel, 15° forward")
     until(watched, f"() => ({CHART})()?.value.includes('rms 6.4 %')")
     watched.until(lambda: watched.page.locator("[data-name=measured] [data-mark]").count() == 4)
     until(watched, "() => document.querySelector('[data-explorer=validated]')?.innerText === 'measured: rms 6.4 %'")
     watched.page.locator(".rxf-rotor").select_option(label="PCA-2 autogiro")
-    until(watched, f"() => ({CHART})()?.marks.length === 79")
+    until(watched, f"() => ({CHART})()?.series[1].x.length === 79")
     until(watched, "() => document.querySelector('[data-explorer=total-power]').innerText.startsWith('0.0')")
     watched.page.locator(".rxf-rotor").select_option(label="UH-60A")
     until(watched, f"() => !({CHART})()")
@@ -32,7 +32,7 @@ def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched
 def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.page.locator(".rxf-rotor").select_option(label="SA349/2 Gazelle")
     power = "RX.state.strip?.find(one => one.name === 'power')"
-    until(watched, f"() => {power}?.marks.length === 4 && {power}.marks[1].words.includes('ours')")
+    until(watched, f"() => {power}?.series.some(one => one.press?.length === 4 && one.words[1].includes('ours'))")
     watched.until(lambda: watched.page.locator("[data-name=power] [data-band]").count() == 1)
     watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
     until(watched, f"() => {power}?.value.startsWith('FC2: ')")

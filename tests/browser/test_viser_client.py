@@ -64,23 +64,6 @@ def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App)
         assert held() == before == [box.is_checked() for box in boxes]
 
 
-def test_a_chart_that_is_drawn_anew_draws_its_axes(watched: Watched):
-    """The client lists a chart when it has made it; from then on each drawing is one with the axes."""
-    drawn = """() => {
-        const asked = [], chart = {redraw: (paths, axes) => asked.push([paths, axes])};
-        window.__viserTestpoints.uplots.of_a_test = {chart};
-        chart.redraw(false);
-        chart.redraw();
-        delete window.__viserTestpoints.uplots.of_a_test;
-        return asked;
-    }"""
-    assert watched.page.evaluate(drawn) == [[False, True], [None, True]]
-    watched.mode("actuate")
-    watched.page.locator(".uplot").first.wait_for(state="attached")
-    assert watched.page.evaluate("() => Object.keys(window.__viserTestpoints.uplots).length") > 0
-    watched.mode("explore")
-
-
 def test_a_page_that_is_seen_has_the_focus(watched: Watched):
     """Only such a page tries to connect again."""
     assert watched.page.evaluate("document.hasFocus() && document.visibilityState === 'visible'")

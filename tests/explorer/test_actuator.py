@@ -17,7 +17,7 @@ from explorer.picture.picture import make_picture
 from explorer.picture.poses import rotate
 from explorer.tabs.actuator import actuator_words
 from explorer.tabs.actuator import lifted_blade as lifted
-from explorer.tabs.actuator.actuator_controls import reach_plot, table_panel
+from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
     CONCEPTS,
     MOST_SEGMENTS,
@@ -251,14 +251,13 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
 
 
 def test_the_chart_shows_need_and_reach(verdict: Verdict):
-    plot = reach_plot(ActuatorInputs(drives=FULL), verdict.installed, verdict, 0.13, None)
-    r, limit, required, used, now = plot.data
-    assert len({len(values) for values in plot.data}) == 1
+    chart = reach_chart(ActuatorInputs(drives=FULL), verdict.installed, verdict, 0.13, None)
+    limit, required, used, now = (np.array(one.y) for one in chart.series)
     assert_allclose(abs(required[-1]), math.degrees(verdict.required), rtol=1e-6)
     assert (np.abs(used) <= np.abs(limit) + 0.01).all()
     assert now[-1] > 0.0
-    assert plot.y_range[0] <= min(map(np.min, plot.data[1:]))
-    assert r[0] == pytest.approx(0.13)
+    assert chart.span("y")[0] <= min(min(one.y) for one in chart.series)
+    assert chart.series[0].x[0] == pytest.approx(0.13)
 
 
 def asked(name: str) -> Call:
@@ -379,6 +378,6 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
         for one in (verdict, small)
     ]
     assert page[0] == page[1]
-    plots = (reach_plot(ActuatorInputs(), one.installed, one, 0.13, None) for one in (verdict, small))
-    for full, left in zip(*(plot.data for plot in plots), strict=True):
-        assert_allclose(left, full)
+    charts = (reach_chart(ActuatorInputs(), one.installed, one, 0.13, None) for one in (verdict, small))
+    for full, left in zip(*(chart.series for chart in charts), strict=True):
+        assert_allclose(left.y, full.y)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from explorer.charts.plots import Plot
+from explorer.charts.strip import LOOKS
 from explorer.model.inputs import baseline_of
 from explorer.model.units import SI
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
@@ -60,10 +60,6 @@ def searched() -> tuple[SearchRun, tuple[StartTrace, ...]]:
 @pytest.fixture
 def run(searched: tuple[SearchRun, tuple[StartTrace, ...]]) -> SearchRun:
     return searched[0]
-
-
-def finite(plot: Plot) -> bool:
-    return all(np.isfinite(values).all() and len(values) == len(plot.data[0]) for values in plot.data)
 
 
 class TestSearchRun:
@@ -142,37 +138,38 @@ class TestSearchRun:
 class TestCharts:
     def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
         chart = starts_chart(run, SI)
-        level, *starts = chart["lines"]
-        assert level["role"] == "reference"
+        level, *starts = chart.series
+        assert level.colour == LOOKS["reference"][0]
         assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
-        low, high = chart["y_range"]
+        low, high = chart.span("y")
         for line in starts:
-            assert len(line["x"]) == len(line["y"])
-            assert all(math.isfinite(value) for value in line["y"])
-            assert low <= line["y"][-1] <= high
+            assert len(line.x) == len(line.y)
+            assert all(math.isfinite(value) for value in line.y)
+            assert low <= line.y[-1] <= high
         assert run.best is not None
-        assert min(line["y"][-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
-        assert len({line["colour"] for line in starts}) == 3
+        assert min(line.y[-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
+        assert len({line.colour for line in starts}) == 3
 
     def test_sensitivity_to_turning_the_whole_blade_is_zero(self):
         solution = solve(make_design(mu=0.2))
-        plot = sensitivity.sensitivity_plot(solution, None)
-        assert np.isnan(plot.data[3]).all()  # No A.
-        assert finite(sensitivity.sensitivity_plot(solution, None, solution))
-        r, total = plot.data[0], plot.data[-1]
+        chart, beside = (sensitivity.sensitivity_chart(solution, None, a) for a in (None, solution))
+        assert [one.label for one in chart.series] == ["induced", "total"]
+        assert [one.label for one in beside.series] == ["induced", "A", "B"]
+        assert beside.series[1].y == pytest.approx(beside.series[2].y)
+        r, total = np.array(chart.series[-1].x), np.array(chart.series[-1].y)
         assert abs(total @ solution.disk.dr) < 1e-6 * np.abs(total).max()
         assert r[np.argmin(total)] != r[np.argmax(total)]
 
     def test_strip_lies_on_the_blade_and_is_blue_where_pitch_saves(self):
         solution = solve(make_design(mu=0.2))
-        plot = sensitivity.sensitivity_plot(solution, None)
+        chart = sensitivity.sensitivity_chart(solution, None)
         shape = blade_shape(solution.design.rotor)
-        points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, plot)
+        points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, chart)
         assert points.shape == colours.shape
         vertices = blade_vertices(shape, solution.design.twist)
         assert np.all(points[:, 0] <= vertices[:, 0].max() + 1e-6)
         outward = points[:, 0] / solution.design.rotor.radius
-        saves = np.interp(outward, plot.data[0] - shape.r[0], plot.data[-1]) < -5.0
+        saves = np.interp(outward, np.array(chart.series[-1].x) - shape.r[0], chart.series[-1].y) < -5.0
         red, blue = colours[:, 0].astype(int), colours[:, 2].astype(int)
         assert np.all(blue[saves] > red[saves])
 

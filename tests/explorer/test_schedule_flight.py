@@ -82,14 +82,14 @@ class TestSchedule:
         assert progress.part_done == 1.0
 
     def test_charts_and_table(self, progress: PlanProgress):
-        twists, savings = schedule_view.twist_plot(progress, None), schedule_view.saving_plot(progress, None)
+        twists, savings = schedule_view.twist_chart(progress, None), schedule_view.saving_chart(progress, None)
         assert twists is not None
         assert savings is not None
-        known = [bool(np.isfinite(values).all()) for values in twists.data]
-        assert known == [True] * 4 + [False] * (schedule_view.LEGS - 3) + [True]
-        assert all(np.isfinite(values).all() and len(values) == len(savings.data[0]) for values in savings.data)
+        assert [one.label for one in twists.series] == ["hover", "", "fast", "fixed"]
+        assert [one.label for one in savings.series] == ["fixed", "variable"]
+        assert all(np.isfinite(one.y).all() for chart in (twists, savings) for one in chart.series)
         empty = PlanProgress(progress.plan)
-        assert schedule_view.twist_plot(empty, None) is schedule_view.saving_plot(empty, None) is None
+        assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
         assert "Additional saving from variable twist" in table
         assert "nan" not in table.lower()
@@ -97,13 +97,13 @@ class TestSchedule:
 
     def test_legs_to_come_are_not_drawn(self, progress: PlanProgress):
         half = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0])
-        whole, drawn = (schedule_view.saving_plot(one, None) for one in (progress, half))
+        whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert whole is not None
         assert drawn is not None
-        mu, _, fixed, moving = drawn.data
-        assert_allclose(mu, [0.3])
-        assert_allclose(moving, whole.data[3][2:])
-        assert np.isnan(fixed[0])  # Not known yet.
+        fixed, moving = drawn.series
+        assert_allclose(moving.x, [0.3])
+        assert_allclose(moving.y, whole.series[1].y[2:])
+        assert math.isnan(fixed.y[0])  # Not known yet.
 
     def test_csv_reads_back(self, progress: PlanProgress):
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))

@@ -14,6 +14,7 @@ from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from rotor.assets import MEASURED_ROTORS
+from rotor.chart import Points
 from rotor.trim.solve import solve
 from rotor.validation.compare import SETS, load_set
 
@@ -106,8 +107,9 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert chart.chart(solve(OPENING.design())) is None
     before = chart.chart(solution)
     assert before is not None
-    assert len(before.marks) == 4
-    assert len(before.lines[0].x) == 0
+    line, marks, _ = before.series
+    assert len(marks.x) == 4
+    assert len(line.x) == 0
     drawn: list[bool] = []
     chart.trim_points(solution, lambda: False, lambda: drawn.append(True))
     after = chart.chart(solution)
@@ -115,11 +117,13 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert after is not None
     assert after.value.startswith("+")
     assert "rms 6.3 %" in after.value
-    assert [mark.y for mark in after.marks] == pytest.approx([5.7, 5.95, 6.2, 6.65])
-    assert all(mark.error == pytest.approx(0.1) for mark in after.marks)
-    ours = dict(zip(after.lines[0].x, after.lines[0].y, strict=True))
-    assert ours[FORWARD.advance_ratio] == pytest.approx(after.dots[0].y, rel=1e-5)
-    assert "ours 6.0" in after.marks[0].words
+    line, marks, here = after.series
+    assert isinstance(marks, Points)
+    assert marks.y == pytest.approx([5.7, 5.95, 6.2, 6.65])
+    assert marks.scatter == pytest.approx([0.1] * 4)
+    ours = dict(zip(line.x, line.y, strict=True))
+    assert ours[FORWARD.advance_ratio] == pytest.approx(here.y[0], rel=1e-5)
+    assert "ours 6.0" in marks.words[0]
 
 
 @pytest.mark.parametrize("name", [name for name in SETS if load_set(name).against is None])

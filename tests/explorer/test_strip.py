@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.charts.plots import SWEEP, PowerCurve, angles_along
 from explorer.charts.strip import (
-    StripChart,
+    LOOKS,
+    Role,
     alpha_chart,
     lift_chart,
     lift_per_metre,
@@ -20,6 +21,7 @@ from explorer.charts.strip import (
     where_to_twist_chart,
 )
 from explorer.model.units import AVIATION
+from rotor.chart import Chart, Line, Points, as_json
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.adjoint import PitchGradient, power_gradient
@@ -32,9 +34,24 @@ def linear() -> Solution:
     return solve(make_design(mu=0.2, twist="linear:-8")).require()
 
 
-def line(chart: StripChart, role: str) -> np.ndarray:
-    (found,) = [one.y for one in chart.lines if one.role == role]
-    return found
+def lines(chart: Chart) -> list[Line]:
+    return [one for one in chart.series if isinstance(one, Line)]
+
+
+def roles(chart: Chart) -> list[Role]:
+    """What its lines look like."""
+    by_look = {look: role for role, look in LOOKS.items()}
+    return [by_look[one.colour, one.width, one.dashes] for one in lines(chart)]
+
+
+def line(chart: Chart, role: Role) -> np.ndarray:
+    (found,) = [one.y for one, own in zip(lines(chart), roles(chart), strict=True) if own == role]
+    return np.array(found)
+
+
+def dots(chart: Chart) -> list[tuple[float, float, str]]:
+    """Place and words of each."""
+    return [(one.x[0], one.y[0], one.words[0]) for one in chart.series if isinstance(one, Points)]
 
 
 class TestPowerChange:
@@ -45,10 +62,10 @@ class TestPowerChange:
 
     def test_the_line_is_the_difference_and_hover_is_marked(self):
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "UH-60A as built")
-        assert chart.unit == "kW vs. UH-60A as built"
-        assert chart.lines[0].x[0] == 0.0
-        assert_allclose(chart.lines[0].y, -50.0 * chart.lines[0].x, atol=1e-9)
-        assert [(dot.x, dot.label) for dot in chart.dots] == [(0.0, "hover"), (0.2, "")]
+        assert chart.y.label == "kW vs. UH-60A as built"
+        assert lines(chart)[0].x[0] == 0.0
+        assert_allclose(lines(chart)[0].y, -50.0 * np.array(SWEEP), atol=1e-9)
+        assert [(x, words) for x, _, words in dots(chart)] == [(0.0, "hover"), (0.2, "now")]
         assert chart.value == "−10 kW"
         assert power_change_chart(self.curve(-50.0), 0.2, -10e3, "A", AVIATION).value == "−13 hp"
 
@@ -56,8 +73,8 @@ class TestPowerChange:
         curve = self.curve(-50.0)
         curve.design[-1] = math.nan
         chart = power_change_chart(curve, 0.2, None, "A")
-        assert chart.as_dict["lines"][0]["y"][-1] is None
-        assert len(chart.as_dict["dots"]) == 1
+        assert as_json(chart)["series"][0]["y"][-1] is None
+        assert as_json(chart)["series"][-1]["y"] == [None]
         assert chart.value == ""
 
     def test_a_design_that_is_its_own_reference_shows_its_power(self):
@@ -65,10 +82,10 @@ class TestPowerChange:
         curve = self.curve(0.0)
         curve.design[:] = 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2
         chart = total_power_chart(curve, 0.2, 720e3)
-        assert (chart.unit, chart.value) == ("kW", "least near µ 0.15")
-        assert_allclose(chart.lines[0].y, 700.0 + 8000.0 * (chart.lines[0].x - 0.15) ** 2)
-        assert [(dot.x, dot.y, dot.label) for dot in chart.dots] == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "")]
-        assert chart.y_range[0] == 0.0
+        assert (chart.y.label, chart.value) == ("kW", "least near µ 0.15")
+        assert_allclose(lines(chart)[0].y, 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2)
+        assert dots(chart) == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "now")]
+        assert chart.span("y")[0] == 0.0
 
     def test_the_top_speed_is_where_power_meets_that_of_the_engines(self):
         """A parabola meets a level at a place known in closed form; the points lie .025 apart."""
@@ -78,24 +95,24 @@ class TestPowerChange:
         mu = 0.15 + math.sqrt((2327.0 - 700.0) / 40000.0)
         kmh = float(re.findall(r"[\d.]+", chart.value)[-1])
         assert kmh == pytest.approx(3.6 * mu * black_hawk.rotor.tip_speed, rel=0.005)
-        assert chart.lines[0].role == "limit"
-        assert_allclose(chart.lines[0].y, 2327.0)
+        assert roles(chart)[0] == "limit"
+        assert_allclose(lines(chart)[0].y, 2327.0)
         curve.design[:] = 700.0
         assert total_power_chart(curve, 0.2, 700e3, aircraft=black_hawk).value.startswith("least near")
-        assert total_power_chart(curve, 0.2, 700e3, aircraft=shipped_aircraft("s61")).lines[0].role != "limit"
+        assert "limit" not in roles(total_power_chart(curve, 0.2, 700e3, aircraft=shipped_aircraft("s61")))
 
     def test_autorotation_is_marked_below_zero(self):
         curve = self.curve(0.0)
         curve.design[:] = 4e4 * (np.array(SWEEP) - 0.15) ** 2 - 150.0
         curve.design[:3] = math.nan
         chart = total_power_chart(curve, 0.15, -150e3)
-        assert chart.y_range[0] <= -150.0
+        assert chart.span("y")[0] <= -150.0
         assert chart.value == "autorotation"
         assert chart.note == (
             "Autorotation between µ 0.1 and 0.2: the air drives the rotor. No answer below µ 0.075: vortex ring state."
         )
-        (tinted,) = [one for one in chart.lines if one.filled]
-        assert (tinted.y[np.isfinite(tinted.y)] < 0.0).all()
+        (tinted,) = [np.array(one.y) for one in lines(chart) if one.filled]
+        assert (tinted[np.isfinite(tinted)] < 0.0).all()
         assert total_power_chart(curve, 0.3, 750e3).value == "least near µ 0.15"
         assert power_change_chart(curve, 0.15, 0.0, "A").note == chart.note
 
@@ -104,19 +121,20 @@ class TestPowerChange:
         curve.design[:] = math.nan
         chart = total_power_chart(curve, 0.2, 720e3, AVIATION)
         assert chart.value == ""
-        assert chart.as_dict["dots"][-1]["y"] == pytest.approx(720e3 / 745.699872, abs=0.1)
+        assert dots(chart)[-1][1] == pytest.approx(720e3 / 745.699872, abs=0.1)
 
 
 class TestAlpha:
     def test_lines_and_least_margin(self, cruise: Solution, linear: Solution):
         chart = alpha_chart(cruise, linear, 65.0)
-        assert [one.role for one in chart.lines] == ["limit", "limit", "reference", "this"]
-        lower, upper = (one.y for one in chart.lines[:2])
-        alpha = line(chart, "this")
+        assert roles(chart) == ["limit", "reference", "this"]  # The lower limit lies below the axis.
+        lower, upper, alpha = angles_along(cruise, 65.0)
+        assert_allclose(line(chart, "this"), alpha)
         margin = float(np.nanmin(np.minimum(upper - alpha, alpha - lower)))
         assert chart.value == f"{margin:.1f}° to stall"
         lost = replace(linear, status=Status.NOT_CONVERGED)
-        assert "reference" not in [one.role for one in alpha_chart(cruise, lost, 65.0).lines]
+        assert "reference" not in roles(alpha_chart(cruise, lost, 65.0))
+        assert "pinned" in roles(alpha_chart(cruise, linear, 65.0, compared="pinned"))
 
     def test_a_stalled_blade_says_where(self):
         heavy = solve(make_design(mu=0.3, mass_kg=9800.0)).require()
@@ -139,10 +157,10 @@ class TestLift:
     def test_less_twist_moves_the_peak_outboard(self, cruise: Solution):
         untwisted = solve(make_design(mu=0.2, twist="linear:0")).require()
         chart = lift_chart(untwisted, cruise)
-        assert [one.role for one in chart.lines] == ["reference", "this"]
+        assert roles(chart) == ["reference", "this"]
         r = untwisted.disk.r
         assert r[np.argmax(line(chart, "this"))] >= r[np.argmax(line(chart, "reference"))]
-        assert chart.y_range[0] <= 0.0
+        assert chart.span("y")[0] <= 0.0
 
 
 class TestWhereToTwist:
@@ -152,11 +170,11 @@ class TestWhereToTwist:
         rigid = replace(design, models=replace(design.models, elastic_twist=False, inflow="pitt-peters"))
         gradient = power_gradient(solve(rigid))
         chart = where_to_twist_chart(gradient)
-        values = chart.lines[0].y
+        values = np.array(lines(chart)[0].y)
         assert_allclose(values, gradient.density * math.pi / 180.0 / 1e3)
         flat = PitchGradient(gradient.r, np.full_like(gradient.r, 0.02), np.ones_like(gradient.r))
         assert where_to_twist_chart(flat).note == ""
-        outside = (values > chart.y_range[1]) | (values < chart.y_range[0])
+        outside = (values > chart.span("y")[1]) | (values < chart.span("y")[0])
         assert outside.any()
         assert outside.mean() < 0.15
         worst = int(np.argmax(np.abs(values)))
@@ -173,5 +191,5 @@ def test_every_chart_is_plain_json_without_nan(cruise: Solution, linear: Solutio
         where_to_twist_chart(power_gradient(cruise)),
     )
     for chart in charts:
-        text = json.dumps(chart.as_dict, allow_nan=False)
+        text = json.dumps(as_json(chart), allow_nan=False)
         assert len(text) < 4000

@@ -13,7 +13,7 @@ import viser
 from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
-from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_plot, index_chart
+from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_chart, index_chart
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
@@ -158,10 +158,9 @@ class TestIndexOverSpeed:
         assert known[6] == pytest.approx(alone.index, rel=1e-3)
         chart = index_chart(curves, bent, bent, known[4])
         assert chart is not None
-        assert chart.gap is not None
-        assert (chart.gap.low, chart.gap.high) == (0.0, 0.2)
-        assert chart.as_dict["gap"]["words"] == "none below µ 0.2"
-        assert min(float(line.x[0]) for line in chart.lines) == 0.2
+        (gap,) = chart.rules
+        assert (gap.at, gap.to, gap.label) == (0.0, 0.2, "none below µ 0.2")
+        assert min(one.x[0] for one in chart.series) == 0.2
         # A without bending is compared as if it had it.
         assert_allclose(curves.known(straight.design), known)
 
@@ -175,9 +174,9 @@ class TestFanPlot:
         assert tuple(sorted(known)) == FAN_SPEEDS
         # Published for the UH-60A: flap 1.035 and 2.81 per rev.
         assert known[1.0].flap[:2] == pytest.approx((1.035, 2.81), rel=0.02)
-        svg = fan_plot(known, key.collective_deg)
-        assert "flap 1.04, 2.85" in svg
-        assert "torsion 4.97" in svg
+        named = [one.label for one in fan_chart(known, key.collective_deg).series]
+        assert any(one.startswith("flap 1.04, 2.85") for one in named)
+        assert "torsion 4.97" in named
 
     def test_what_was_computed_is_kept(self, bent: Solution, monkeypatch: pytest.MonkeyPatch):
         key, plots = FanKey.of(bent), FanPlots()
@@ -196,7 +195,7 @@ class Page:
         self.charts: list[Any] = []
         self.switch = ""
         self.drawer = ""
-        strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: None)
+        strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: (None, "reference"))
         scene: Any = SimpleNamespace(hub_loads=HubLoadLines(server.scene), atomic=nullcontext)
         context: Any = SimpleNamespace(
             gui=server.gui, bridge=SimpleNamespace(set=self.shown.update), layout=self,

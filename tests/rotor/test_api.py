@@ -1,8 +1,12 @@
 """The public API: the notebook example, errors for wrong arguments, and no side effects of importing."""
 
 import csv
+import doctest
+import inspect
 import json
 import math
+import pathlib
+import re
 import subprocess
 import sys
 import urllib.request
@@ -80,6 +84,24 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     low, high = best.band[0].low, best.band[0].high
     assert low < best.twist.rates[0] < high
     assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
+
+
+@pytest.mark.parametrize("name", ["solve", "sweep", "optimise", "schedule", "run_study"])
+def test_the_example_of_a_docstring_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    names = {"rotor": rotor, "pathlib": pathlib}
+    (example,) = doctest.DocTestFinder(recurse=False).find(inspect.unwrap(getattr(rotor, name)), name, globs=names)
+    assert example.examples
+    results = doctest.DocTestRunner().run(example)
+    assert results.failed == 0
+
+
+@pytest.mark.parametrize("name", ["solve", "sweep", "optimise", "schedule", "run_study"])
+def test_a_docstring_has_every_parameter(name: str):
+    verb = getattr(rotor, name)
+    text = inspect.getdoc(verb) or ""
+    assert all(f"\n{section}:\n" in text for section in ("Parameters", "Returns", "Raises", "Example"))
+    assert re.findall(r"^    (\w+): ", text.split("Returns:")[0], re.MULTILINE) == [*inspect.signature(verb).parameters]
 
 
 def test_the_api_is_small():

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import viser
 
-from explorer.charts.plots import Plot, Range, held_range
+from explorer.charts.plots import Range, held_range
 from explorer.colours import BASELINE, NOW, THIS
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import (
@@ -21,7 +21,7 @@ from explorer.tabs.actuator.actuator_inputs import (
     drive_of,
 )
 from explorer.tabs.actuator.actuator_tasks import Outcome
-from explorer.tabs.live_charts import PanelChart, line
+from explorer.tabs.live_charts import PanelChart
 from explorer.text.glossary import hint
 from rotor.actuator import (
     Actuator,
@@ -35,6 +35,7 @@ from rotor.actuator import (
     verdict_sentence,
 )
 from rotor.actuator.pictures import twist_comparison
+from rotor.chart import Axis, Chart, Line
 from rotor.optimisation import find_concept
 
 
@@ -100,25 +101,27 @@ def _kind(actuator: Actuator) -> str:
 _STATIONS = 61
 
 
-def reach_plot(
+def reach_chart(
     inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
-) -> Plot:
-    """Series: attainable, required, used by the best twist within reach, now [°].
+) -> Chart:
+    """Twist that can be attained, that is required, that the best twist within reach uses, and now [°].
 
     Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
     """
     r = np.linspace(root, 1.0, _STATIONS)
     limit = installed.limit(r) - installed.limit(root)
     now = inputs.change(installed, r) - inputs.change(installed, root)
-    none = np.full(_STATIONS, np.nan)
-    required, used = none, none
+    lines = list[Line]()
     if verdict is not None:
         required, used = twist_comparison(verdict, _STATIONS)
         if required[np.argmax(np.abs(required))] < 0.0:
             limit = -limit
-    series = tuple(np.degrees(values) for values in (limit, required, used, now))
-    seen = np.concatenate([values[np.isfinite(values)] for values in series])
-    return Plot((r, *series), held_range(previous, min(0.0, float(seen.min())), max(0.2, float(seen.max()))))
+        lines = [Line("required", r, np.degrees(required), NOW), Line("used", r, np.degrees(used), _USED, width=1.5)]
+    attainable = Line("attainable", r, np.degrees(limit), BASELINE, width=1.5)
+    lines = [attainable, *lines, Line("now", r, np.degrees(now), THIS)]
+    seen = [value for one in lines for value in one.y if math.isfinite(value)]
+    y_axis = Axis("°", held_range(previous, min(0.0, *seen), max(0.2, *seen)))
+    return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
 
 
 _USED = "#2f9e44"
@@ -156,13 +159,7 @@ class ActuatorControls:
             self._menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
             self.numbers = gui.add_html("")
-            self.chart = PanelChart(
-                gui,
-                "Δtwist [°]",
-                (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS)),
-                (line(BASELINE, 1.5), line(NOW), line(_USED, 1.5), line(THIS)),
-                (0.1, 1.02),
-            )
+            self.chart = PanelChart(gui)
             self.segments = gui.add_html("")
             self.section = gui.add_html("")
             self.limits = gui.add_html("")

@@ -1,7 +1,7 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
 from explorer.tabs.actuator import actuator_words as words
-from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_plot, table_panel
+from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.actuator_tasks import Call, Outcome, PoolAnswers, flight_of, verdict_tasks
 from explorer.tabs.actuator.flight_bar import FlightBar
@@ -131,7 +131,7 @@ class ActuatorPanel:
         if self.lifted:
             self._flight_bar.show(self._context.inputs(), design, installed, outcome, self._flights.answer(task))
         root = design.rotor.blade.root_cutout
-        places.chart.show(reach_plot(inputs, installed, verdict, root, places.chart.y_range))
+        places.chart.show(reach_chart(inputs, installed, verdict, root, places.chart.y_range))
         self._verdict = verdict or self._verdict
         return verdict
 

@@ -1,17 +1,19 @@
 """The map of power over two parameters of the concept: its axes and its trims, which the stage shows as a landscape."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from html import escape
 
 import numpy as np
 import viser
 
 from explorer.model.units import Units, number
+from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.solver import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design import TwistLaw
@@ -62,14 +64,13 @@ _NEAR = 1e-3
 """Twist [rad] within which the design on the sliders is a point of the map."""
 
 
-class MapPanel:
+class MapPanel(BackgroundWork):
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
-        self._context, self.search, gui = context, search, context.gui
-        self._job: Job | None = None
-        self._task: MapTask | None = None
+        super().__init__(context, TIME_LIMIT, _URGENCY, restarts=True)
+        self.search, gui = search, context.gui
         self.map: Map | None = None
-        self._line = "Power over two parameters, the others fixed, as a landscape in the stage."
+        self.line = "Power over two parameters, the others fixed, as a landscape in the stage."
         self._offered: tuple[str, ...] = ()
         self._title = gui.add_html("")
         titles = tuple([parameter.title for parameter in self.search.request().known_concept().parameters])
@@ -80,31 +81,18 @@ class MapPanel:
         self._least = gui.add_html("")
         self._draw.on_click(lambda _: self.begin())
 
-    def begin(self) -> None:
-        """Draw the map of the concept chosen for the search, about the design on the sliders."""
-        try:
-            design, request = self._context.inputs().design(), self.search.request()
-            concept = request.known_concept()
-            titles = [parameter.title for parameter in concept.parameters]
-            if len(titles) < 2:
-                raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
-            axes = self._axes(titles)
-            objective = request.wanted(design, self.search.legs)
-        except ValueError as error:
-            self._line = str(error)
-            self._context.wake()
-            return
+    def prepare(self) -> tuple[MapTask, Callable[[JobEvent], None], str]:
+        """The map of the concept chosen for the search, about the design on the sliders."""
+        design, request = self._context.inputs().design(), self.search.request()
+        concept = request.known_concept()
+        titles = [parameter.title for parameter in concept.parameters]
+        if len(titles) < 2:
+            raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
+        axes = self._axes(titles)
+        objective = request.wanted(design, self.search.legs)
         values = self.search.optimum_of(design, concept.name) or nearest(concept, design.twist)
-        task = self._task = MapTask(design, concept, objective, axes, values)
-        if self._job is not None:
-            self._context.pool.stop(self._job, quiet=True)
-        self._line = "Computing …"
-        self._job = self._context.pool.submit(task, lambda news: self._on_event(task, news), TIME_LIMIT, _URGENCY)
-        self._context.wake()
-
-    def stop(self) -> None:
-        if self._job is not None:
-            self._context.pool.stop(self._job, quiet=True)
+        task = MapTask(design, concept, objective, axes, values)
+        return task, partial(self._hear, task), "Computing …"
 
     def refresh(self) -> None:
         """Bring the tab into line with the concept."""
@@ -117,7 +105,7 @@ class MapPanel:
                 menu.options = titles
                 menu.value = titles[axis]
         self._title.content = f'<div class="rx rx-dim rx-small">Concept: {concept.title}</div>'
-        self._state.content = f'<div class="rx rx-dim rx-small" data-explorer="map-state">{self._line}</div>'
+        self._state.content = f'<div class="rx rx-dim rx-small" data-explorer="map-state">{self.line}</div>'
         drawn = self.map
         if drawn is None:
             return
@@ -135,9 +123,7 @@ class MapPanel:
             raise ValueError("Both axes are the same parameter: choose two.")
         return x, y
 
-    def _on_event(self, task: MapTask, news: JobEvent) -> None:
-        if task is not self._task:
-            return
+    def _hear(self, task: MapTask, news: JobEvent) -> None:
         match news:
             case JobProgress(MapLevel(powers)):
                 grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
@@ -145,16 +131,15 @@ class MapPanel:
                     self.map = Map(task, grid)
                     mu = task.objective.conditions[0].flight.advance_ratio
                     where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
-                    self._line = f"{len(powers)} × {len(powers)} points, {where}"
+                    self.line = f"{len(powers)} × {len(powers)} points, {where}"
                 else:
-                    self._line = "No design on this map has a trim."
+                    self.line = "No design on this map has a trim."
             case JobFailed(message):
-                self._line = message
+                self.line = message
             case JobEnded(late=True):
-                self._line += "; time is up."
+                self.line += "; time is up."
             case _:
                 pass
-        self._context.wake()
 
 
 def default_axes(concept: Concept) -> tuple[int, int]:

@@ -1,44 +1,41 @@
 """The Optimise tab: what to search for, its buttons, its course, and what becomes of the optimum."""
 
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import viser
 
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
+from explorer.tabs.background import FRAME, BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
-from explorer.tabs.optimise.search_run import FRAME, OBJECTIVES, TRACES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_run import OBJECTIVES, TRACES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
-from explorer.workers.pool import Job, JobEvent, JobProgress
+from explorer.workers.pool import JobEvent
 from explorer.workers.solver import SearchTask
 from rotor import Design
+from rotor.chart import Chart
 from rotor.optimisation import CONCEPTS, WeightedCondition
 
 TIME_LIMIT = 60.0
 """[s] a search may take."""
 
 
-class OptimisePanel:
+class OptimisePanel(BackgroundWork):
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
     def __init__(self, context: TabContext) -> None:
-        self._context, gui, bridge = context, context.gui, context.bridge
+        super().__init__(context, TIME_LIMIT)
+        gui, bridge = context.gui, context.bridge
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Of the mission, for a design; ValueError with one sentence for a mission that is none."""
-        self._beginning = threading.Lock()
-        self._job: Job | None = None
         self.run: SearchRun | None = None
         """The last search; None before the first."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
-        self._problem = ""
-        self._woken = 0.0
         self._titles = {name: concept.title for name, concept in CONCEPTS.items()}
         titles, first = tuple(self._titles.values()), self._titles["two-segment-free"]
         self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
@@ -103,26 +100,15 @@ class OptimisePanel:
         self._context.layout.show_mode("optimise")
         self.begin()
 
-    def begin(self) -> None:
-        """Start a search for the design on the sliders, unless one is under way."""
-        with self._beginning:  # Two quick presses come on two threads.
-            if self.run is not None and self.run.under_way:
-                return
-            try:
-                design = self._context.inputs().design()
-                search = self.request().search(design, self.legs)
-            except ValueError as error:
-                self._problem = str(error)
-                self._context.wake()
-                return
-            self._problem, self._offered = "", True
-            self._context.tracker.reset()
-            reference, title = self._reference(design)
-            run = self.run = SearchRun(search, title)
-        self._job = self._context.pool.submit(
-            SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT
-        )
-        self._context.wake()
+    def prepare(self) -> tuple[SearchTask, Callable[[JobEvent], None], str]:
+        """A search for the design on the sliders."""
+        design = self._context.inputs().design()
+        search = self.request().search(design, self.legs)
+        self._offered = True
+        self._context.tracker.reset()
+        reference, title = self._reference(design)
+        run = self.run = SearchRun(search, title)
+        return SearchTask(search, reference), run.on_event, ""
 
     def _reference(self, design: Design) -> tuple[Design, str]:
         """What a saving is also measured against: A's blade in the same flight and models, else the baseline."""
@@ -134,11 +120,9 @@ class OptimisePanel:
 
     def halt(self) -> None:
         """Stop the search under way; what it found stays."""
-        run, job = self.run, self._job
-        if run is not None and job is not None and run.under_way:
-            run.stopping()
-            self._context.pool.stop(job)
-            self._context.wake()
+        if self.running and self.run is not None:
+            self.run.stopping()
+        super().halt()
 
     def withdraw(self) -> None:
         """Show the sliders again: stop the search under way, and discard what was previewed."""
@@ -150,15 +134,10 @@ class OptimisePanel:
 
     def toggle(self) -> None:
         """Start a search, or stop the one under way."""
-        run = self.run
-        if run is not None and run.under_way:
+        if self.running:
             self.halt()
         else:
             self.begin()
-
-    def stop(self) -> None:
-        if self._job is not None:
-            self._context.pool.stop(self._job, quiet=True)
 
     def preview(self, design: Design) -> Design | None:
         """The design to show instead of the sliders': that of the frame whose turn it is."""
@@ -172,7 +151,7 @@ class OptimisePanel:
             timer.start()
         return None if frame is None else frame.design
 
-    def starts_chart(self) -> dict[str, Any] | None:
+    def starts_chart(self) -> Chart | None:
         """Of the search, in place of charts along the blade; None where there is none."""
         run = self.run
         return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)
@@ -193,7 +172,7 @@ class OptimisePanel:
         self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
         under_way = run is not None and run.under_way
         self._begin.visible, self._halt.visible = not under_way, under_way
-        self._standing.content = text.standing(run, self._problem)
+        self._standing.content = text.standing(run, self.line)
         self._bar.visible = run is not None
         if run is None:
             return
@@ -211,13 +190,6 @@ class OptimisePanel:
         elif on_offer:
             self._frame.content = text.moved_on()
         self._headline.content = text.headline(run, units)
-
-    def _on_event(self, run: SearchRun, news: JobEvent) -> None:
-        run.on_event(news)
-        now = time.monotonic()
-        if not isinstance(news, JobProgress) or now - self._woken > FRAME:
-            self._woken = now
-            self._context.wake()
 
     def notice(self, design: Design | None) -> dict[str, object] | None:
         """The bar over the scene while it shows a search instead of the sliders."""

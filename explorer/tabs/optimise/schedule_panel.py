@@ -1,19 +1,21 @@
 """The Schedule section: best twist per speed, best fixed blade, the gain of moving; mission mix; CSV."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import viser
 
-from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.model.inputs import with_optimum
+from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import Player, TabContext
-from explorer.tabs.live_charts import PanelChart, line
+from explorer.tabs.live_charts import PanelChart
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
+from explorer.tabs.optimise.schedule_view import PlanProgress, ScheduleFlight
 from explorer.text.glossary import hint
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.optimisation import Cell, Plan, WeightedCondition
@@ -26,19 +28,18 @@ _URGENCY = 1
 """After searches."""
 
 
-class SchedulePanel:
+class SchedulePanel(BackgroundWork):
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
-        self._context, self._request, gui = context, search.request, context.gui
+        super().__init__(context, TIME_LIMIT, _URGENCY)
+        self._request, gui = search.request, context.gui
         search.legs = self.legs
         self._flight: ScheduleFlight | None = None
         self._time = 0.0
         self._player = Player(self._fly_on, "schedule-flight")
         context.bridge.on("land", lambda _: self.land())
-        self._job: Job | None = None
         self._progress: PlanProgress | None = None
-        self._running = False
-        self._line = "Best twist for each leg, and the best fixed blade for all."
+        self.line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
         self._concept = gui.add_html("")
         with gui.add_folder("Mission: µ and hours"):
@@ -63,21 +64,7 @@ class SchedulePanel:
         self._results = gui.add_button_group(
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
-        shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
-        self._twists = PanelChart(
-            gui,
-            "Best twist [°] over r/R",
-            (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
-            (*(line(css(shades[k]), 1.5) for k in range(LEGS)), line(NOW, 2.0, (5, 3))),
-            (0.1, 1.02),
-        )
-        self._savings = PanelChart(
-            gui,
-            "Saving [%] over µ",
-            (("variable", THIS), ("fixed", NOW)),
-            (line(BASELINE, 0.7), line(NOW, 1.8, (5, 3)), line(THIS)),
-            (-0.012, 0.462),
-        )
+        self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
         self._results.on_click(self._result_clicked)
@@ -86,38 +73,26 @@ class SchedulePanel:
         """The mission's legs; ValueError with one sentence for an invalid mission."""
         return mission.legs(design, [mission.MissionRow(*(float(x) for x in row.value)) for row in self._rows])
 
-    def begin(self) -> None:
-        """Work the mission off, unless that is under way."""
-        if self._running:
-            return
-        try:
-            design, request = self._context.inputs().design(), self._request()
-            concept = request.known_concept()
-            plan = Plan(
-                design,
-                (concept,),
-                self.legs(design),
-                "induced" if request.objective == "induced" else "total",
-                request.limits(design),
-                request.starts,
-            )
-        except ValueError as error:
-            self._line = str(error)
-            self._context.wake()
-            return
-        progress = self._progress = PlanProgress(plan)
-        self._running, self._line = True, "Starting a worker …"
-        self._job = self._context.pool.submit(
-            ScheduleTask(plan), lambda news: self._on_event(progress, news), TIME_LIMIT, _URGENCY
+    def prepare(self) -> tuple[ScheduleTask, Callable[[JobEvent], None], str]:
+        """The mission of the rows, for the concept that the search is asked for."""
+        design, request = self._context.inputs().design(), self._request()
+        concept = request.known_concept()
+        plan = Plan(
+            design,
+            (concept,),
+            self.legs(design),
+            "induced" if request.objective == "induced" else "total",
+            request.limits(design),
+            request.starts,
         )
-        self._context.wake()
+        progress = self._progress = PlanProgress(plan)
+        return ScheduleTask(plan), partial(self._hear, progress), "Starting a worker …"
 
     def halt(self) -> None:
         """Stop; what was found stays."""
-        if self._job is not None and self._running:
-            self._line = "Stopping …"
-            self._context.pool.stop(self._job)
-            self._context.wake()
+        if self.running:
+            self.line = "Stopping …"
+        super().halt()
 
     def play(self) -> None:
         """Fly the schedule: speed runs, the blade untwists, savings count up; pressed again, stop."""
@@ -130,7 +105,7 @@ class SchedulePanel:
         try:
             self._flight, self._time = ScheduleFlight(progress), 0.0
         except ValueError as error:
-            self._line = str(error)
+            self.line = str(error)
         else:
             self._context.tracker.reset()
             self._player.play()
@@ -170,55 +145,50 @@ class SchedulePanel:
 
     def stop(self) -> None:
         self._player.pause()
-        if self._job is not None:
-            self._context.pool.stop(self._job, quiet=True)
+        super().stop()
 
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = f'<div class="rx rx-dim rx-small">Concept: {title}</div>'
-        self._begin.visible, self._halt.visible = not self._running, self._running
-        kind = "running" if self._running else "idle" if self._progress is None else "done"
+        self._begin.visible, self._halt.visible = not self.running, self.running
+        kind = "running" if self.running else "idle" if self._progress is None else "done"
         self._state.content = (
-            f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self._line}</div>'
+            f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self.line}</div>'
         )
         progress = self._progress
         self._bar.visible = progress is not None
-        self._twists.set_visible(progress is not None)
-        self._savings.set_visible(progress is not None)
         if progress is None:
             return
-        self._bar.value = round(100.0 * (progress.part_done if self._running else 1.0), 1)
-        self._bar.animated = self._running
-        self._results.visible = not self._running and progress.at(None) is not None
+        self._bar.value = round(100.0 * (progress.part_done if self.running else 1.0), 1)
+        self._bar.animated = self.running
+        self._results.visible = not self.running and progress.at(None) is not None
         units = self._context.units
         seen = (id(progress), len(progress.cells), len(progress.fixed_powers), units)
         if seen != self._drawn:
             self._drawn = seen
             self._table.content = schedule_view.table(progress, units)
-            self._twists.show(schedule_view.twist_plot(progress, self._twists.y_range))
-            self._savings.show(schedule_view.saving_plot(progress, self._savings.y_range))
+            self._twists.show(schedule_view.twist_chart(progress, self._twists.y_range))
+            self._savings.show(schedule_view.saving_chart(progress, self._savings.y_range))
 
-    def _on_event(self, progress: PlanProgress, news: JobEvent) -> None:
+    def _hear(self, progress: PlanProgress, news: JobEvent) -> None:
         match news:
             case JobQueued(ahead):
-                self._line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
+                self.line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
             case JobStarted():
-                self._line = progress.count
+                self.line = progress.count
             case JobProgress(Cell() as cell):
                 progress.cells.append(cell)
-                self._line = progress.count
+                self.line = progress.count
             case JobProgress(FixedPowers(powers)):
                 progress.fixed_powers = powers
             case JobEnded(_, stopped, late):
-                self._running = False
                 why = "Time is up" if late else "Stopped"
-                self._line = f"{why}: {progress.count} kept." if late or stopped else "Done."
+                self.line = f"{why}: {progress.count} kept." if late or stopped else "Done."
             case JobFailed(message):
-                self._running, self._line = False, message
+                self.line = message
             case _:
                 pass
-        self._context.wake()
 
     def _result_clicked(self, event: viser.GuiEvent[Any]) -> None:
         progress = self._progress

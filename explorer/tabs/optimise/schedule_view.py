@@ -7,10 +7,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from explorer.charts.plots import Plot, Range, held_range
+from explorer.charts.plots import Range, held_range
+from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
 from rotor import Design, Optimum
 from rotor.arrays import Array
+from rotor.chart import Axis, Chart, Line
 from rotor.design import TableTwist, TwistLaw
 from rotor.optimisation import Cell, Plan, Schedule
 from rotor.optimisation.objective import MISSION_COLUMNS
@@ -50,32 +52,35 @@ class PlanProgress:
         return len(self.cells) / (len(self.plan.conditions) + 1)
 
 
-def twist_plot(progress: PlanProgress, previous: Range | None) -> Plot | None:
-    """Series: LEGS best twists and the best fixed one [°], gaps where not known; None before the first."""
-    r = np.linspace(0.13, 1.0, 80)
-    lines = [np.full(len(r), np.nan) for _ in range(LEGS + 1)]
+def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
+    """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
+    r, shades = np.linspace(0.13, 1.0, 80), colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
+    lines: list[Line] = []
     for k, leg in enumerate((*range(len(progress.plan.conditions)), None)):
         one = progress.at(leg)
         if one is not None and one.best is not None:
-            lines[LEGS if leg is None else k] = np.degrees(one.design.twist(r))
-    return _plot(r, lines, previous)
+            twist = np.degrees(one.design.twist(r))
+            name = "hover" if k == 0 else "fast" if k == len(progress.plan.conditions) - 1 else ""
+            fixed = Line("fixed", r, twist, NOW, "5 3")
+            lines.append(fixed if leg is None else Line(name, r, twist, css(shades[k]), width=1.5))
+    if not lines:
+        return None
+    seen = [value for one in lines for value in one.y]
+    return Chart(
+        "Best twist", Axis("r/R", (0.1, 1.02)), Axis("°", held_range(previous, min(seen), max(seen))), tuple(lines)
+    )
 
 
-def saving_plot(progress: PlanProgress, previous: Range | None) -> Plot | None:
-    """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ; legs that are known."""
+def saving_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
+    """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
     legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
     mu, moving, fixed = np.array(sorted(one for one in legs if math.isfinite(one[1])) or [(math.nan,) * 3]).T
     if not np.isfinite(moving).any():
         return None
-    return _plot(mu, [np.zeros(len(mu)), fixed, moving], previous, 0.1)
-
-
-def _plot(x: Array, lines: list[Array], previous: Range | None, top: float = -math.inf) -> Plot | None:
-    """`top`: the axis reaches at least so high; None where nothing is known."""
-    seen = np.concatenate(lines)
-    if not np.isfinite(seen).any():
-        return None
-    return Plot((x, *lines), held_range(previous, float(np.nanmin(seen)), max(top, float(np.nanmax(seen)))))
+    seen = [0.0, *(float(value) for value in (*moving, *fixed) if math.isfinite(value))]
+    lines = Line("fixed", mu, fixed, NOW, "5 3", 1.8), Line("variable", mu, moving, THIS)
+    y_axis = Axis("%", held_range(previous, min(seen), max(0.1, *seen)))
+    return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
 
 
 def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:

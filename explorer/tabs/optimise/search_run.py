@@ -9,6 +9,7 @@ from itertools import accumulate
 from typing import Literal
 
 from explorer.model.units import SI, Units
+from explorer.tabs.background import FRAME
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
@@ -138,8 +139,6 @@ class SearchRequest:
 State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
 TRACES = 16
 """The most starts of a search on the page."""
-FRAME = 0.1
-"""A played design stays at least so long [s]."""
 _CATCH_UP = 8
 """Never further behind the search than about so many frames."""
 

@@ -3,15 +3,15 @@
 from collections.abc import Callable
 from functools import lru_cache
 from html import escape
-from typing import Any
 
 import numpy as np
 
-from explorer.charts.strip import round_ticks
+from explorer.charts.strip import role_line
 from explorer.colours import NOW, START_COLOURS, THIS, css
 from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun, StartTrace
 from rotor import Optimum
+from rotor.chart import Axis, Chart, Line
 from rotor.design import PiecewiseLinearTwist
 from rotor.optimisation import Concept
 from rotor.optimisation.concepts import Handle
@@ -105,36 +105,28 @@ def headline(run: SearchRun, units: Units = SI) -> str:
     )
 
 
-def starts_chart(run: SearchRun, units: Units) -> dict[str, Any]:
+def starts_chart(run: SearchRun, units: Units) -> Chart:
     """The least power so far over the designs that each start has tried, for the strip below the scene."""
     unit, starts = units.power[0], run.starts()
     low, high = (unit.of(end) for end in power_axis(starts, run.start_power))
-    longest = max([10, *(len(one.best) for one in starts)])
-    lines: list[dict[str, Any]] = [
-        {
-            "x": list(range(1, len(one.best) + 1)),
-            "y": [round(unit.of(power), 3) for power in one.best],
-            "role": "saving",
-            "colour": css(START_COLOURS[k]),
-            "width": 2.8 if one.is_best else 1.4,
-        }
+    longest = float(max([10, *(len(one.best) for one in starts)]))
+    lines = [
+        Line("", range(1, len(one.best) + 1), [unit.of(power) for power in one.best], css(START_COLOURS[k]),
+             width=2.8 if one.is_best else 1.4)
         for k, one in enumerate(starts)
         if one.best
-    ]
+    ]  # fmt: skip
     if run.start_power is not None:
-        level = round(unit.of(run.start_power), 3)
-        lines.insert(0, {"x": [1, longest], "y": [level, level], "role": "reference"})
+        lines.insert(0, role_line("reference", (1.0, longest), (unit.of(run.start_power),) * 2))
     above = sum(unit.of(power) > high for one in starts for power in one.powers)
-    return {
-        "name": "starts", "title": "Searches from several starts", "wide": True,
-        "unit": f"least {unit.symbol} so far over designs tried",
-        "x_range": [1, longest], "x_ticks": round_ticks(1.0, float(longest), 5), "x_name": "",
-        "y_range": [low, high], "y_ticks": round_ticks(low, high, 4),
-        "lines": lines, "dots": [],
-        "value": _agreement(starts),
-        "note": f"{above} designs lie above the axis." if above else "",
-        "kind": "", "faded": False, "pinned": False,
-    }  # fmt: skip
+    return Chart(
+        "Searches from several starts",
+        Axis(range=(1.0, longest)),
+        Axis(f"least {unit.symbol} so far over designs tried", (low, high)),
+        tuple(lines),
+        value=_agreement(starts),
+        note=f"{above} designs lie above the axis." if above else "",
+    )
 
 
 def _agreement(starts: tuple[StartTrace, ...]) -> str:

@@ -11,8 +11,10 @@ from explorer.charts.svg import Point
 from explorer.colours import NOW, THIS
 from explorer.model.units import degrees, number
 from explorer.picture.blade_mesh import blade_axes_outline
+from explorer.tabs.live_charts import chart_box
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
-from explorer.tabs.probe.probe_measured import lift_curve, public_table
+from explorer.tabs.probe.probe_measured import HEIGHT as CHART_HEIGHT
+from explorer.tabs.probe.probe_measured import lift_chart, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from rotor import Solution
@@ -234,7 +236,7 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
     picture, scales = drawing(probe, fastest, strongest, opened)
     return (
         f'<div class="rx rx-probe" data-explorer="probe">{_head(probe)}{picture}{_key(scales)}{_table(probe)}'
-        f"{measured}{lift_curve(probe)}{public_table(probe)}</div>"
+        f"{measured}{chart_box(lift_chart(probe), CHART_HEIGHT)}{public_table(probe)}</div>"
     )
 
 

@@ -6,23 +6,23 @@ from html import escape
 
 import numpy as np
 
-from explorer.charts import svg
 from explorer.colours import LIMIT, NOW, THIS
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
+from explorer.tabs.live_charts import chart_box
 from explorer.tabs.probe.element import Probe
-from explorer.text.glossary import tip
+from explorer.text.glossary import READOUTS, tip
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array
-from rotor.chart import round_ticks
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
 from rotor.validation.airloads import REPORTS, harmonics
 
 LIFT, MARK = THIS, "#099268"
-_WIDTH, _HEIGHT = 312.0, 96.0
-_LEFT, _RIGHT, _TOP, _BOTTOM = 26.0, 300.0, 6.0, 80.0
+HEIGHT = 92.0
+"""Of the charts [px]."""
 _SHORT = {
     "umd-rans": "RANS",
     "umd-net": "RANS net",
@@ -32,13 +32,11 @@ _SHORT = {
     "hart2": "HART II table",
 }
 
-_LOAD_HEIGHT, _LOAD_LEFT, _LOAD_RIGHT, _LOAD_BOTTOM = 104.0, 34.0, 302.0, 86.0
-"""Of the charts over azimuth."""
 _TITLES = {
-    "cn_m2": ("C<sub>n</sub>M²", "normal force coefficient times Mach number squared"),
-    "cm_m2": ("C<sub>m</sub>M²", "moment coefficient times Mach number squared, nose up"),
-    "cl_u2": ("C<sub>l</sub>(r + µ sin ψ)²", "lift coefficient times the square of the speed over tip speed"),
-    "cl": ("C<sub>l</sub>", "lift coefficient of the section"),
+    "cn_m2": ("C_nM²", "normal force coefficient times Mach number squared"),
+    "cm_m2": ("C_mM²", "moment coefficient times Mach number squared, nose up"),
+    "cl_u2": ("C_l(r + µ sin ψ)²", "lift coefficient times the square of the speed over tip speed"),
+    "cl": ("C_l", "lift coefficient of the section"),
     "tip_twist_deg": ("Tip twist [°]", "elastic twist of the tip, nose up"),
     "tip_flap": ("Tip flapping/R", "deflection of the tip up from the precone"),
     "pitch_link": ("Pitch link [N]", "load of one pitch link without its mean, by a nose-up moment of the blade"),
@@ -46,7 +44,7 @@ _TITLES = {
 """Symbol and meaning of what is drawn."""
 
 
-def lift_curve(probe: Probe) -> str:
+def lift_chart(probe: Probe) -> Chart:
     """C_l over α of this section at this Mach number, both stall angles, public points, and where the element is.
 
     With dynamic stall also the way of the element around the disk, at its own Mach numbers.
@@ -63,53 +61,36 @@ def lift_curve(probe: Probe) -> str:
     reached = [float(curve.min()), float(curve.max()), probe.cl, *loop[1, inside].tolist()]
     bottom, top = min(-1.0, *reached), max(1.6, *reached)
 
-    def x(value: float) -> float:
-        return _LEFT + (value - low) / (high - low) * (_RIGHT - _LEFT)
-
-    def y(value: float) -> float:
-        return _BOTTOM - (value - bottom) / (top - bottom) * (_BOTTOM - _TOP)
-
-    marks = []
-    for tick in np.arange(low, high + 0.1, step):
-        marks.append(svg.line((x(tick), _BOTTOM), (x(tick), _BOTTOM + 3.0), width=0.8))
-        if tick % (2.0 * step) == 0.0:
-            marks.append(svg.tick((x(tick), _HEIGHT - 4.0), f"{number(tick)}°", "middle"))
-    for tick in (-1.0, 0.0, 1.0):
-        style = 'opacity=".5"' if tick == 0.0 else 'opacity=".18"'
-        marks.append(svg.line((_LEFT, y(tick)), (_RIGHT, y(tick)), width=0.8, style=style))
-        marks.append(svg.tick((_LEFT - 5.0, y(tick) + 3.5), number(tick), "end"))
-    for angle in probe.stall:
-        end = math.degrees(angle)
-        if low < end < high:
-            marks.append(svg.line((x(end), _TOP), (x(end), _BOTTOM), LIMIT, 1.2, 'stroke-dasharray="4 3"'))
-    for point in points_near(probe.section.main.name, probe.table_mach):
-        at = x(math.degrees(point.alpha + probe.section.main.incidence_offset)), y(point.cl)
-        if low < math.degrees(point.alpha) < high and bottom <= point.cl <= top:
-            marks.append(
-                f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2.6" fill="none" stroke="currentColor" opacity=".7">'
-                f"<title>{escape(SOURCES[point.source])}</title></circle>"
-            )
-    path = " ".join(f"{x(a):.1f},{y(cl):.1f}" for a, cl in zip(alpha.tolist(), curve.tolist(), strict=True))
-    marks.append(f'<polyline points="{path}" fill="none" stroke="{LIFT}" stroke-width="1.8"/>')
-    way = "M"  # A line that is broken where the element is out of the picture.
-    for k in [*range(loop.shape[1]), 0] if inside.any() else []:
-        way += f"{x(loop[0, k]):.1f} {y(loop[1, k]):.1f}L" if inside[k] else "M"
-    for piece in way.split("M"):
-        if piece.count("L") > 1:
-            marks.append(f'<path d="M{piece.rstrip("L")}" fill="none" stroke="{NOW}" stroke-width="1.6"/>')
-    here = x(degrees), y(probe.cl)
-    marks.append(svg.line((here[0], _BOTTOM), here, MARK, 1.0))
+    section = probe.section.main
+    points = [one for one in points_near(section.name, probe.table_mach) if low < math.degrees(one.alpha) < high]
+    public = Points(
+        "",
+        [math.degrees(one.alpha + section.incidence_offset) for one in points],
+        [one.cl for one in points],
+        "var(--rx-dim)",
+        "ring",
+        words=[SOURCES[one.source] for one in points],
+        size=2.6,
+    )
+    series: list[Series] = [Line("", alpha, curve, LIFT, width=1.8), public]
+    if inside.any():  # A line that is broken where the element is out of the picture.
+        turn = np.where(inside, loop, np.nan)[:, [*range(loop.shape[1]), 0]]
+        series.append(Line("a turn", loop[0, [*range(loop.shape[1]), 0]], turn[1], NOW, width=1.6))
     if not probe.idle:
-        marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
-    around = ""
-    if probe.unsteady is not None:
-        around = f'<span{tip("chart_stall_loop")}><span class="rx-dash" style="background:{NOW}"></span>a turn</span>'
-    return (
-        f'<div class="rx-line rx-probe-title"{tip("chart_lift_curve")}><span><b>Lift curve</b></span>'
-        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>{around}'
-        f'<span><span class="rx-dash" style="background:{LIMIT}"></span>stall</span></div>'
-        f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" role="img" '
-        f'aria-label="Lift coefficient over angle of attack">{"".join(marks)}</svg>'
+        series.append(Points("", (degrees,), (probe.cl,), NOW, words=("this element",)))
+    ends = [math.degrees(one) for one in probe.stall]
+    return Chart(
+        "Lift curve",
+        Axis(
+            "α",
+            (low, high),
+            tuple(np.arange(-180.0 if step > 5.0 else -10.0, high + 0.1, 2.0 * step).tolist()),
+            unit="°",
+        ),
+        Axis(f"C_l at Mach {number(probe.table_mach, 2)}; dashed: stall", (bottom, top), (-1.0, 0.0, 1.0)),
+        tuple(series),
+        tuple(Rule(end, colour=LIMIT, dashes="4 3") for end in ends if low < end < high),
+        note=READOUTS["chart_lift_curve"].text,
     )
 
 
@@ -210,42 +191,24 @@ def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
 
 def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> str:
     title, meaning = _TITLES[measured.quantity]
-    where = "" if measured.quantity.startswith(("tip_", "pitch_link")) else f" at {number(measured.r, 2)} R"
-    low = float(min(measured.values.min(), ours.min()))
-    high = float(max(measured.values.max(), ours.max()))
-    margin = 0.05 * (high - low)
-    low, high = low - margin, high + margin
-
-    def points(at: Array, values: Array) -> list[tuple[float, float]]:
-        x = _LOAD_LEFT + np.degrees(at) / 360.0 * (_LOAD_RIGHT - _LOAD_LEFT)
-        y = _LOAD_BOTTOM - (values - low) / (high - low) * (_LOAD_BOTTOM - _TOP)
-        return list(zip(x.tolist(), y.tolist(), strict=True))
-
-    marks = []
-    for tick in (0, 90, 180, 270, 360):
-        x = _LOAD_LEFT + tick / 360.0 * (_LOAD_RIGHT - _LOAD_LEFT)
-        marks.append(svg.line((x, _TOP), (x, _LOAD_BOTTOM), width=0.8, style='opacity=".18"'))
-        marks.append(svg.tick((x, _LOAD_HEIGHT - 6.0), f"{tick}°", "middle"))
-    for value in round_ticks(low, high, 4):
-        y = points(np.zeros(1), np.array([value]))[0][1]
-        style = 'opacity=".5"' if value == 0.0 else 'opacity=".18"'
-        marks.append(svg.line((_LOAD_LEFT, y), (_LOAD_RIGHT, y), width=0.8, style=style))
-        marks.append(svg.tick((_LOAD_LEFT - 5.0, y + 3.5), f"{value:.6g}".replace("-", "−"), "end"))
-    x = points(np.array([here % (2.0 * math.pi)]), np.zeros(1))[0][0]
-    marks.append(svg.line((x, _TOP), (x, _LOAD_BOTTOM), width=1.0, style='stroke-dasharray="3 3" opacity=".6"'))
-    dots = "".join(f"M{x:.1f} {y:.1f}h0" for x, y in points(measured.psi, measured.values))
-    size = 2.0 if len(measured.psi) > 100 else 3.4
-    marks.append(
-        f'<path d="{dots}" stroke="currentColor" stroke-width="{size:g}" stroke-linecap="round" opacity=".6"/>'
-    )
-    closed = points(np.append(psi, psi[0] + 2.0 * math.pi), np.append(ours, ours[0]))
-    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in closed)
-    marks.append(f'<polyline points="{line}" fill="none" stroke="{THIS}" stroke-width="1.8"/>')
-    caption = f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else ""
-    hint = f"{meaning[0].upper()}{meaning[1:]}. Correlation of harmonics 1 to {measured.highest}, without the mean."
-    return (
-        f'<div class="rx-line rx-small" title="{escape(hint)}"><span>{title}{where}</span>'
-        f'<span class="rx-dim rx-num rx-push" data-explorer="correlation">{caption}</span></div>'
-        f'<svg viewBox="0 0 {_WIDTH:g} {_LOAD_HEIGHT:g}" width="100%" role="img" '
-        f'aria-label="{escape(meaning)} over azimuth, measured and ours">{"".join(marks)}</svg>'
+    where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
+    seen = *measured.values.tolist(), *ours.tolist()
+    margin = 0.05 * (max(seen) - min(seen))
+    closed = np.append(psi, psi[0] + 2.0 * math.pi), np.append(ours, ours[0])
+    size = 1.0 if len(measured.psi) > 100 else 1.7
+    return chart_box(
+        Chart(
+            f"{title}{where}",
+            Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"),
+            Axis(range=(min(seen) - margin, max(seen) + margin)),
+            (
+                Points("", np.degrees(measured.psi), measured.values, "var(--rx-dim)", size=size),
+                Line("", np.degrees(closed[0]), closed[1], THIS, width=1.8),
+            ),
+            (Rule(math.degrees(here) % 360.0),),
+            value=f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else "",
+            note=f"{meaning[0].upper()}{meaning[1:]}, measured and ours. "
+            f"Correlation of harmonics 1 to {measured.highest}, without the mean.",
+        ),
+        HEIGHT,
     )

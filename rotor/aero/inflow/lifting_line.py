@@ -21,7 +21,7 @@ from rotor.aero.inflow.interface import InflowModel, InflowTerms, Losses, Sectio
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import LiftingLine, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
-from rotor.arrays import Array
+from rotor.arrays import Array, read_only
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 
@@ -87,6 +87,7 @@ class LiftingLineInflow(InflowModel):
 
 
 @lru_cache(maxsize=32)
+@read_only
 def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
     """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
 

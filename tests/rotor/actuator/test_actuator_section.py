@@ -22,9 +22,7 @@ from rotor.dynamics.thin_wall import (
     Material,
     Panel,
     WallSection,
-    actuation_moment,
     axial_stiffness,
-    blocked_shear_flow,
     build_section,
     free_strain_in_wall_axes,
     induced_twist_rate,
@@ -37,6 +35,17 @@ from rotor.dynamics.thin_wall import (
 
 METAL = Material("metal", 70e9, 70e9, 0.3, 70e9 / 2.6, 2700.0)
 DIAGONAL = math.pi / 4.0
+
+
+def blocked_shear_flow(layer: Layer) -> float:
+    """Shear flow of a blocked sheet [N/m]; at 45° ½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2], zero for an isotropic one."""
+    blocked = rotated_stiffness(layer.material, layer.angle) @ free_strain_in_wall_axes(layer)
+    return layer.thickness * float(blocked[2])
+
+
+def actuation_moment(section: WallSection) -> float:
+    """M_a = GJ θ'_a: the end moment that twists the passive section by the same rate [N m]."""
+    return torsional_stiffness(section) * induced_twist_rate(section)
 
 
 def ply(id: str) -> PiezoPly:

@@ -185,6 +185,10 @@ def test_two_classes_of_one_name_are_two_freedoms() -> None:
         class Spring(rotor.Freedom):
             states = ("spring",)
 
+            def numbers(self, problem: Problem) -> dict[Any, float]:
+                del problem
+                return {}
+
             def build(self, s: Structure) -> None:
                 row = s.equation("spring")
                 s.column(TH, "one", 0, 1.0, s.states["spring"])

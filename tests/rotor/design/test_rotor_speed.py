@@ -1,0 +1,143 @@
+"""Rotor speed as a quantity: what scales with Ω and what does not, and that it reaches everything from its row."""
+
+import argparse
+import math
+from dataclasses import replace
+
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor
+from explorer.model.inputs import inputs_of
+from explorer.model.sliders import SLIDERS
+from explorer.sharing.share import code_of, design_from
+from explorer.text.glossary import CONTROLS
+from rotor.command.common import add_design_arguments
+from rotor.command.common import design_from as design_from_flags
+from rotor.design.design import Design
+from rotor.design.quantities import CONDITION
+from rotor.dynamics.torsion import blade_modes
+from rotor.files.design_file import design_from_record
+from rotor.optimisation.objective import read_mission
+from rotor.study.series import sweep_columns
+from rotor.study.study import columns_of
+from rotor.study.study_file import parse_study
+from rotor.units import KNOT
+
+SMALL = {"elements": 12, "azimuths": 24}
+
+
+def simple(percent: float, **more: float) -> Design:
+    """A rigid blade in incompressible air, without the losses that depend on speed."""
+    off = "compressibility,flapping,elastic-twist,swirl,download,surface-drag"
+    return rotor.make_design(off=off, inflow="drees", rotor_speed_percent=percent, **more, **SMALL)
+
+
+def test_its_own_speed_is_the_rotor_as_built():
+    design = rotor.make_design(mu=0.2, **SMALL)
+    again = design.at(rotor_speed_percent=83.0).at(rotor_speed_percent=100.0)
+    assert again == design
+    assert again.rotor == design.aircraft.rotor
+    assert again.rotor.angular_speed == design.aircraft.rotor.angular_speed
+
+
+def test_profile_power_goes_with_the_cube_at_the_same_blade_loading():
+    """At one C_T all coefficients are the same without Mach number, so that weights ∝ Ω² have powers ∝ Ω³."""
+    base = rotor.solve(simple(100.0, hover=True)).require()
+    for percent in (75.0, 105.0):
+        share = percent / 100.0
+        mass = base.design.condition.mass * share**2
+        slow = rotor.solve(simple(percent, hover=True, mass_kg=mass)).require()
+        assert_allclose(slow.ct, base.ct, rtol=1e-6)
+        for part in ("profile", "induced"):
+            assert_allclose(getattr(slow.power, part), getattr(base.power, part) * share**3, rtol=2e-5)
+
+
+def test_ideal_induced_power_does_not_depend_on_rotor_speed():
+    """Momentum theory: T √(T/2ρA); ours differs by less than the change of κ, while profile power falls."""
+    full, slow = (rotor.solve(simple(percent, hover=True)).require() for percent in (100.0, 90.0))
+    assert_allclose(slow.power.induced, full.power.induced, rtol=0.02)
+    assert slow.power.profile < 0.85 * full.power.profile
+
+
+def test_torsion_frequency_per_revolution_rises_as_the_rotor_slows():
+    """ω² = ω_0² + k Ω²: the elastic part stays in rad/s, the centrifugal part stays per revolution."""
+    design = rotor.make_design(**SMALL)
+    structure = design.rotor.blade.structure
+    assert structure is not None
+
+    def per_rev(percent: float) -> float:
+        speed = design.at(rotor_speed_percent=percent).rotor.angular_speed
+        return float(blade_modes(structure, speed, 1).frequency[0]) / speed
+
+    rest = float(blade_modes(structure, 1e-3, 1).frequency[0])
+    own = design.aircraft.rotor.angular_speed
+    centrifugal = per_rev(100.0) ** 2 - (rest / own) ** 2
+    for percent in (70.0, 110.0):
+        assert_allclose(per_rev(percent) ** 2, (rest / (own * percent / 100.0)) ** 2 + centrifugal, rtol=2e-3)
+
+
+def test_flapping_with_hinge_offset_keeps_its_frequency_and_a_spring_does_not():
+    design = rotor.make_design(**SMALL)
+    slow = design.at(rotor_speed_percent=80.0)
+    assert_allclose(slow.rotor.flap_frequency_squared, design.rotor.flap_frequency_squared, rtol=1e-12)
+    sprung = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, flap_spring=1e4)))
+    slower = sprung.at(rotor_speed_percent=80.0)
+    assert_allclose(slower.rotor.flap_spring_ratio * 0.8**2, sprung.rotor.flap_spring_ratio, rtol=1e-12)
+
+
+def test_advance_ratio_stays_unless_the_airspeed_is_given():
+    design = rotor.make_design(mu=0.3)
+    assert design.at(rotor_speed_percent=90.0).condition.advance_ratio == 0.3
+    for slow in (
+        rotor.make_design(speed_kt=120, rotor_speed_percent=90),
+        design.at(rotor_speed_percent=90).at(speed_kt=120),
+    ):
+        assert_allclose(slow.airspeed, 120 * KNOT, rtol=1e-12)
+    assert_allclose(slow.tip_mach, 0.9 * design.tip_mach, rtol=1e-12)
+    assert_allclose(slow.weight_coefficient, design.weight_coefficient / 0.81, rtol=1e-12)
+
+
+def test_a_given_tip_mach_number_excludes_it():
+    stand = {"ct_over_sigma": 0.07, "tip_mach": 0.6}
+    with pytest.raises(ValueError, match=r"rotor speed 90 % and tip_mach 0\.6 both .* give one of them"):
+        rotor.make_design(stand=stand, rotor_speed_percent=90)
+    with pytest.raises(ValueError, match=r"rotor speed 60 % is outside 70…110 %: choose a value inside"):
+        rotor.make_design(rotor_speed_percent=60)
+
+
+def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
+    """Flag, file, link, study, sweep, mission, JSON, report, slider and tooltip: of every row of the condition."""
+    parser = argparse.ArgumentParser()
+    add_design_arguments(parser)
+    for name, row in CONDITION.items():
+        if name == "mu":
+            continue
+        value = float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
+        design = rotor.make_design(**{name: value}, **SMALL)
+        assert row.of(design) == value
+        assert row.put(rotor.make_design(**SMALL), value).condition == design.condition
+        assert design_from_flags(parser.parse_args([f"--{row.flag}={value}"]), mu=0.2).condition == design.condition
+        assert design_from_record(design.to_dict()) == design
+        assert f"{row.word}={value:g}" in code_of(design)
+        assert design_from(code_of(design)) == design
+        assert inputs_of(design).design().condition == design.condition
+        assert row.input in SLIDERS
+        assert row.input in CONTROLS
+        assert name in sweep_columns([design])
+        study = parse_study(f"[axes]\nmu = [0.2]\n{name} = [{value}]")
+        assert next(column.unit for column in columns_of(study) if column.name == name) == row.symbol
+        mission = tmp_path / "mission.csv"
+        mission.write_text(f"mu,{name}\n0.2,{value}\n", encoding="utf-8")
+        assert read_mission(mission, rotor.make_design(**SMALL))[0].flight == design.condition
+        if row.short:
+            assert row.said(value) in repr(design)
+
+
+def test_a_sweep_over_it_and_its_record():
+    table = rotor.sweep(rotor.make_design(mu=0.2, inflow="drees", **SMALL), rotor_speed_percent=[90, 100])
+    assert table.to_dict()["rotor_speed_percent"] == [90.0, 100.0]
+    assert table[0].to_dict()["rotor_speed_percent"] == 90.0
+    assert "rotor_speed_percent" not in table[1].to_dict()
+    assert table[0].power.total < table[1].power.total  # Less profile power at a small blade loading.
+    assert math.isclose(table[0].design.tail_rotor.angular_speed, table[1].design.tail_rotor.angular_speed)
