@@ -183,7 +183,7 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
         "--airfoils NAME, with the names in the CSV.",
         tables=(
             table(
-                "statements that hold",
+                "held",
                 ("section data", *(f"{on}, {unit}, {count}" for on, unit, count in ways)),
                 [(described(one), *(held[ThesisReading(one, *way)] for way in ways)) for one in sections], shown=True,
             ),

@@ -182,6 +182,15 @@ def test_figure_3_14(report: Make):
     assert numbers["flight_cost_of_4"] > 0.02
 
 
+@pytest.mark.slow
+def test_figure_3_15(report: Make):
+    """Strong twist is best in hover; a slower rotor has less profile drag, and saves where nothing stalls."""
+    one = report("3.15")
+    assert one.verdict is Agreement.NO_REFERENCE
+    assert one.numbers["hover_best"] == -16.0 < one.numbers["fast_best"]
+    assert 0.0 < one.numbers["slower_saves"] < 0.2
+
+
 def test_crossings_are_at_equal_power():
     """Between −12° and −16° on the thesis' rotor; the two costs cross once at low speed."""
     found = crossings("thesis", -12, -16, (0.075, 0.105, 0.135))
