@@ -59,12 +59,13 @@ def compute_ahead(
     The longest groups come first. `advance` is called after every call.
     """
     waiting = [tuple(call for call in group if call[1] not in call[0].known) for group in groups]
+    seen: set[tuple[str, tuple[Any, ...]]] = set()
 
     def keep(answered: tuple[Call, Any]) -> None:
         (function, args), answer = answered
-        new = args not in function.known
         function.known[args] = answer
-        if advance is not None and new:
+        if advance is not None and (function.name, args) not in seen:  # In one process it is known before.
+            seen.add((function.name, args))
             advance(str(args[0]))
 
     with Processes(processes) if processes > 1 else nullcontext() as pool:
