@@ -17,7 +17,15 @@ from tqdm import tqdm
 from rotor.command.common import STOPPED, add_command, interruptible, print_result
 from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
-from rotor.study.run import ChunkRun, ExecutorLost, dask_client, open_store, processes_here, run_chunks
+from rotor.study.run import (
+    ChunkRun,
+    ExecutorLost,
+    check_workers,
+    dask_client,
+    open_store,
+    processes_here,
+    run_chunks,
+)
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
@@ -169,6 +177,7 @@ def run(args: argparse.Namespace) -> int:
     file = read_study(args.file)
     if args.workers is not None and args.scheduler:
         raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
+    check_workers(args.workers)
     if args.dry_run:
         return _dry_run(file)
     with closing(open_store(file, args.out)) as store:

@@ -106,6 +106,7 @@ def run_study(
         )
     if executor is not None and workers is not None:
         raise ValueError("workers are the processes of this machine: omit them, or omit executor")
+    check_workers(workers)
     file = read_study(study)
     with closing(open_store(file, out)) as store:
         missing, total = store.missing(), store.study.count
@@ -133,11 +134,15 @@ def open_store(file: StudyFile, out: str | Path | None) -> Store:
     return Store(out or Path(file.path).stem, file, provenance)
 
 
-@contextmanager
-def processes_here(study: Study, workers: int | None) -> Generator[Executor]:
-    """Processes of this machine, by default one per core; they end with the context. ValueError outside 1…1024."""
+def check_workers(workers: int | None) -> None:
+    """ValueError outside 1…1024, before a folder is opened for them."""
     if workers is not None and not 1 <= workers <= 1024:
         raise ValueError(f"{workers} workers are outside 1…1024: use one per core")
+
+
+@contextmanager
+def processes_here(study: Study, workers: int | None) -> Generator[Executor]:
+    """Processes of this machine, by default one per core; they end with the context."""
     evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
     pool = Processes(workers or os.cpu_count() or 1)
     try:

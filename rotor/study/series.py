@@ -127,12 +127,13 @@ def sweep(
 
     Parameters:
         design: one design, or several.
-        mu: advance ratios. Give this or one of the next four; all else stays as in the design.
+        mu: advance ratios. Give this or one of the five that follow `start`; all else stays as in the design.
         start: an earlier solution to begin from, for designs of the same rotor.
         speed_kt: airspeeds [kt].
         mass_kg: masses of the aircraft [kg].
         altitude_m: pressure altitudes [m].
         climb_m_s: rates of climb, negative in descent [m/s].
+        rotor_speed_percent: rotor speeds, as parts of the rotor's own [%].
 
     Returns:
         The solutions in order, also those that did not converge, as a table.

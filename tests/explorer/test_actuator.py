@@ -36,6 +36,7 @@ from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
+from tests.curves import curves
 from tests.explorer.test_pictures import on_canvas
 
 DESIGN = make_design(preset="flight", mu=0.2)
@@ -252,11 +253,11 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
 
 def test_the_chart_shows_need_and_reach(verdict: Verdict):
     chart = reach_chart(ActuatorInputs(drives=FULL), verdict.installed, verdict, 0.13, None)
-    limit, required, used, now = (np.array(one.y) for one in chart.series)
+    limit, required, used, now = (np.array(one.y) for one in curves(chart))
     assert_allclose(abs(required[-1]), math.degrees(verdict.required), rtol=1e-6)
     assert (np.abs(used) <= np.abs(limit) + 0.01).all()
     assert now[-1] > 0.0
-    assert chart.span("y")[0] <= min(min(one.y) for one in chart.series)
+    assert chart.span("y")[0] <= min(min(one.y) for one in curves(chart))
     assert chart.series[0].x[0] == pytest.approx(0.13)
 
 

@@ -28,6 +28,7 @@ from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.trim.solve import solve
+from tests.curves import curves
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Quick, where the physics does not matter."""
@@ -138,7 +139,7 @@ class TestSearchRun:
 class TestCharts:
     def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
         chart = starts_chart(run, SI)
-        level, *starts = chart.series
+        level, *starts = curves(chart)
         assert level.colour == LOOKS["reference"][0]
         assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
         low, high = chart.span("y")
@@ -155,8 +156,8 @@ class TestCharts:
         chart, beside = (sensitivity.sensitivity_chart(solution, None, a) for a in (None, solution))
         assert [one.label for one in chart.series] == ["induced", "total"]
         assert [one.label for one in beside.series] == ["induced", "A", "B"]
-        assert beside.series[1].y == pytest.approx(beside.series[2].y)
-        r, total = np.array(chart.series[-1].x), np.array(chart.series[-1].y)
+        assert curves(beside)[1].y == pytest.approx(curves(beside)[2].y)
+        r, total = np.array(curves(chart)[-1].x), np.array(curves(chart)[-1].y)
         assert abs(total @ solution.disk.dr) < 1e-6 * np.abs(total).max()
         assert r[np.argmin(total)] != r[np.argmax(total)]
 
@@ -169,7 +170,7 @@ class TestCharts:
         vertices = blade_vertices(shape, solution.design.twist)
         assert np.all(points[:, 0] <= vertices[:, 0].max() + 1e-6)
         outward = points[:, 0] / solution.design.rotor.radius
-        saves = np.interp(outward, np.array(chart.series[-1].x) - shape.r[0], chart.series[-1].y) < -5.0
+        saves = np.interp(outward, np.array(curves(chart)[-1].x) - shape.r[0], curves(chart)[-1].y) < -5.0
         red, blue = colours[:, 0].astype(int), colours[:, 2].astype(int)
         assert np.all(blue[saves] > red[saves])
 
@@ -281,7 +282,7 @@ def test_the_best_start_has_the_power_of_the_optimum(run: SearchRun):
     assert all(f"Start {start.number}:" in search_text.headline(run) for start in run.starts())
     equal = [one.number for one in run.starts() if one.gap is not None and one.gap < 50.0]
     one, several, every = f"start {best.number} is best", f"{len(equal)} of 3 starts are best", "all 3 starts agree"
-    assert starts_chart(run, SI)["value"] == (one, several, every)[len(equal) - 1]
+    assert starts_chart(run, SI).value == (one, several, every)[len(equal) - 1]
 
 
 def test_half_way_the_second_start_runs_and_the_third_waits(searched: tuple[SearchRun, tuple[StartTrace, ...]]):
@@ -306,7 +307,7 @@ def test_the_axis_shows_the_ends_and_counts_what_it_clips(monkeypatch: pytest.Mo
     assert 853e3 < high < 1e6
     run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
     monkeypatch.setattr(run, "starts", lambda: (spike,))
-    assert starts_chart(run, SI)["note"] == "1 designs lie above the axis."
+    assert starts_chart(run, SI).note == "1 designs lie above the axis."
 
 
 def test_a_design_beyond_a_limit_is_not_the_best():

@@ -18,6 +18,7 @@ from rotor.actuator.verdict import judge
 from rotor.chart import Points
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from tests.curves import curves
 
 DESIGN = make_design(inflow="drees")
 
@@ -74,12 +75,12 @@ def test_the_point_is_what_the_verdict_says():
     assert point.words[0].startswith("MFC P1")
     assert point.words[0].endswith("does not pay")
     assert not [one for one in mass_chart(line, None).series if isinstance(one, Points)]
-    edge = chart.series[1]
+    edge = curves(chart)[1]
     assert point.y[0] > np.interp(point.x[0], edge.x, edge.y)  # More mass than pays.
 
 
 def test_drive_falls_to_nothing_at_the_mass_that_pays():
-    whole, half = drive_chart(even()).series
+    whole, half = curves(drive_chart(even()))
     assert whole.x[-1] > half.x[-1]  # More twist pays for more mass,
     assert whole.y[0] > half.y[0]  # and more power at no mass.
     assert whole.y[-1] == pytest.approx(half.y[-1], abs=0.002)  # Both end on the axis.

@@ -28,6 +28,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Cell, Plan
 from rotor.trim.solve import solve
+from tests.curves import curves
 
 LAWS: tuple[tuple[TwistLaw, TwistLaw], ...] = (
     (PiecewiseLinearTwist((-0.3, -0.1), (0.4,)), PiecewiseLinearTwist((-0.1, -0.3), (0.8,))),
@@ -87,7 +88,7 @@ class TestSchedule:
         assert savings is not None
         assert [one.label for one in twists.series] == ["hover", "", "fast", "fixed"]
         assert [one.label for one in savings.series] == ["fixed", "variable"]
-        assert all(np.isfinite(one.y).all() for chart in (twists, savings) for one in chart.series)
+        assert all(np.isfinite(one.y).all() for chart in (twists, savings) for one in curves(chart))
         empty = PlanProgress(progress.plan)
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
@@ -100,9 +101,9 @@ class TestSchedule:
         whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert whole is not None
         assert drawn is not None
-        fixed, moving = drawn.series
+        fixed, moving = curves(drawn)
         assert_allclose(moving.x, [0.3])
-        assert_allclose(moving.y, whole.series[1].y[2:])
+        assert_allclose(moving.y, curves(whole)[1].y[2:])
         assert math.isnan(fixed.y[0])  # Not known yet.
 
     def test_csv_reads_back(self, progress: PlanProgress):

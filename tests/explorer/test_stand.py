@@ -17,6 +17,7 @@ from rotor.assets import MEASURED_ROTORS
 from rotor.chart import Points
 from rotor.trim.solve import solve
 from rotor.validation.compare import SETS, load_set
+from tests.curves import curves
 
 XV15 = next(one for one in measured_conditions("xv15") if one.test == "Tunnel, 15° forward")
 FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio, stand=XV15.stand)
@@ -107,7 +108,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert chart.chart(solve(OPENING.design())) is None
     before = chart.chart(solution)
     assert before is not None
-    line, marks, _ = before.series
+    line, marks, _ = curves(before)
     assert len(marks.x) == 4
     assert len(line.x) == 0
     drawn: list[bool] = []
@@ -117,7 +118,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert after is not None
     assert after.value.startswith("+")
     assert "rms 6.3 %" in after.value
-    line, marks, here = after.series
+    line, marks, here = curves(after)
     assert isinstance(marks, Points)
     assert marks.y == pytest.approx([5.7, 5.95, 6.2, 6.65])
     assert marks.scatter == pytest.approx([0.1] * 4)

@@ -40,7 +40,7 @@ def lines(chart: Chart) -> list[Line]:
 
 def roles(chart: Chart) -> list[Role]:
     """What its lines look like."""
-    by_look = {look: role for role, look in LOOKS.items()}
+    by_look: dict[tuple[object, ...], Role] = {look: role for role, look in LOOKS.items()}
     return [by_look[one.colour, one.width, one.dashes] for one in lines(chart)]
 
 

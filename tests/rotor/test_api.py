@@ -219,7 +219,7 @@ class TestSolution:
         drawn = {line.get_label(): line.get_ydata() for line in axes.lines}
         assert_allclose(drawn["total"], [one.power.total / 1e3 for one in table])
         other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
-        wanted = ["UH-60A, linear:-12", "UH-60A, linear:-4"]
+        wanted = ["UH-60A, linear:−12", "UH-60A, linear:−4"]
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == wanted
         several = rotor.sweep([design, design.with_twist("linear:-4")], [0.1, 0.2])
         assert [line.get_label() for line in rotor.plot_power(several).lines] == wanted
@@ -289,7 +289,7 @@ WRONG = {
     "rotor.make_design(twist='-12')": (ValueError, "twist '-12' is not known: write linear:-12"),
     "rotor.make_design(twist='cubic:1')": (ValueError, "twist 'cubic:1' is not known: use linear:RATE"),
     "rotor.make_design(twist=lambda r: 0 * r)": (TypeError, 'is not a twist: write a text such as "linear:-12"'),
-    "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.2"),
+    "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.3"),
     "rotor.make_design(mu=2)": (ValueError, "advance ratio 2 is outside 0…0.6"),
     "rotor.make_design(mu=0.2, hover=True)": (ValueError, "mu=0.2 and hover=True each set the speed"),
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.disk import build_disk
 from rotor.aero.inflow import Wake, inflow_model
+from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import glauert_inflow
@@ -91,7 +92,7 @@ def test_a_trim_has_the_first_harmonics_of_its_model():
 
 def local_momentum(load: Array, wake: Wake) -> Array:
     """λ_i of a load, without tip loss."""
-    terms = LocalMomentumInflow(tip=False).on(DISK, build_problem(make_design()).course, (True, True))
+    terms = LocalMomentumInflow(tip=False).on(DISK, build_problem(make_design()).course, Losses(True, True))
     followed = terms.follow(wake, wake.mu_z, sees_tilt=True)
     along = followed.atoms["lambda0 kx"][0] * np.outer(DISK.r, DISK.cos)
     return followed.live[GAIN, "gain"][0][:, None] * load[:, None] + along

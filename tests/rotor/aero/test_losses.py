@@ -86,6 +86,7 @@ def test_without_losses_it_does_not_matter_where_they_act():
 def test_hover_of_the_thesis_is_the_closed_form():
     """λ of every annulus against (3.3) with the F of its own λ, for the straight lift curve of the section data."""
     one = with_loss("inflow", 0.0, "thesis")
+    assert one.linear is not None
     problem, disk = one.linear.problem, one.disk
     slope, zero = lift_curve(problem)
     inflow = disk.induced[:, 0]
@@ -101,6 +102,7 @@ def test_loss_on_the_inflow_is_that_of_the_annulus_in_fast_flight():
     errors: list[float] = []
     for mu in (0.15, 0.35):
         one = with_loss("inflow", mu, "thesis")
+        assert one.linear is not None
         disk, state = one.disk, one.linear.elements.state
         psi = np.radians(np.arange(360.0))
         tilt = 15.0 * math.pi / 23.0 * math.tan(0.5 * math.atan2(mu * math.cos(state.shaft_tilt), mu * math.sin(
@@ -126,6 +128,7 @@ def test_the_parts_of_power_are_the_torque_with_loss_on_the_inflow():
     power = with_loss("inflow", 0.25).power
     assert_allclose(power.shaft, power.main_rotor, rtol=1e-8)
     stated = with_loss("inflow", 0.25, "thesis")
+    assert stated.linear is not None
     e, psi = stated.linear.elements, stated.disk.psi
     aft = (e.fx * np.sin(psi) - e.fz * e.beta * np.cos(psi)).mean(axis=1)
     lacking = 0.25 * float(stated.disk.dr @ aft) * stated.design.power_unit

@@ -14,7 +14,7 @@ from scipy.integrate import dblquad
 from rotor.__main__ import main
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.interface import Losses, Wake
 from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.losses import tip_factor
 from rotor.aero.problem import LOW_MACH, build_problem
@@ -199,7 +199,7 @@ class TestLossesAndFuselage:
         problem, wake, model = build_problem(small(0.2)), Wake(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
         disk = problem.disk
         on, off = (
-            m.on(disk, problem.course, (True, True)).follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0]
+            m.on(disk, problem.course, Losses(True, True)).follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0]
             for m in (model, model.without_tip_loss())
         )
         assert_allclose(on * tip_factor(disk.r, wake.axial, 4)[0], off, rtol=1e-9)

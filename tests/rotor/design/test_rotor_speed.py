@@ -1,8 +1,8 @@
 """Rotor speed as a quantity: what scales with Ω and what does not, and that it reaches everything from its row."""
 
 import argparse
-import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from numpy.testing import assert_allclose
@@ -24,10 +24,10 @@ from rotor.study.study import columns_of
 from rotor.study.study_file import parse_study
 from rotor.units import KNOT
 
-SMALL = {"elements": 12, "azimuths": 24}
+SMALL: dict[str, Any] = {"elements": 12, "azimuths": 24}
 
 
-def simple(percent: float, **more: float) -> Design:
+def simple(percent: float, **more: Any) -> Design:
     """A rigid blade in incompressible air, without the losses that depend on speed."""
     off = "compressibility,flapping,elastic-twist,swirl,download,surface-drag"
     return rotor.make_design(off=off, inflow="drees", rotor_speed_percent=percent, **more, **SMALL)
@@ -140,4 +140,3 @@ def test_a_sweep_over_it_and_its_record():
     assert table[0].to_dict()["rotor_speed_percent"] == 90.0
     assert "rotor_speed_percent" not in table[1].to_dict()
     assert table[0].power.total < table[1].power.total  # Less profile power at a small blade loading.
-    assert math.isclose(table[0].design.tail_rotor.angular_speed, table[1].design.tail_rotor.angular_speed)

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.disk import Disk
+from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import UP, UT
@@ -120,7 +121,7 @@ class FullLattice(LiftingLineInflow):
 
     near: float = 0.0
 
-    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> LiftingLineTerms:
+    def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> LiftingLineTerms:
         return LiftingLineTerms(replace(super().on(disk, course, losses).line, near=self.near), course)
 
 
