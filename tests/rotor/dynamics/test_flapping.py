@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow import INFLOW_MODELS, Wake
 from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
 from rotor.aero.section import FZ, LOSS, TH, UP, UR, UT, section
 from rotor.arrays import Array
@@ -39,6 +40,12 @@ def march(problem: Problem, at: BladeElements, loss: Array, revolutions: int) ->
     along, through = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
     wake, model, arm = Wake(along, through, state.lambda0), INFLOW_MODELS["pitt-peters"], disk.r - flap.hinge
     assert isinstance(model, LinearInflow)
+    spread = np.ones((len(disk.r), 1))
+    if problem.design.models.loss_on == "inflow":  # λ_i/F, with F averaged over azimuth.
+        around = np.arange(24) * math.pi / 12.0
+        total = flow.mu_z + model.field(disk.r, np.cos(around), np.sin(around), wake)[0]
+        factor, _ = loss_factor(disk.r[:, None], total, disk.blades, disk.root)
+        spread = 1.0 / factor.mean(axis=1, keepdims=True)
 
     def acceleration(psi: float, beta: float, rate: float) -> float:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
@@ -46,7 +53,7 @@ def march(problem: Problem, at: BladeElements, loss: Array, revolutions: int) ->
         c[TH, :, 0] = problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
         c[UT, :, 0] = disk.r - at.swirl + flow.mu_x * sin
         c[UP, :, 0] = arm * rate + flow.mu_z + flow.mu_x * beta * cos
-        c[UP] += model.field(disk.r, cos, sin, wake)[0]
+        c[UP] += spread * model.field(disk.r, cos, sin, wake)[0]
         c[UR], c[LOSS] = flow.mu_x * cos, loss
         moment = float(arm * disk.dr @ section(c, data, False, False)[0][FZ, :, 0])
         return flap.load_gain * moment - flap.weight - flap.frequency_squared * beta

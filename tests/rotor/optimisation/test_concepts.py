@@ -10,6 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor import make_design, parse_twist
+from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.blade import airfoils_spec
 from rotor.design.twist import LinearTwist, QuadraticTwist, SplineTwist
 from rotor.files.design_file import load_design
@@ -98,7 +99,7 @@ def test_two_airfoils_change_the_blade_and_are_kept_in_a_design_file(tmp_path: P
     assert back.rotor == design.rotor
     assert_allclose(solve(back).power.total, solve(design).power.total, rtol=1e-8)
     thesis = concept.apply(make_design(preset="thesis"), [0.0, 0.0])
-    assert airfoils_spec(thesis.rotor) == "sc1094r8,sc1095-thesis@0.6"
+    assert airfoils_spec(thesis.rotor) == f"sc1094r8,{THESIS_READING.name}@0.6"
 
 
 def test_restricted_parameters_are_fixed():
