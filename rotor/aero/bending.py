@@ -127,7 +127,7 @@ def build_bending(
     edges = element_edges(disk.dr) * radius
     outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
     bent = along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r))
-    turned = 2.0 * (REFERENCE_COLLECTIVE + rotor.builtin_twist(disk.r))
+    turned = 2.0 * (reference + rotor.builtin_twist(disk.r))
     return BladeBending(
         modes=found,
         first=first,

@@ -25,7 +25,7 @@ adds to a panel's own block. Inboard it fades out as the core of the young trail
 import math
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -35,7 +35,7 @@ from scipy.special import exp1, hankel2
 
 from rotor.aero.disk import azimuths_of, stations
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.arrays import Array, Integers, Singles
+from rotor.arrays import Array, Integers, Singles, fixed_property, read_only
 from rotor.compiled import compiled
 
 PIECES = 4
@@ -66,12 +66,12 @@ class LiftingLine:
     near: float = math.radians(30.0)
     """Age [rad] to which the lattice is full."""
 
-    @cached_property
+    @fixed_property
     def edges(self) -> Array:
         """(panels + 1,)"""
         return stations(self.root, self.panels, fine_tip=True)[0]
 
-    @cached_property
+    @fixed_property
     def r(self) -> Array:
         """(panels,)"""
         return stations(self.root, self.panels, fine_tip=True)[1]
@@ -266,6 +266,7 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
 
 
 @lru_cache(maxsize=32)
+@read_only
 def mean_influence(line: LiftingLine, course: WakeCourse) -> Array:
     """The same of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""
     at = line.azimuths // line.blades * np.arange(line.blades)
