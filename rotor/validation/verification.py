@@ -249,7 +249,7 @@ def beside_ccblade() -> list[CodeComparison]:
 
 def moment_trimmed(mu: float) -> Solution:
     """The thesis' rotor in propulsive trim with three-state gains, no loss factors and, as dynbem's, rigid blades."""
-    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu)
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu, airfoils=SECTION)
     models = replace(
         design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
     )
@@ -333,7 +333,7 @@ class _MirroredSection:
 
 def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
     ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
-    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass)
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass, airfoils=SECTION)
     models = replace(design.models, hover_inflow="annulus", hub_loss=False)
     ours = solve(replace(design, models=models)).require()
     rotor = design.rotor
