@@ -139,7 +139,7 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
 
 _TESTS = {
     "Literature": "test_today.py::test_useful_load_at_equal_power",
-    "Readings": "test_readings.py::test_statements_by_reading",
+    "Readings": "test_readings.py::test_the_preset_is_the_reading_that_holds_most",
 }
 """Tests of the entries that the test file of no chapter holds, by title."""
 
