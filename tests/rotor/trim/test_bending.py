@@ -1,7 +1,6 @@
 """Trims of a blade that bends: identities, hub loads from two sides, gradient, time marching, convergence."""
 
 import math
-import time
 from dataclasses import replace
 from functools import cache
 
@@ -462,21 +461,6 @@ def test_twice_the_grid_of_the_lifting_line(finer: dict[str, int]) -> None:
     plain, moved = (_loads(rotor.solve(replace(one, models=replace(one.models, **finer)))).index for one in designs)
     assert_allclose(plain, few, rtol=0.07)
     assert_allclose(moved / plain, before, atol=0.03)
-
-
-@pytest.mark.slow
-def test_warm_trims_take_at_most_twice_the_time() -> None:
-    """Of a blade that does not bend. Cold ones miss that target: three to four times, see `bench`."""
-    warm = dict[bool, float]()
-    for bends in (False, True):
-        near, there = (rotor.make_design(mu=0.3, twist=f"linear:{rate}", bending=bends) for rate in (-10.0, -10.5))
-        start, times = rotor.solve(near), list[float]()
-        for _ in range(15):
-            begin = time.process_time()
-            rotor.solve(there, start)
-            times.append(time.process_time() - begin)
-        warm[bends] = min(times)
-    assert warm[True] < 2.0 * warm[False]
 
 
 @pytest.mark.slow
