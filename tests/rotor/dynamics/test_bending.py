@@ -64,10 +64,13 @@ def test_hinged_blade_flaps_once_per_revolution() -> None:
 
 @pytest.mark.parametrize("springs", [(0.4, 0.0), (0.0, 0.3), (0.7, 0.5), (math.inf, 0.3)])
 def test_springs_at_offset_hinges(springs: tuple[float, float]) -> None:
-    """A stiff uniform blade: ν² = 1 + eS/I + K/IΩ² in flap and 1 less in lag; a held root flaps far above."""
+    """A stiff uniform blade: ν² = 1 + eS/I + K/IΩ² in flap and 1 less in lag; a held root flaps far above.
+
+    A stiffer one would bend less, but rounding grows with its highest frequency.
+    """
     offset, speed = 0.05, 1.0
     inertia, moment = (1.0 - offset) ** 3 / 3.0, 0.5 * (1.0 - offset) ** 2
-    beam = bending_beam(_uniform(2e3, 2e3), speed, offset, _flat, springs)
+    beam = bending_beam(_uniform(700.0, 700.0), speed, offset, _flat, springs)
     expected = [
         square + offset * moment / inertia + spring / (inertia * speed**2)
         for square, spring in zip((1.0, 0.0), springs, strict=True)
@@ -75,7 +78,7 @@ def test_springs_at_offset_hinges(springs: tuple[float, float]) -> None:
     found = (bending_modes(beam, 2).frequency / speed) ** 2
     if math.isinf(springs[0]):
         assert_allclose(found[0], expected[1], atol=2e-3)
-        assert found[1] > 1e4
+        assert found[1] > 5e3
     else:
         assert_allclose(found, np.sort(expected), atol=2e-3)
 
@@ -83,11 +86,11 @@ def test_springs_at_offset_hinges(springs: tuple[float, float]) -> None:
 def test_a_stiff_spring_holds_the_root() -> None:
     """Between a hinge and a clamp; with K ≫ EI/L the frequencies of the cantilever."""
     beams = [
-        bending_beam(_uniform(1.0, 900.0), 6.0, 0.0, _flat, springs) for springs in (FREE, (1.0, 0.0), (1e6, 1e8), HELD)
+        bending_beam(_uniform(1.0, 900.0), 6.0, 0.0, _flat, springs) for springs in (FREE, (1.0, 0.0), (1e5, 1e6), HELD)
     ]
     free, sprung, stiff, held = (frequencies_by_kind(bending_modes(beam, 4))[0][0] for beam in beams)
     assert free < sprung < held
-    assert_allclose(stiff, held, rtol=2e-4)
+    assert_allclose(stiff, held, rtol=1e-4)
 
 
 def test_cantilever_pretwisted_by_45_degrees() -> None:
