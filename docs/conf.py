@@ -19,6 +19,7 @@ from pathlib import Path
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+from sphinx.ext.napoleon import Config, GoogleDocstring
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
@@ -44,7 +45,6 @@ release = version = rotor.__version__
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
-    "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
 ]
@@ -173,6 +173,9 @@ class InlineSvg(SphinxPostTransform):
 
 def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, lines: list[str]):
     """Docstrings are plain prose: indented blocks are code, `name: what it is` in a row of lines is a list."""
+    if "Parameters:" in lines:  # As an extension napoleon would also take a colon in an attribute's words for its type.
+        lines[:] = GoogleDocstring(lines, Config()).lines()
+        return
     out: list[str] = []
     for line in lines:
         before = out[-1] if out else ""

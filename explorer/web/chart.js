@@ -1,6 +1,6 @@
 // The charts of the page and of the lecture's file: one drawing of what `rotor.chart` says as JSON. Ticks, ends of the
 // axes and colours come with it.
-const Charts = (() => {
+window.Charts = (() => {
   const text = value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]);
   const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
   const digits = value => (value < 0 ? '−' : '') + Math.abs(value).toLocaleString('en', {maximumFractionDigits: Math.abs(value) < 10 ? 3 : 1, useGrouping: false});

@@ -5,6 +5,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
+from inspect import cleandoc
 from typing import Any, cast
 
 from rotor.aero.inflow import INFLOW_MODELS
@@ -125,11 +126,11 @@ def make_design(
 ) -> Design:
     """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
-        The command line has a flag for each argument but `models`, with the same words.
+    The command line has a flag for each argument but `models`, with the same words.
 
     {arguments}
 
-        Raises TypeError or ValueError with one sentence that names the value and the remedy.
+    Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     asked = locals()
     name = preset or (case.preset if case else PRESETS[0])
@@ -166,8 +167,8 @@ def make_design(
 
 
 if make_design.__doc__:  # Python drops docstrings when it is asked to.
-    words = (f"    {row.name}: {row.help}." for row in ARGUMENTS.values())
-    make_design.__doc__ = make_design.__doc__.replace("{arguments}", "\n".join(words))
+    words = (f"{row.name}: {row.help}." for row in ARGUMENTS.values())
+    make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n".join(words))
 
 
 def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
