@@ -13,7 +13,7 @@ WARM  := $(VENV)/.warm
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test test-code test-page slow slow-code slow-page nightly check-all lint format bench docs trust release pictures browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page nightly check-all lint format bench docs trust release lowest pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -49,6 +49,7 @@ nightly: setup-dev browser $(WARM) ## run every test at its longest: many random
 	NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=Nehalem $(BIN)/python -m pytest $(ARGS)
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 	$(BIN)/python -m tests.tools.mutation
+	$(BIN)/python -m tests.tools.lowest
 
 check-all: lint docs test slow ## everything CI checks
 
@@ -75,10 +76,14 @@ trust: setup-dev      ## make the trust page, docs/validation, anew: four minute
 	rm -rf dist/thesis docs/validation
 	$(BIN)/python -m rotor reproduce dist/thesis --trust
 	cp -r dist/thesis/validation dist/thesis/validation.md docs/
-	cp dist/thesis/trust.csv dist/thesis/sensitivity.csv assets/
+	cp dist/thesis/trust.csv assets/
+	$(BIN)/python -m tests.tools.readme
 
 release: setup-dev    ## the checklist of a release: build twice, licences, the wheel alone on every Python here, changelog
 	$(BIN)/python -m tests.tools.release --out dist
+
+lowest: setup-dev     ## try the lowest versions that pyproject.toml states: a trim and the page
+	$(BIN)/python -m tests.tools.lowest
 
 pictures: setup-dev browser ## take the pictures in docs/images anew
 	$(BIN)/python -m tests.tools.pictures
@@ -108,8 +113,8 @@ $(DEV): requirements-dev.txt $(READY)
 # A line counts them; about 20 s of processor time.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
 	@$(BIN)/python -c "from rotor.compiled import tell_in_a_log; tell_in_a_log(); \
-	  from explorer.picture import picture; from explorer.workers import solver; \
-	  solver.compile_all(); picture.warm()" && touch $@ \
+	  from explorer.picture import picture; from rotor.command.bench import compile_all; \
+	  compile_all(); picture.warm()" && touch $@ \
 	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 
 # A browser for the tests: an installed one, else Debian's (as root), else Playwright's own download.

@@ -16,6 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import matplotlib
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
@@ -41,35 +42,48 @@ from rotor.__main__ import main as rotor_main  # noqa: E402
 
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
+copyright = f"2026, {author}, MIT licence"
 release = version = rotor.__version__
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
+exclude_patterns = ["developers", "templates", "notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
 nitpicky = False
 default_role = "code"
 
 html_theme = "furo"
 html_title = "Rotor explorer"
+html_favicon = "style/favicon.svg"
 html_show_sourcelink = html_copy_source = False
 html_static_path = ["style"]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"
-templates_path = []
+templates_path = ["templates"]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
-autodoc_preserve_defaults = True
+autodoc_preserve_defaults = False  # `takes` adds keywords that the source of a function has not.
 add_module_names = False
 python_maximum_signature_line_length = 88
 
+
+def clear_figures(_settings: dict, _file: str):
+    """Figures of notebooks without ground, in a grey that can be read on the light page and on the dark one."""
+    grey = ("text.color", "axes.labelcolor", "axes.titlecolor", "axes.edgecolor", "xtick.color", "ytick.color")
+    matplotlib.rcParams.update(
+        {"savefig.transparent": True, "legend.framealpha": 0.0, **dict.fromkeys(grey, "#7b7b7b")}
+    )
+
+
 sphinx_gallery_conf = {
+    "reset_modules": ("matplotlib", clear_figures),
     "examples_dirs": "notebooks",
     "gallery_dirs": "_made/notebooks",
     "filename_pattern": r"/\d\d_",
@@ -194,6 +208,11 @@ def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _
     lines[:] = out
 
 
+def plain_defaults(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, signature: str, back: str):
+    """Fields with a factory: `<factory>` is no Python, and Sphinx links no type where it cannot read all."""
+    return signature and signature.replace("<factory>", "..."), back
+
+
 def source_links(_app: Sphinx, docname: str, content: list[str]):
     """Links to folders of the source code lead to their first file, Markdown outside is a file like any other."""
 
@@ -240,6 +259,7 @@ def setup(app: Sphinx):
     app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))
     app.connect("autodoc-process-docstring", as_restructured_text)
+    app.connect("autodoc-process-signature", plain_defaults)
     app.connect("source-read", source_links)
     app.connect("include-read", included_links)
     app.connect("build-finished", check_hosts)

@@ -1,8 +1,21 @@
 """`python -m explorer`: start the page, print its address, open a browser where there is one."""
 
-import argparse
 import os
+import signal
 import sys
+
+_SIGNALS = signal.SIGINT, signal.SIGTERM
+
+
+def _leave(number: int, frame: object) -> None:
+    os._exit(0)
+
+
+if __name__ == "__main__" or sys.argv[0].endswith("rotor-explorer"):
+    for _signal in _SIGNALS:  # While modules are still read, Ctrl-C and a service's stop find nothing to tidy up.
+        signal.signal(_signal, _leave)
+
+import argparse
 import webbrowser
 from collections.abc import Sequence
 from importlib import import_module
@@ -11,7 +24,7 @@ from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
 from explorer.hosting.limits import SESSIONS
 from rotor import __version__
 from rotor.compiled import compiling
-from rotor.terminal import OneLineParser, StopSignal, run_command
+from rotor.terminal import OneLineParser, StopSignal, called, run_command
 
 _COMMANDS = {
     "report": "explorer.export.report.document",
@@ -30,11 +43,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given and given[0] in _COMMANDS:
+        if signal.getsignal(signal.SIGINT) is _leave:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
         return import_module(_COMMANDS[given[0]]).main(given[1:])
 
     def run() -> int:
         for name, instead in _GONE.items():
-            if any(one.partition("=")[0] == name for one in given):
+            if any(argument.partition("=")[0] == name for argument in given):
                 raise ValueError(f"{name} is gone: {instead}")
         try:
             return _run(_parser().parse_args(given))
@@ -84,7 +100,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog="python -m explorer",
+        prog=called("explorer", "rotor-explorer"),
         description="Explore helicopter blade twist in a browser.",
         epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), story "
         "(the lecture as an HTML file), blade (shapes for CAD).",

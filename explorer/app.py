@@ -1,5 +1,6 @@
 """The server: one `Session` for each browser that connects and has a place."""
 
+import contextlib
 import logging
 import socket
 import sys
@@ -7,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import viser
 
@@ -18,12 +20,18 @@ from explorer.hosting.browser import PageFacts, page_facts
 from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
+from explorer.model.units import SI, UNITS
 from explorer.picture import picture
 from explorer.session import Session
-from explorer.sharing.presentation import Presentations
+from explorer.sharing.presentation import FOLLOW, Presentations
+from explorer.sharing.share import DESIGN, VIEW, inputs_from, parameter, view_from
 from explorer.tabs.context import SharedServices
+from explorer.text.design_words import flight_words, title_words
+from explorer.text.readout import fineness
 from explorer.workers import solver
 from explorer.workers.pool import Pool
+from rotor import solve
+from rotor.compiled import compiling
 
 FIRST = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
@@ -31,6 +39,8 @@ _TELL_EVERY = 10.0
 """[s] between two sentences about values that no page of ours sends."""
 MakeSession = Callable[[viser.ClientHandle, PageFacts], Session]
 _log = logging.getLogger(__name__)
+_FIRST_ANSWERS = 32
+"""Addresses whose first answer is kept."""
 _SWITCH = 1e-3
 """[s] after which a thread that computes lets another run: what sends frames must not wait 5 ms behind it."""
 
@@ -73,8 +83,13 @@ class ClientConnection:
             viser_compat.guard_uploads(self.client, self._refused)
             viser_compat.guard_values(self.client, self._ignored)
             with viser_compat.at_once(self.client):
-                self.session = make(self.client, self._facts)
-                self.session.start()
+                try:
+                    self.session = make(self.client, self._facts)
+                    self.session.start()
+                except Exception as error:
+                    _log.exception("a page could not be made")
+                    show_dialogue(self.client, web.fill("crashed.html", {"error": type(error).__name__}))
+                    return
                 self.session.until_shown(FIRST)
 
     def leave(self) -> None:
@@ -96,6 +111,14 @@ class ClientConnection:
         self.client.add_notification("File refused", sentence, color="red", auto_close_seconds=10)
 
 
+def show_dialogue(client: viser.ClientHandle, content: str) -> tuple[Any, viser.GuiHtmlHandle]:
+    """A dialogue on an empty page, and its words."""
+    client.gui.main_panel.minimize()
+    modal = client.gui.add_modal("Rotor explorer")
+    with modal:
+        return modal, client.gui.add_html(content)
+
+
 class WaitingPage:
     """What a browser shows while all places are taken: a dialogue on an empty page, without rotor or worker."""
 
@@ -103,10 +126,7 @@ class WaitingPage:
         self._places = places
         gui = self._gui = client.gui
         gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
-        gui.main_panel.minimize()
-        self._modal = gui.add_modal("Rotor explorer")
-        with self._modal:
-            self._words = gui.add_html(_waiting_text(places, ahead))
+        self._modal, self._words = show_dialogue(client, _waiting_text(places, ahead))
 
     def show(self, ahead: int) -> None:
         """`ahead` others wait before this one."""
@@ -124,6 +144,49 @@ def _waiting_text(places: int, ahead: int) -> str:
     place = "second" if ahead == 1 else f"number {ahead + 1}"
     line = f"You are {place} in the queue." if ahead else "You are next."
     return web.fill("lobby.html", {"taken": taken, "line": line})
+
+
+class FirstAnswers:
+    """The power of the design in a page's address, for its loading screen: solved while the page's parts arrive."""
+
+    def __init__(self, start: Callable[[], Inputs]) -> None:
+        """`start`: where an address holds no design."""
+        self._start = start
+        self._known: dict[tuple[str, Inputs], str] = {}
+        self._solving = threading.Lock()
+
+    def __call__(self, query: str) -> str:
+        """Power, design and flight in three lines; empty until it is solved, and where there is no answer."""
+        start = self._start()
+        words = self._known.get((query, start))
+        if words is None and not compiling() and self._solving.acquire(blocking=False):
+            _in_thread("first-answer", partial(self._solve, query, start))
+        return words or ""
+
+    def _solve(self, query: str, start: Inputs) -> None:
+        words = ""
+        try:
+            with contextlib.suppress(ValueError):  # The page says what is wrong with its address.
+                words = _first_words(query, start)
+        finally:
+            if len(self._known) >= _FIRST_ANSWERS:
+                self._known.clear()
+            self._known[query, start] = words
+            self._solving.release()
+
+
+def _first_words(query: str, start: Inputs) -> str:
+    """Power, design and flight in three lines; empty where the page shows another's design, or there is no trim."""
+    if parameter(query, FOLLOW):
+        return ""  # Another page says what is shown.
+    code, view = parameter(query, DESIGN), parameter(query, VIEW)
+    design = (start if code is None else inputs_from(code, tell=lambda _: None)).design()
+    units = UNITS[view_from(view).units] if view is not None else SI
+    solution = solve(design)
+    if not solution.converged:
+        return ""
+    power = units.watts(solution.power.total, fineness(solution.power))
+    return f"{power}\n{title_words(design)}\n{flight_words(design, units)}"
 
 
 class PortBusy(RuntimeError):
@@ -150,7 +213,8 @@ class App:
             AllowedHosts(host, self._limits.allow_hosts),
             with_loading_screen(viser_compat.client_html(), web.frame()),
         )
-        request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors)
+        first = FirstAnswers(lambda: self._start)
+        request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors, first)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
         viser_compat.remove_share_tunnel(self.server)
         viser_compat.log_failed_callbacks()
@@ -173,7 +237,9 @@ class App:
     @property
     def sessions(self) -> tuple[Session, ...]:
         """Sessions at work, in the order in which their browsers connected."""
-        return tuple(one.session for one in tuple(self._connections.values()) if one.session is not None)
+        return tuple(
+            connection.session for connection in tuple(self._connections.values()) if connection.session is not None
+        )
 
     def stop(self) -> None:
         connections, self._connections = list(self._connections.values()), {}
@@ -206,7 +272,9 @@ class App:
     def _give_places(self, arrived: ClientConnection | None = None, left: ClientConnection | None = None) -> None:
         """Begin the sessions of those for whom there is a place now, and tell the others their position."""
         with self._lock:
-            self._waiting = [one for one in (*self._waiting, arrived) if one is not None and one is not left]
+            self._waiting = [
+                client for client in (*self._waiting, arrived) if client is not None and client is not left
+            ]
             if left is not None:
                 self._seated.discard(left)
             free = max(self._limits.sessions - len(self._seated), 0)

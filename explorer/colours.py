@@ -28,9 +28,7 @@ _LINEAR = np.array(
 THIS = "#1c7ed6"
 """The design on the sliders, B where two are compared, in charts."""
 PINNED = "#d98a00"
-"""The pinned design, A: amber beside blue, which every eye tells apart, and dashed (`PINNED_DASH`) besides."""
-PINNED_DASH = (7.0, 3.0)
-"""Pixels drawn and left out."""
+"""The pinned design, A: amber beside blue, which every eye tells apart, and dashed besides."""
 BASELINE = "#868e96"
 """The baseline twist, in charts."""
 IDEAL = "#0ca678"
@@ -113,7 +111,7 @@ def colour_map(scheme: Scheme, n: int) -> NDArray[np.uint8]:
 
 
 def greyed(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The same colours without hue, drawn together towards grey: a picture that is no longer the answer."""
+    """Colours without hue, drawn together towards grey: a picture that is no longer the answer."""
     luminance = colours @ np.array([0.2126, 0.7152, 0.0722])
     return np.repeat((0.5 * luminance + 70.0).astype(np.uint8)[:, None], 3, axis=1)
 
@@ -127,4 +125,4 @@ _STARTS = 16
 START_COLOURS: tuple[Rgb, ...] = tuple(
     _bytes(_srgb((0.52, 0.70, 0.61)[k % 3], 0.13, (255.0 + 137.5 * k) % 360.0)) for k in range(_STARTS)
 )
-"""Of the starts of a search: neighbours differ in hue and in lightness, on a light page and a dark one."""
+"""Colours of the starts of a search: neighbours differ in hue and in lightness, on a light page and a dark one."""

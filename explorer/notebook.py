@@ -11,6 +11,7 @@ from explorer.hosting.limits import ServerLimits
 from explorer.model.inputs import inputs_of
 from rotor import Design
 from rotor.design.design import require_design
+from rotor.markup import tag
 
 _LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")
 """Where notebooks on this machine are shown."""
@@ -41,11 +42,11 @@ class RunningPage:
 
     def _repr_html_(self) -> str:
         if self._app is None:
-            return f"<p>The page at {self.address} is stopped.</p>"
+            return tag("p", f"The page at {self.address} is stopped.")
         place = proxied_path(self.address) if self._hub else self.address
         if not self._hub and (sentence := why_out_of_reach(self.address)):
-            return f"<p>{sentence}</p>"
-        return f'<iframe src="{place}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+            return tag("p", sentence)
+        return tag("iframe", src=place, width="100%", height=_HEIGHT, style="border: 0")
 
 
 def proxied_path(address: str) -> str:

@@ -15,7 +15,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import PageFacts, set_query
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.pinned import Pinned
-from explorer.model.session_state import Failure, Reading, SessionState
+from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
@@ -29,6 +29,7 @@ from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
+from explorer.tabs.envelope_panel import EnvelopePanel
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Layout, Sections
@@ -68,7 +69,10 @@ class Page:
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
         retired = partial(share.tell_retired, problems)
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=retired)
-        start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
+        self._opening, start = (
+            start,
+            address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems),
+        )
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
@@ -106,6 +110,7 @@ class Page:
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(context)
+            envelope = EnvelopePanel(context)
         with layout.in_drawer("twist"):
             self._sensitivity = SensitivityPanel(context, Strip(client.scene))
         with layout.in_drawer("probe"):
@@ -126,8 +131,8 @@ class Page:
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.tabs: tuple[Tab, ...] = (
-            self.top, self.probe, self._sensitivity, self.waterfall, settings, self.history, self.file, export,
-            self.lecture, self._presence,
+            self.top, self.probe, self._sensitivity, self.waterfall, envelope, settings, self.history, self.file,
+            export, self.lecture, self._presence,
         )  # fmt: skip
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
@@ -158,7 +163,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
+        for part in (self.results, self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -242,6 +247,9 @@ class Page:
             self._show_actuator(reading, state.solution)
         for tab in self.tabs:
             tab.show(state)
+
+    def write_address(self, state: SessionState) -> None:
+        """Bring the address into line with what is shown."""
         self.file.follow(state)
 
     def draw_finely(self, state: SessionState) -> None:
@@ -266,7 +274,7 @@ class Page:
         self.vibration.solve_deferred(stop)
         self.waterfall.solve_steps(stop)
 
-    def show_failure(self, failure: Failure) -> None:
+    def show_failure(self, failure: FailedTrim) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
         self._refresh(reading)
@@ -366,12 +374,12 @@ class Page:
         )
 
     def _reset(self) -> None:
-        """The design the page began with; what is shown in its place, a preview or a flight, ends."""
+        """The design of a page without a link; what is shown in its place, a preview or a flight, ends."""
         self.context.tracker.reset()
         self.schedule.land()
         self.optimise.withdraw()
         self.actuator.reset()
-        self.controls.reset()
+        self.controls.set_inputs(self._opening)
 
 
 def _on_sliders(reading: Reading) -> Inputs | None:

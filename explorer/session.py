@@ -33,7 +33,7 @@ from explorer.charts.plots import PowerCurves
 from explorer.hosting.browser import PageFacts
 from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
-from explorer.model.session_state import Failure, Reading, SessionState
+from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page
 from explorer.tabs.context import SharedServices
 from explorer.tabs.controls import SessionCallbacks
@@ -108,11 +108,12 @@ class Session:
             return None
         if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
             self.page.show_power_number(state)
+        self.page.write_address(state)  # With the frame: whoever loads the page anew has what was seen.
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 
     @staticmethod
     def _in_turn(steps: Iterator[float]) -> Iterator[float]:
-        """The same steps with one BLAS thread each."""
+        """The steps of an update with one BLAS thread each."""
         while True:
             with one_blas_thread():
                 pause = next(steps, None)
@@ -147,7 +148,7 @@ class Session:
         if self.page.pin_or_swap(inputs, solution):
             return None
         if solution is None or not solution.converged:
-            self._show_failure(Failure(reading, solution, self._good))
+            self._show_failure(FailedTrim(reading, solution, self._good))
             return None
         self._good = solution
         return solution
@@ -192,11 +193,11 @@ class Session:
                 show_power()
 
     def _turned(self, state: SessionState) -> SessionState:
-        """The same state, with the blade where it was turned to since."""
+        """The state with the blade where it was turned to since."""
         now = self._state
         return now if now is not None and now.solution is state.solution else state
 
-    def _show_failure(self, failure: Failure) -> None:
+    def _show_failure(self, failure: FailedTrim) -> None:
         """The last converged picture stays, grey, with the sentence."""
         self.page.show_failure(failure)
         self._shown.set()
@@ -218,6 +219,10 @@ class Session:
         return self._all_changed and self._worker.superseded
 
     def _failed(self, error: Exception) -> None:
+        """Nothing that the update may have left half done is used by the next."""
         self._shown.set()
+        self._latest = self._good = None
+        self._all_changed = True
+        self._baseline, self._curves = solver.BaselineCache(), PowerCurves()
         _log.error("an update failed", exc_info=error)
         self.page.show_error(f"This update failed ({error}): move any slider to go on.")

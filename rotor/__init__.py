@@ -22,7 +22,12 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
+from rotor.terminal import stop_while_read  # Before what takes half a second to read.
+
+stop_while_read()
+
 from rotor import actuator
+from rotor.actuator import failure
 from rotor.aero.elements import TrimState
 from rotor.assets import package_version
 from rotor.columns.blade import Freedom
@@ -37,11 +42,15 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
 from rotor.optimisation.vibration import t_matrix, vibration_front
+from rotor.study.envelope import envelope
 from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
-from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
+from rotor.trim.doubt import doubt
+from rotor.trim.power import PowerBudget
+from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
+from rotor.trim.stability import Stability, stability
 
 __version__ = package_version()
 
@@ -58,12 +67,16 @@ __all__ = (
     "PowerBudget",
     "Rotor",
     "Solution",
+    "Stability",
     "Status",
     "SweepTable",
     "TrimState",
     "__version__",
     "actuator",
     "distribution",
+    "doubt",
+    "envelope",
+    "failure",
     "load_design",
     "load_rotor",
     "make_design",
@@ -73,6 +86,7 @@ __all__ = (
     "run_study",
     "schedule",
     "solve",
+    "stability",
     "sweep",
     "t_matrix",
     "vibration_front",

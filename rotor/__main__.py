@@ -2,20 +2,32 @@
 
 import argparse
 import sys
-from functools import partial
+from collections.abc import Mapping
 
 from rotor import __version__
 from rotor.blas_threads import keep_one_blas_thread
-from rotor.command import actuator, bench, optimise, reproduce, schedule, solve, study, tables, validate
-from rotor.terminal import OneLineParser, run_command
+from rotor.command import (
+    actuator,
+    bench,
+    envelope,
+    optimise,
+    reproduce,
+    schedule,
+    solve,
+    stability,
+    study,
+    tables,
+    validate,
+)
+from rotor.command.common import add_command
+from rotor.terminal import OneLineParser, called, run_command
 
 
 def build_parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog="python -m rotor",
+        prog=called("rotor", "rotor"),
         description="Helicopter main rotors: trim, power, twist.",
         epilog="Each command has its --help.",
-        formatter_class=partial(argparse.HelpFormatter, indent_increment=1),  # So names have their help beside them.
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
@@ -26,17 +38,43 @@ def build_parser() -> argparse.ArgumentParser:
         tables.add_waterfall,
         optimise.add_parser,
         schedule.add_parser,
+        envelope.add_parser,
         study.add_parser,
         tables.add_ideal,
+        stability.add_parser,
         actuator.add_parser,
         reproduce.add_parser,
         reproduce.add_ladder,
         validate.add_parser,
         tables.add_airfoil,
         bench.add_parser,
+        bench.add_warm,
     ):
         add(commands)
+
+    def complete(_: argparse.Namespace) -> int:
+        print(completion(commands.choices, "rotor"))
+        return 0
+
+    add_command(
+        commands, "completion", complete, "prints what completes commands and flags of rotor with Tab",
+        "For bash: eval \"$(rotor completion)\"; for zsh after autoload -U bashcompinit && bashcompinit.",
+    )  # fmt: skip
     return parser
+
+
+def completion(commands: Mapping[str, argparse.ArgumentParser], script: str) -> str:
+    """What bash reads to complete commands and flags of the script; zsh too, after bashcompinit."""
+    flags = {name: " ".join(sorted(command._option_string_actions)) for name, command in commands.items()}  # pyright: ignore[reportPrivateUsage]
+    cases = "\n".join(f'    {name}) words="{words}" ;;' for name, words in flags.items())
+    return f'''_{script}() {{
+  local words="{" ".join(commands)}"
+  [ "$COMP_CWORD" -gt 1 ] && case "${{COMP_WORDS[1]}}" in
+{cases}
+  esac
+  COMPREPLY=($(compgen -W "$words" -- "${{COMP_WORDS[COMP_CWORD]}}"))
+}}
+complete -o default -F _{script} {script}'''
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -1,7 +1,7 @@
 """The array types of signatures, whose docstrings give the shapes; arrays that nobody may write to."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import cached_property, wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
@@ -22,8 +22,8 @@ def fix(value: Any) -> None:
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif isinstance(value, (tuple, list)):
-        for own in cast(tuple[Any, ...], value):
-            fix(own)
+        for item in cast(tuple[Any, ...], value):
+            fix(item)
     elif isinstance(value, Mapping):
         fix(tuple(cast(Mapping[Any, Any], value).values()))
     elif is_dataclass(value) and not isinstance(value, type):
@@ -35,9 +35,9 @@ def read_only(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
     @wraps(function)
     def fixed(*args: _P.args, **kwargs: _P.kwargs) -> _T:
-        found = function(*args, **kwargs)
-        fix(found)
-        return found
+        value = function(*args, **kwargs)
+        fix(value)
+        return value
 
     return fixed
 
@@ -47,3 +47,12 @@ class fixed_property(cached_property[_T]):
 
     def __init__(self, function: Callable[[Any], _T]) -> None:
         super().__init__(read_only(function))
+
+
+class ShortRepr:
+    """A dataclass that shows its arrays by their shapes."""
+
+    def __repr__(self) -> str:
+        values: list[tuple[str, Any]] = [(field.name, getattr(self, field.name)) for field in fields(cast(Any, self))]
+        shown = (f"{name} {value.shape}" if hasattr(value, "shape") else f"{name}={value!r}" for name, value in values)
+        return f"{type(self).__name__}({', '.join(shown)})"

@@ -29,8 +29,8 @@ def one_blas_thread() -> Generator[None]:
     """
     global _users
     shared, per_thread = _libraries()
-    own = [library.get_num_threads() for library in per_thread]
-    _set(per_thread, [1] * len(own))
+    counts = [library.get_num_threads() for library in per_thread]
+    _set(per_thread, [1] * len(counts))
     with _lock:
         if _users == 0:
             _before[:] = [library.get_num_threads() for library in shared]
@@ -43,7 +43,7 @@ def one_blas_thread() -> Generator[None]:
             _users -= 1
             if _users == 0:
                 _set(shared, _before)
-        _set(per_thread, own)
+        _set(per_thread, counts)
 
 
 def keep_one_blas_thread() -> None:
@@ -57,9 +57,9 @@ def _libraries() -> tuple[list[Any], list[Any]]:
     """The BLAS libraries that NumPy and SciPy have loaded: with one pool for the process, and with one per thread."""
     importlib.import_module("scipy.linalg")  # The controller finds only the libraries that are loaded by now.
     controller: Any = ThreadpoolController()
-    found: list[Any] = controller.select(user_api="blas").lib_controllers
-    per_thread = [library for library in found if getattr(library, "threading_layer", "") == "openmp"]
-    return [library for library in found if library not in per_thread], per_thread
+    libraries: list[Any] = controller.select(user_api="blas").lib_controllers
+    per_thread = [library for library in libraries if getattr(library, "threading_layer", "") == "openmp"]
+    return [library for library in libraries if library not in per_thread], per_thread
 
 
 def _set(libraries: list[Any], threads: list[int]) -> None:

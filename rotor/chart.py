@@ -16,6 +16,7 @@ from rotor.arrays import Array
 
 Span = tuple[float, float]
 Mark = Literal["dot", "cross", "ring"]
+Beside = Literal["above", "below", "upward"]
 Values: TypeAlias = Sequence[float] | Array
 """Any numbers; a series keeps them as a tuple of floats."""
 Colour: TypeAlias = int | str | None
@@ -34,7 +35,7 @@ class Axis:
 
     label: str = ""
     range: Span | None = None
-    """Its ends; None: as the series ask for. What lies beyond is cut off."""
+    """Ends of the axis; None: as the series ask for. What lies beyond is cut off."""
     ticks: tuple[float, ...] = ()
     """Where they stand; empty: at round numbers."""
     words: tuple[str, ...] = ()
@@ -43,7 +44,7 @@ class Axis:
     """Behind the number of each tick."""
     log: bool = False
     names: tuple[str, ...] = ()
-    """Of the places 0, 1, … of y, which then run down the left side; values and error bars lie along x."""
+    """Names of the places 0, 1, … of y, which then run down the left side; values and error bars lie along x."""
 
 
 def _keep(series: object, *names: str) -> None:
@@ -87,8 +88,14 @@ class Points:
     """Half the length of an error bar on each point, along the axis of values."""
     words: Sequence[str] = ()
     """What is said of each where the pointer rests on it."""
+    action: str = ""
+    """Name of what the page does with a press on each."""
     press: Sequence[str] = ()
     """What a press on each says to the page; empty: it cannot be pressed."""
+    names: Sequence[str] = ()
+    """What stands beside each in the drawing."""
+    beside: Beside = "above"
+    """Where it stands; `upward`: above, and written from below."""
     faint: Sequence[bool] = ()
     size: float = 4.0
     """Radius [px]."""
@@ -143,58 +150,58 @@ class Chart:
 
     def span(self, axis: Literal["x", "y"]) -> Span:
         """Ends of an axis, as given or of all values with their error bars; of the logarithm on a logarithmic axis."""
-        own = self.x if axis == "x" else self.y
-        if own.range is not None:
-            return scaled(own.range[0], own.log), scaled(own.range[1], own.log)
-        if own.names:
-            return len(own.names) - 0.5, -0.5
-        known = [scaled(value, own.log) for value in (*self._values(axis), *own.ticks) if math.isfinite(value)]
+        scale = self.x if axis == "x" else self.y
+        if scale.range is not None:
+            return scaled(scale.range[0], scale.log), scaled(scale.range[1], scale.log)
+        if scale.names:
+            return len(scale.names) - 0.5, -0.5
+        known = [scaled(value, scale.log) for value in (*self._values(axis), *scale.ticks) if math.isfinite(value)]
         low, high = (min(known), max(known)) if known else (0.0, 1.0)
-        if own.ticks:
+        if scale.ticks:
             return low, high
         if low == high:
             return low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
-        if not own.log and 0.0 < low < 0.5 * high:
+        if not scale.log and 0.0 < low < 0.5 * high:
             low = 0.0
         margin = 0.06 * (high - low)
         return (low if low == 0.0 else low - margin), (high if high == 0.0 else high + margin)
 
     def ticks(self, axis: Literal["x", "y"], about: int) -> list[tuple[float, str]]:
         """Value and text of at most about so many ticks."""
-        own = self.x if axis == "x" else self.y
-        if own.names:
-            return [(float(k), name) for k, name in enumerate(own.names)]
-        places = own.ticks or _ticks(self.span(axis), about, own.log)
-        if own.words:
-            return list(zip(places, own.words, strict=True))
-        return [(value, tick_text(value, own.log) + own.unit) for value in places]
+        scale = self.x if axis == "x" else self.y
+        if scale.names:
+            return [(float(k), name) for k, name in enumerate(scale.names)]
+        places = scale.ticks or _ticks(self.span(axis), about, scale.log)
+        if scale.words:
+            return list(zip(places, scale.words, strict=True))
+        return [(value, tick_text(value, scale.log) + scale.unit) for value in places]
 
     def colours(self) -> list[str]:
-        """Of each series."""
-        found, turn = list[str](), 0
-        for one in self.series:
-            turn += one.colour is None
-            colour = (turn - 1) % (len(COLOURS) - 1) + 1 if one.colour is None else one.colour
-            found.append(COLOURS[colour % len(COLOURS)] if isinstance(colour, int) else colour)
-        return found
+        """Colour of each series."""
+        colours, turn = list[str](), 0
+        for series in self.series:
+            turn += series.colour is None
+            colour = (turn - 1) % (len(COLOURS) - 1) + 1 if series.colour is None else series.colour
+            colours.append(COLOURS[colour % len(COLOURS)] if isinstance(colour, int) else colour)
+        return colours
 
     def _values(self, axis: Literal["x", "y"]) -> Iterable[float]:
         along = "x" if self.y.names else "y"
-        for one in self.series:
-            if isinstance(one, Band):
-                yield from ((*one.low, *one.high) if axis == along else one.x)
+        for series in self.series:
+            if isinstance(series, Band):
+                yield from ((*series.low, *series.high) if axis == along else series.x)
                 continue
-            values = one.x if axis == "x" else one.y
-            if isinstance(one, Points) and one.scatter and axis == along:
-                for value, half in zip(values, one.scatter, strict=True):
+            values = series.x if axis == "x" else series.y
+            if isinstance(series, Points) and series.scatter and axis == along:
+                for value, half in zip(values, series.scatter, strict=True):
                     yield from (value - half, value + half)
             else:
                 yield from values
 
 
-def dash_lengths(one: Line) -> str | None:
-    """As SVG writes them; None for a line without gaps."""
-    return _DASHES if one.dashes is True else one.dashes or None
+def dash_lengths(line: Line) -> str | None:
+    """Dashes as SVG writes them; None for a line without gaps."""
+    return _DASHES if line.dashes is True else line.dashes or None
 
 
 def as_json(chart: Chart) -> dict[str, Any]:
@@ -203,7 +210,9 @@ def as_json(chart: Chart) -> dict[str, Any]:
         axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
         for axis, (start, end) in (("x", chart.span("x")), ("y", chart.span("y")))
     }
-    series = [_plain_series(one, colour, digits) for one, colour in zip(chart.series, chart.colours(), strict=True)]
+    series = [
+        _plain_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
+    ]
     return {
         "title": chart.title,
         "x": _plain_axis(chart, "x", 5),
@@ -216,27 +225,33 @@ def as_json(chart: Chart) -> dict[str, Any]:
 
 
 def _plain_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> dict[str, Any]:
-    own = chart.x if axis == "x" else chart.y
-    kept = {"label": own.label} | _slim({"log": own.log, "ends": len(own.words) == 2})
+    scale = chart.x if axis == "x" else chart.y
+    kept = {"label": scale.label} | _slim({"log": scale.log, "ends": len(scale.words) == 2})
     return {**kept, "range": chart.span(axis), "ticks": chart.ticks(axis, about)}
 
 
-def _plain_series(one: Series, colour: str, digits: dict[str, int]) -> dict[str, Any]:
+def _plain_series(series: Series, colour: str, digits: dict[str, int]) -> dict[str, Any]:
     """What differs from how a series of its kind is drawn anyway."""
     shared = {
-        "kind": type(one).__name__.lower(),
-        "label": one.label,
+        "kind": type(series).__name__.lower(),
+        "label": series.label,
         "colour": colour,
-        "x": _rounded(one.x, digits["x"]),
+        "x": _rounded(series.x, digits["x"]),
     }
-    if isinstance(one, Band):
-        return shared | {"low": _rounded(one.low, digits["y"]), "high": _rounded(one.high, digits["y"])}
-    shared["y"] = _rounded(one.y, digits["y"])
-    if isinstance(one, Line):
-        look: dict[str, Any] = {"width": one.width, "dashes": dash_lengths(one), "dots": one.dots, "filled": one.filled}
+    if isinstance(series, Band):
+        return shared | {"low": _rounded(series.low, digits["y"]), "high": _rounded(series.high, digits["y"])}
+    shared["y"] = _rounded(series.y, digits["y"])
+    if isinstance(series, Line):
+        look: dict[str, Any] = {
+            "width": series.width,
+            "dashes": dash_lengths(series),
+            "dots": series.dots,
+            "filled": series.filled,
+        }
     else:
-        look = {"mark": one.mark, "size": one.size, "words": one.words, "press": one.press, "faint": one.faint}
-        look["scatter"] = _rounded(one.scatter, digits["y"] + 1)
+        look = {name: getattr(series, name) for name in ("mark", "size", "words", "action", "press", "names", "faint")}
+        look["beside"] = series.beside if series.names else ""
+        look["scatter"] = _rounded(series.scatter, digits["y"] + 1)
     return shared | _slim(look)
 
 
@@ -273,6 +288,11 @@ def round_ticks(low: float, high: float, about: int) -> list[float]:
     """At most `about` + 1 round numbers within an axis, zero among them where it is inside."""
     step = round_up((high - low) / about)
     return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+def bar_ticks(low: float, high: float) -> list[tuple[float, str]]:
+    """Place [% of its length] and text of round numbers along a colour bar."""
+    return [(round(100.0 * (at - low) / (high - low), 2), tick_text(at)) for at in round_ticks(low, high, 5)]
 
 
 def tick_text(value: float, log: bool = False) -> str:

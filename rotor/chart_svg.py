@@ -19,7 +19,7 @@ _LETTER = 0.5 * _SIZE
 """Width of a letter, on average."""
 _NAMESPACE = "http://www.w3.org/2000/svg"
 _OWN_COLOURS = "svg{color:#1c2429}@media(prefers-color-scheme:dark){svg{color:#dfe5e9}}"
-"""Of a file of its own; in a page it would reach the page's other drawings."""
+"""Style of a chart in a file of its own; in a page it would reach the page's other drawings."""
 
 Place = tuple[float, float]
 _BARE = Axis()
@@ -70,7 +70,7 @@ def svg(chart: Chart, inline: bool = False) -> Markup:
         turned = f"translate(12 {0.5 * (top + bottom):.1f}) rotate(-90)"
         words.append(tag("g", _text(0.0, 0.0, chart.y.label), transform=turned))
     drawn = group(
-        [_drawn(axes, one, colour) for one, colour in zip(chart.series, chart.colours(), strict=True)],
+        [_drawn(axes, series, colour) for series, colour in zip(chart.series, chart.colours(), strict=True)],
         [tag("path", d=_rule(axes, rule.at, rule.along), stroke=rule.colour, stroke_dasharray=rule.dashes)
          for rule in chart.rules],
     )  # fmt: skip
@@ -87,14 +87,17 @@ def svg(chart: Chart, inline: bool = False) -> Markup:
 
 
 def small_svg(chart: Chart) -> Markup:
-    """The same without text, for a row of a table."""
+    """The chart without text, for a row of a table."""
     axes = _Axes(chart, chart.span("x"), chart.span("y"), 4.0, 3.0, 112.0, 28.0)
     return _whole(
         (120.0, 34.0),
         chart.title,
         False,
         tag("path", d="M4,3V31H116", fill="none", stroke="currentColor", stroke_opacity=0.35),
-        [_drawn(axes, one, colour, 0.45, 0.75) for one, colour in zip(chart.series, chart.colours(), strict=True)],
+        [
+            _drawn(axes, series, colour, 0.45, 0.75)
+            for series, colour in zip(chart.series, chart.colours(), strict=True)
+        ],
     )
 
 
@@ -124,34 +127,48 @@ def _rule(axes: _Axes, at: float, along: str) -> str:
     return f"M{axes.left:.1f},{axes.y(at):.1f}h{axes.wide:.1f}"
 
 
-def _drawn(axes: _Axes, one: Series, colour: str, size: float = 1.0, thick: float = 1.0) -> Markup:
+def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: float = 1.0) -> Markup:
     """A series; `size` of its marks and `thick` of its lines beside what they are in a large drawing."""
-    if isinstance(one, Band):
+    if isinstance(series, Band):
         named = bool(axes.chart.y.names)
-        low, high = (axes.places(*((edge, one.x) if named else (one.x, edge))) for edge in (one.low, one.high))
+        low, high = (
+            axes.places(*((edge, series.x) if named else (series.x, edge))) for edge in (series.low, series.high)
+        )
         if len(low) == 1:  # One condition alone has no area.
             return tag("path", d=_path([*low, *high]), stroke=colour, stroke_width=5, stroke_opacity=0.3)
         known = [pair for pair in zip(low, high, strict=True) if all(map(math.isfinite, (*pair[0], *pair[1])))]
         around = [*(pair[0] for pair in known), *(pair[1] for pair in reversed(known))]
         return tag("path", d=_path(around), fill=colour, fill_opacity=0.16) if known else Markup()
-    places = axes.places(one.x, one.y)
+    places = axes.places(series.x, series.y)
     known = [place for place in places if all(map(math.isfinite, place))]
-    if isinstance(one, Line):
-        look: dict[str, Attribute] = {"stroke_width": thick * one.width, "stroke_linejoin": "round"}
-        line = tag("path", d=_path(places), stroke=colour, fill="none", **look, stroke_dasharray=dash_lengths(one))
-        return group(line, _dots(known, 2.8 * size, colour) if one.dots else None)
+    if isinstance(series, Line):
+        look: dict[str, Attribute] = {"stroke_width": thick * series.width, "stroke_linejoin": "round"}
+        line = tag("path", d=_path(places), stroke=colour, fill="none", **look, stroke_dasharray=dash_lengths(series))
+        return group(line, _dots(known, 2.8 * size, colour) if series.dots else None)
     parts: list[Markup] = []
-    if one.scatter:
-        bars = "".join(_bar(axes, *point) for point in zip(one.x, one.y, one.scatter, strict=True))
+    if series.scatter:
+        bars = "".join(_bar(axes, *point) for point in zip(series.x, series.y, series.scatter, strict=True))
         parts.append(tag("path", d=bars, stroke=colour, fill="none", stroke_width=2 * thick, stroke_opacity=0.45))
-    radius = one.size * size
-    if one.mark == "cross":
+    radius = series.size * size
+    if size == 1.0:
+        parts += [_beside(place, name, series) for place, name in zip(places, series.names, strict=False) if name]
+    if series.mark == "cross":
         d = f"l{2 * radius:g},{2 * radius:g}m0,{-2 * radius:g}l{-2 * radius:g},{2 * radius:g}"
         crosses = "".join(f"M{x - radius:.1f},{y - radius:.1f}{d}" for x, y in known)
         parts.append(tag("path", d=crosses, stroke=colour, fill="none", stroke_width=2 * thick))
     else:
-        parts.append(_dots(known, radius, colour, one.mark == "ring"))
+        parts.append(_dots(known, radius, colour, series.mark == "ring"))
     return group(parts)
+
+
+def _beside(place: Place, name: str, series: Points) -> Markup:
+    """The name of a point, where its series says."""
+    x, y = place
+    if series.beside == "upward":
+        turned = f"translate({x + 4.0:.1f} {y - series.size - 4.0:.1f}) rotate(-90)"
+        return tag("g", _text(0.0, 0.0, name, "start"), fill="currentColor", transform=turned)
+    down = series.size + 12.0 if series.beside == "below" else -series.size - 4.0
+    return tag("g", _text(x, y + down, name), fill="currentColor")
 
 
 def _dots(places: Iterable[Place], radius: float, colour: str, hollow: bool = False) -> Markup:
@@ -183,25 +200,25 @@ def _key(chart: Chart) -> tuple[Markup, int]:
     """Swatch and label of each series above the axes, and the number of lines that they take."""
     parts: list[Markup] = []
     x, line = 12.0, 0
-    for one, colour in zip(chart.series, chart.colours(), strict=True):
-        if not one.label:
+    for series, colour in zip(chart.series, chart.colours(), strict=True):
+        if not series.label:
             continue
-        wide = 52.0 + _LETTER * len(one.label)
+        wide = 52.0 + _LETTER * len(series.label)
         if x > 12.0 and x + wide > _WIDE:
             x, line = 12.0, line + 1
         y = 14.0 + 18.0 * line
         axes = _Axes(Chart("", _BARE, _BARE, ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)
-        parts.append(_drawn(axes, _swatch(one), colour))
-        parts.append(tag("g", _text(x + 27.0, y + 4.0, one.label, "start"), fill="currentColor"))
+        parts.append(_drawn(axes, _swatch(series), colour))
+        parts.append(tag("g", _text(x + 27.0, y + 4.0, series.label, "start"), fill="currentColor"))
         x += wide
     return group(parts), line + 1 if parts else 0
 
 
-def _swatch(one: Series) -> Series:
-    if isinstance(one, Line):
-        return replace(one, x=(0.0, 1.0), y=(0.5, 0.5))
-    if isinstance(one, Points):
-        return replace(one, x=(0.5,), y=(0.5,), scatter=())
+def _swatch(series: Series) -> Series:
+    if isinstance(series, Line):
+        return replace(series, x=(0.0, 1.0), y=(0.5, 0.5))
+    if isinstance(series, Points):
+        return replace(series, x=(0.5,), y=(0.5,), scatter=())
     return Line("", (0.0, 1.0), (0.5, 0.5), width=8.0)
 
 

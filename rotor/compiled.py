@@ -1,12 +1,15 @@
 """Compilation of numerical kernels by numba, kept on disk where that is possible.
 
 numba itself ends the program where it has no folder to write to (a read-only installation without a home), where the
-disk is full, and where a kept file was cut short. The kernels then compile anew, in some seconds, and nothing is kept.
+disk is full, and where a kept file was cut short; LLVM ends it where a bit of one is another. The kernels then compile
+anew, in some seconds.
 
 The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
+import hashlib
 import logging
+import pickle
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -16,9 +19,37 @@ from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
 from numba.core import event  # pyright: ignore[reportMissingTypeStubs]
-from numba.core.caching import FunctionCache  # pyright: ignore[reportMissingTypeStubs]
+from numba.core.caching import FunctionCache, IndexDataCacheFile  # pyright: ignore[reportMissingTypeStubs]
 
 _log = logging.getLogger(__name__)
+
+
+class _CheckedFiles(IndexDataCacheFile):
+    """numba's index and data files with a checksum before their content; ValueError for one that is damaged."""
+
+    def _dump(self, obj: Any) -> bytes:
+        content: bytes = super()._dump(obj)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return hashlib.sha256(content).digest() + content
+
+    def _load_index(self) -> Any:
+        try:
+            with Path(self._index_path).open("rb") as file:
+                version, content = pickle.load(file), file.read()
+        except FileNotFoundError:
+            return {}
+        if version != self._version:
+            return {}
+        stamp, overloads = _undamaged(content)
+        return overloads if stamp == self._source_stamp else {}
+
+    def _load_data(self, name: str) -> Any:
+        return _undamaged(Path(self._data_path(name)).read_bytes())  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
+
+
+def _undamaged(content: bytes) -> Any:
+    if hashlib.sha256(content[32:]).digest() != content[:32]:
+        raise ValueError("a kept file is damaged")
+    return pickle.loads(content[32:])
 
 
 class _ForgivingCache(FunctionCache):
@@ -27,11 +58,17 @@ class _ForgivingCache(FunctionCache):
     Kept code holds that of the functions it calls, so it serves as long as their files are the same as well.
     """
 
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)  # pyright: ignore[reportUnknownMemberType]
+        cache: Any = self
+        place, stamp = cache._impl, cache._impl.locator.get_source_stamp()
+        cache._cache_file = _CheckedFiles(cache._cache_path, place.filename_base, stamp)
+
     def _index_key(self, sig: Any, codegen: Any) -> Any:
         """What numba finds kept code by, with the times and sizes of those files."""
         files = sorted({function.__code__.co_filename for function in _called(self._py_func, set())})
-        own: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
-        return *own, tuple(_stamps.get(file) or _stamp(file) for file in files)
+        key: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return *key, tuple(_stamps.get(file) or _stamp(file) for file in files)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kept code; None where there is none that can be read."""
@@ -60,16 +97,16 @@ def _stamp(file: str) -> tuple[float, int]:
     return stat.st_mtime, stat.st_size
 
 
-def _called(function: Any, found: set[Any]) -> set[Any]:
+def _called(function: Any, known: set[Any]) -> set[Any]:
     """All compiled functions that one calls, directly or through others: by the names in it."""
     names, space = function.__code__.co_names, function.__globals__
     for value in [space.get(name) for name in names]:
         for item in [value, *(vars(value).get(name) for name in names)] if isinstance(value, ModuleType) else [value]:
             callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # The latter of an intrinsic.
-            if callee is not None and callee not in found:
-                found.add(callee)
-                _called(callee, found)
-    return found
+            if callee is not None and callee not in known:
+                known.add(callee)
+                _called(callee, known)
+    return known
 
 
 class _Watch(event.Listener):
@@ -81,6 +118,7 @@ class _Watch(event.Listener):
         """Under way: each was begun by the one before it."""
         self.told = True
         """Whether a stderr that is no terminal has its line, or is to have none."""
+        self._kept: dict[int, bool] = {}
         self._width = 0
 
     @property
@@ -88,8 +126,16 @@ class _Watch(event.Listener):
         """Empty where nothing is compiled."""
         if not self.open:
             return ""
-        ready = sum(bool(kernel.overloads) for kernel in self.kernels)
+        ready = sum(bool(kernel.overloads) or self._is_kept(kernel) for kernel in self.kernels)
         return f"Compiling, once: {min(ready + 1, len(self.kernels))} of {len(self.kernels)}"
+
+    def _is_kept(self, kernel: Any) -> bool:
+        """Whether a run before has compiled it: the count goes on where that one ended. Looked up once."""
+        if id(kernel) not in self._kept:
+            self._kept[id(kernel)] = False
+            with suppress(Exception):  # Without a file, or with a damaged one.
+                self._kept[id(kernel)] = bool(kernel._cache._cache_file._load_index())
+        return self._kept[id(kernel)]
 
     def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         kernel = event.data["dispatcher"]
@@ -133,13 +179,13 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     def compile_function(function: Callable[..., Any]) -> Any:
         with suppress(OSError):
             _stamps[function.__code__.co_filename] = _stamp(function.__code__.co_filename)
-        made: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
+        compiled: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
         try:
-            made._cache = _ForgivingCache(function)  # What `cache=True` does, with numba's own class.
+            compiled._cache = _ForgivingCache(function)  # What `cache=True` does, with numba's own class.
         except Exception as error:  # No folder to write to, or a source without a file.
             _log.debug("no place to keep %s (%s)", function.__name__, error)
         if options.get("inline") != "always":  # Such a one is part of those that call it.
-            _watch.kernels.append(made)
-        return made
+            _watch.kernels.append(compiled)
+        return compiled
 
     return compile_function

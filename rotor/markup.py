@@ -3,6 +3,7 @@
 All text and every attribute is escaped here, so that no caller has to think of it, and no other file writes a tag.
 """
 
+import re
 from collections.abc import Iterable
 from html import escape
 from typing import TypeAlias
@@ -10,6 +11,7 @@ from typing import TypeAlias
 _ALONE = frozenset({"br", "circle", "hr", "image", "img", "input", "line", "link", "meta", "path", "polygon",
                     "polyline", "rect", "stop"})  # fmt: skip
 """Elements without content, which are closed where they open."""
+_TITLE = re.compile("<title>[^<]*</title>")
 
 Content: TypeAlias = "str | Iterable[Content] | None"
 """Text, markup, or several of them; None is nothing."""
@@ -30,11 +32,13 @@ class Markup(str):
 
 
 def tag(name: str, /, *content: Content, **attributes: Attribute) -> Markup:
-    """An element; `name` may have classes, as in `div.rx.rx-dim`.
+    """An element; `name` may have classes, as in `div.rx.rx-dim`, to which `class_` adds others.
 
     Attributes are written with hyphens for underscores and without an underscore at the end, as `data_do` and `for_`.
     """
     name, *classes = name.split(".")
+    if more := attributes.pop("class_", None):
+        classes.append(str(more))
     named: dict[str, Attribute] = {"class": " ".join(classes) or None}
     named |= {key.rstrip("_").replace("_", "-"): value for key, value in attributes.items()}
     inside = group(*content)
@@ -50,6 +54,24 @@ def document(*content: Content, **attributes: Attribute) -> str:
 def group(*content: Content) -> Markup:
     """Several parts one after another, without an element around them."""
     return Markup("".join(map(_written, content)))
+
+
+def start_of(name: str) -> str:
+    """How an element starts, to look for it in a page written elsewhere; attributes may follow."""
+    return f"<{name}"
+
+
+def end_of(name: str) -> str:
+    """How an element ends, to look for it in a page written elsewhere."""
+    return f"</{name}>"
+
+
+def with_title(page: str, title: str, *before: Content) -> str:
+    """A page written elsewhere under another title, with `before` in its head; ValueError for a page without one."""
+    page, count = _TITLE.subn(lambda _: group(*before, tag("title", title)), page, count=1)
+    if not count:
+        raise ValueError("This page has no title that could be replaced.")
+    return page
 
 
 def _written(content: Content) -> str:

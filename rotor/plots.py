@@ -9,6 +9,11 @@ from rotor.arrays import Array
 from rotor.chart import Band, Chart, Line
 from rotor.units import typographic
 
+_BESIDE: dict[str, dict[str, Any]] = {
+    "above": {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"},
+    "below": {"xytext": (0, -12), "textcoords": "offset points", "ha": "center"},
+    "upward": {"xytext": (0, 6), "textcoords": "offset points", "ha": "center", "rotation": 90},
+}
 _MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 
 
@@ -44,24 +49,28 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
     if ax is None:
         ax = new_axes()
     named = bool(chart.y.names)
-    for one, colour in zip(chart.series, chart.colours(), strict=True):
+    for series, colour in zip(chart.series, chart.colours(), strict=True):
         ink = "0.2" if colour == "currentColor" else colour
-        if isinstance(one, Band):
-            if len(one.x) == 1 and not named:  # One condition alone has no area.
-                ax.plot((one.x[0], one.x[0]), (one.low[0], one.high[0]), color=ink, alpha=0.3, linewidth=5)
+        if isinstance(series, Band):
+            if len(series.x) == 1 and not named:  # One condition alone has no area.
+                ax.plot((series.x[0], series.x[0]), (series.low[0], series.high[0]), color=ink, alpha=0.3, linewidth=5)
                 continue
             fill = ax.fill_betweenx if named else ax.fill_between
-            fill(one.x, one.low, one.high, color=ink, alpha=0.15, linewidth=0)
+            fill(series.x, series.low, series.high, color=ink, alpha=0.15, linewidth=0)
             continue
-        look: dict[str, Any] = {"color": ink, "label": typographic(one.label) or None}
-        if isinstance(one, Line):
-            look |= {"linestyle": "--" if one.dashes else "-"} | ({"marker": "o", "markersize": 3} if one.dots else {})
+        look: dict[str, Any] = {"color": ink, "label": typographic(series.label) or None}
+        if isinstance(series, Line):
+            look |= {"linestyle": "--" if series.dashes else "-"} | (
+                {"marker": "o", "markersize": 3} if series.dots else {}
+            )
         else:
-            look |= {"linestyle": "none", "marker": _MARKERS[one.mark], "markersize": one.size}
-            if one.scatter:
-                error = {"xerr" if named else "yerr": one.scatter}
-                ax.errorbar(one.x, one.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error)
-        ax.plot(one.x, one.y, **look)
+            look |= {"linestyle": "none", "marker": _MARKERS[series.mark], "markersize": series.size}
+            for x, y, name in zip(series.x, series.y, series.names, strict=False):
+                ax.annotate(name, (x, y), **_BESIDE[series.beside])
+            if series.scatter:
+                error = {"xerr" if named else "yerr": series.scatter}
+                ax.errorbar(series.x, series.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error)
+        ax.plot(series.x, series.y, **look)
     for name, axis in (("x", chart.x), ("y", chart.y)):
         getattr(ax, f"set_{name}label")(axis.label)
         if axis.log:
@@ -75,6 +84,6 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
         ax.invert_yaxis()
     if chart.title:
         ax.set_title(chart.title)
-    if legend and sum(bool(one.label) for one in chart.series) > 1:
+    if legend and sum(bool(series.label) for series in chart.series) > 1:
         ax.legend()
     return ax

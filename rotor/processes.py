@@ -105,6 +105,7 @@ class _Request:
     keywords: dict[str, Any]
     streams: bool
     """Whether the function is also given `tell` and `stop`."""
+    number: int
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,8 @@ class Reply:
     kind: Literal["item", "result", "error"]
     value: Any
     """What the function told or returned, or the exception that it raised."""
+    number: int = 0
+    """Number of the call; 0 where the request could not be read."""
 
 
 class WorkerProcess:
@@ -121,26 +124,33 @@ class WorkerProcess:
         self._pipe, theirs = Pipe()
         self._process = start_process(_serve, (theirs,), name)
         theirs.close()  # So that the pipe ends with the process.
+        self._number = 0
+        """Number of the last call."""
 
     @property
     def pid(self) -> int | None:
-        """Its number while it runs."""
+        """Number of the process while it runs."""
         return self._process.pid if self._process.is_alive() else None
 
     def call(self, function: Callable[..., Any], *arguments: Any, **keywords: Any) -> None:
         """Begin function(*arguments, **keywords)."""
-        self._pipe.send(_Request(function, arguments, keywords, streams=False))
+        self._begin(function, arguments, keywords, streams=False)
 
     def stream(self, function: Callable[..., Any], *arguments: Any) -> None:
         """Begin function(*arguments, tell, stop): each `tell(item)` is a reply, `stop()` is True once asked for."""
-        self._pipe.send(_Request(function, arguments, {}, streams=True))
+        self._begin(function, arguments, {}, streams=True)
+
+    def _begin(self, function: Callable[..., Any], arguments: Any, keywords: dict[str, Any], *, streams: bool) -> None:
+        self._pipe.send(_Request(function, arguments, keywords, streams, self._number + 1))
+        self._number += 1
 
     def ask_to_stop(self) -> None:
         self._pipe.send(None)
 
     def receive(self, seconds: float | None) -> Reply | None:
-        """The next reply; None if none came in time."""
-        return self._pipe.recv() if self._pipe.poll(seconds) else None
+        """The next reply to the last call; None if none came in time, or one to a call that was given up."""
+        reply: Reply | None = self._pipe.recv() if self._pipe.poll(seconds) else None
+        return reply if reply is not None and reply.number in (0, self._number) else None
 
     def kill(self) -> None:
         self._process.kill()
@@ -176,24 +186,25 @@ def _answer(pipe: "Connection[Any, Any]", request: _Request) -> None:
         return stopped
 
     def tell(item: Any) -> None:
-        pipe.send(Reply("item", item))
+        pipe.send(Reply("item", item, request.number))
 
     more = (tell, stop) if request.streams else ()
     try:
-        pipe.send(Reply("result", request.function(*request.arguments, *more, **request.keywords)))
+        value = request.function(*request.arguments, *more, **request.keywords)
+        pipe.send(Reply("result", value, request.number))
     except BrokenPipeError:
         raise
     except Exception as error:  # The process goes on whatever a function does.
-        _send_error(pipe, error)
+        _send_error(pipe, error, request.number)
 
 
-def _send_error(pipe: "Connection[Any, Any]", error: Exception) -> None:
+def _send_error(pipe: "Connection[Any, Any]", error: Exception, number: int = 0) -> None:
     error.add_note(traceback.format_exc())
     try:
         pickle.loads(pickle.dumps(error))
     except Exception:  # Some exceptions cannot be pickled, or cannot be made again from what was.
         error = RuntimeError(f"{type(error).__name__}: {error}")
-    pipe.send(Reply("error", error))
+    pipe.send(Reply("error", error, number))
 
 
 @dataclass(frozen=True, eq=False)
@@ -300,6 +311,14 @@ class Processes(Executor):
             worker.call(call.function, *call.arguments, **call.keywords)
         else:
             worker.stream(call.function, *call.arguments)
+        try:
+            return self._reply_of(call, worker)
+        except Exception:  # What hears of its items failed: the process is still at this call.
+            worker.kill()
+            raise
+
+    @staticmethod
+    def _reply_of(call: _Call, worker: WorkerProcess) -> Reply:
         asked = False
         while True:
             if call.stopping.is_set() and not asked:

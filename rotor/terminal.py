@@ -5,13 +5,16 @@ import codecs
 import contextlib
 import io
 import os
+import re
 import shutil
 import signal
 import sys
 import textwrap
+import threading
 import time
 import warnings
 from collections.abc import Callable, Generator
+from pathlib import Path
 from typing import Any, NoReturn, TextIO, cast
 
 from rotor.user_input import Notice, brief, did_you_mean
@@ -26,25 +29,59 @@ _ASCII = {
 _ERRORS = "rotor-ascii"
 
 
+_PROGRAMS = ("-m", "rotor")
+"""What `sys.argv` begins with while `python -m rotor` and the installed command read their modules."""
+
+
+def stop_while_read() -> None:
+    """Let Ctrl-C end the command without a traceback while its modules are still read, which takes half a second."""
+    if Path((sys.argv or [""])[0]).name in _PROGRAMS and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, _leave)
+
+
+def _leave(number: int, frame: object) -> NoReturn:
+    del number, frame
+    _say("rotor: stopped")
+    os._exit(130)
+
+
+def called(package: str, script: str) -> str:
+    """What a user types to run it: the installed script where that was called, else the package."""
+    return script if Path(sys.argv[0]).stem == script else f"python -m {package}"
+
+
+def _columns() -> int:
+    return min(max(shutil.get_terminal_size((100, 24)).columns, 60), 100)
+
+
+def help_formatter(prog: str) -> argparse.HelpFormatter:
+    """Lines that fit the terminal, at most 100 letters; long names have their help beside them."""
+    return argparse.HelpFormatter(prog, indent_increment=1, width=_columns())
+
+
 class OneLineParser(argparse.ArgumentParser):
     """Reports errors in one line and suggests the nearest name for one that is not known."""
 
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **{"formatter_class": help_formatter, **options})
+        self._negative_number_matcher = re.compile(r"^-\.?\d")  # Also lists and ranges: --rate-deg -20,0.
+
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:  # pyright: ignore[reportIncompatibleMethodOverride]
-        """As argparse does it; a value that is given but empty is an error, not the default."""
-        found, rest = super().parse_known_args(args, namespace)
-        for name, value in vars(found).items():
+        """Parse as argparse does; a value that is given but empty is an error, not the default."""
+        options, rest = super().parse_known_args(args, namespace)
+        for name, value in vars(options).items():
             items = cast(list[Any], value if isinstance(value, list) else [value])
-            if any(isinstance(one, str) and not one.strip() for one in items):
+            if any(isinstance(item, str) and not item.strip() for item in items):
                 self.error(f"{name.replace('_', '-')} is empty: give a value, or leave it out")
         for flag in rest:
             if flag.startswith("--"):
                 name = flag.partition("=")[0]
                 self.error(f"{name} is not a flag of this command{did_you_mean(name, self._option_string_actions)}")
-        return found, rest
+        return options, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
-            known = [str(one) for one in action.choices]
+            known = [str(choice) for choice in action.choices]
             what = "command" if action.dest == "command" else "value"
             hint = did_you_mean(str(value), known) or ":"
             raise argparse.ArgumentError(action, f"{str(value)!r} is not a known {what}{hint} use {', '.join(known)}")
@@ -79,9 +116,8 @@ class StopSignal:
 
 
 def wrapped(text: str, indent: str = "") -> str:
-    """A sentence in lines that fit the terminal, or 120 letters; all but the first begin with `indent`."""
-    width = max(shutil.get_terminal_size((120, 24)).columns, 60)
-    return textwrap.fill(text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    """A sentence in lines that fit the terminal, or 100 letters; all but the first begin with `indent`."""
+    return textwrap.fill(text, _columns(), subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def run_command(program: str, run: Callable[[], int]) -> int:
@@ -90,6 +126,8 @@ def run_command(program: str, run: Callable[[], int]) -> int:
     A `Notice` is one line on stderr, once.
     """
     make_encodable()
+    if signal.getsignal(signal.SIGINT) is _leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with _plain_notices(program):
             code = run()

@@ -110,7 +110,7 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
 
 
 def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> str:
-    """The same as text; a byte-order mark at the beginning, which Notepad writes, is left out."""
+    """The content of a file as text; a byte-order mark at the beginning, which Notepad writes, is left out."""
     content = read_bytes(path, what, remedy, most)
     try:
         return content.decode("utf-8-sig").replace("\r\n", "\n")
@@ -126,15 +126,15 @@ def is_file(path: str | Path) -> bool:
 def make_folder(path: str | Path) -> Path:
     """A folder that can be written to, made where it is missing. Otherwise ValueError, and no folder is left behind."""
     folder = Path(path)
-    missing = [one for one in (folder, *folder.parents) if not os.path.lexists(one)]
+    missing = [parent for parent in (folder, *folder.parents) if not os.path.lexists(parent)]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except (OSError, ValueError) as error:
-        for one in missing:  # From the innermost outward.
+        for empty in missing:  # From the innermost outward.
             with suppress(OSError, ValueError):
-                one.rmdir()
+                empty.rmdir()
         reason = error.strerror if isinstance(error, OSError) else error
         raise ValueError(f"cannot write to {str(path)!r} ({reason}): give a writable folder") from None
 
@@ -187,7 +187,7 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
 
 
 def _umask() -> int:
-    """Of this process; the system tells it only while it is set."""
+    """Mode mask of this process; the system tells it only while it is set."""
     mask = os.umask(0o077)
     os.umask(mask)
     return mask

@@ -12,11 +12,13 @@ FIXED = {
     "places of channels, forces, waves and columns": {
         "CHANNELS", "FORCES", "HOVER_PAIRS", "UP", "UR", "UT", "TH", "FX", "FZ", "COS", "SIN", "STEADY", "ONE", "ZERO",
         "ATTACHED", "NEGATIVE", "POSITIVE", "ONSET", "SLOPE", "SWIRL", "SWIRL_SLOPE", "STATE_NAMES", "_DERIVED",
+        "SLOPES", "RATES",
     },
     "names and sources of assets": {
         "SECTION_NAMES", "TABLE_NAMES", "THESIS_NAME", "_OUTLINES", "_MEASURED", "_SOURCE", "_TUNNEL_SOURCE",
     },
     "nature, and published tables": {"GRAVITY", "LEAST_SEPARATION", "WIDEST", "_CENTRE", "_LAGS", "_LAG_MACH"},
+    "uncertain inputs, and what changes them": {"_CHANGES", "_PART"},
 }  # fmt: skip
 
 

@@ -61,7 +61,7 @@ def types_of(one: object) -> set[type]:
 
 
 def test_each_public_type_has_an_entry():
-    entries = {name.rpartition(".")[2] for name in re.findall(r"auto(?:class|function):: ([\w.]+)", API)}
+    entries = {name.rpartition(".")[2] for name in re.findall(r"^   ~([\w.]+)$", API, flags=re.MULTILINE)}
     public = [getattr(module, name) for module in (rotor, rotor.actuator, explorer) for name in module.__all__]
     described = [one for one in public if inspect.isclass(one) or inspect.isfunction(one)]
     needed = {*described}.union(*map(types_of, described))

@@ -14,8 +14,8 @@ import numpy as np
 import explorer
 import rotor
 
-rigid = rotor.make_design(twist="linear:-12", mu=0.3)
-elastic = replace(rigid, models=replace(rigid.models, elastic_twist=True))
+elastic = rotor.make_design(twist="linear:-12", mu=0.3)
+rigid = replace(elastic, models=replace(elastic.models, elastic_twist=False))
 
 # %%
 # The same jig twist, rigid and elastic.

@@ -20,8 +20,8 @@ import rotor
 # Static twist, at three speeds. At speed every degree of it costs: the strongly twisted blade saves power in hover and
 # pays at the other end.
 #
-# The shaded band is what the same design has with other models of the wake, from uniform inflow to the lifting line:
-# the band over wakes, which belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though
+# The shaded band is what the same design has with other inflow models, from uniform inflow to the lifting line; it
+# belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though
 # not by how much. At µ 0.2 the lifting line has its least near −12°, where power has it too, and linear inflow does
 # not. Below that the wake decides, and a sentence stands in place of the index.
 
@@ -41,7 +41,7 @@ plt.legend()
 
 design = rotor.make_design(mu=0.3, bending=True)
 loads = rotor.solve(design).hub_loads
-print(f"µ 0.3: index {loads.index:.1f} %, over wakes {loads.band[0]:.1f} to {loads.band[1]:.1f} %")
+print(f"µ 0.3: index {loads.index:.1f} %, over inflow models {loads.band[0]:.1f} to {loads.band[1]:.1f} %")
 for name, size in loads.amplitudes.items():
     print(f"  {name} {size:.0f} {'N' if name[0] == 'f' else 'N m'}")
 
@@ -80,7 +80,7 @@ for point, (more, less) in zip(front.points, front.changes, strict=True):
         f"{wave.per_rev}/rev {math.degrees(wave.amplitude):.2f}° at {math.degrees(wave.phase):.0f}°"
         for wave in point.design.active_twist.harmonics
     )
-    low, high = point.over_wakes
+    low, high = point.over_inflows
     print(f"power {more:+.2f} %, index {less:+.0f} % ({low:+.0f} to {high:+.0f} %): {twist}")
 print("largest error of the matrix: power {:.2f} %, index {:.1f} %".format(*front.preview_error))
 

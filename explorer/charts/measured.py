@@ -106,13 +106,15 @@ def _drawn(
     places = [wide * point[along] for point in measured.points]
     values = [size * point[measured.quantity] for point in measured.points]
     scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
-    ours = [(wide * one.given[along], size * one.ours[measured.quantity]) for one in known if one.ours]
+    ours = [(wide * point.given[along], size * point.ours[measured.quantity]) for point in known if point.ours]
     ours.sort()
     x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
     y = size * now
     seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
     low, high = min(places), max(places)
-    words = [_words(measured, value, one) for value, one in zip(values, (*known, *[None] * len(values)), strict=False)]
+    words = [
+        _words(measured, value, point) for value, point in zip(values, (*known, *[None] * len(values)), strict=False)
+    ]
     value, note = _summary(measured, known, solution)
     both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
     return Chart(
@@ -120,7 +122,7 @@ def _drawn(
         Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
         Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
         (
-            role_line("saving", [place for place, _ in ours], [own for _, own in ours]),
+            role_line("saving", [place for place, _ in ours], [value_here for _, value_here in ours]),
             Points("", places, values, INK, "ring", scatter, words, size=2.6),
             now_dot(x, y),
         ),
@@ -129,15 +131,15 @@ def _drawn(
     )
 
 
-def _words(measured: MeasuredSet, value: float, one: ComparedPoint | None) -> str:
+def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> str:
     """A measured value in words, with ours and the error where it is known."""
     _, unit, size = _QUANTITIES[measured.quantity]
     words = f"{unit}: measured {value:.4g}"
-    if one is None:
+    if point is None:
         return words
-    if one.ours is None or one.error_percent is None:
+    if point.ours is None or point.error_percent is None:
         return f"{words}; ours does not trim"
-    return f"{words}, ours {size * one.ours[measured.quantity]:.4g}, {number(one.error_percent, 1, sign=True)} %"
+    return f"{words}, ours {size * point.ours[measured.quantity]:.4g}, {number(point.error_percent, 1, sign=True)} %"
 
 
 def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
@@ -182,19 +184,23 @@ class FlownPowers:
         ours = self._ours.get(_any_flight(design), {})
         return Points(
             "",
-            [one.mu for one in flights],
-            [unit.of(one.power) for one in flights],
+            [flight.mu for flight in flights],
+            [unit.of(flight.power) for flight in flights],
             INK,
             "ring",
-            words=[flight_words(one, ours.get(one.case) or _now(one, solution), units) for one in flights],
-            press=[one.case for one in flights],
-            faint=[not one.same_air(design) for one in flights],
+            words=[
+                f"{flight_words(flight, ours.get(flight.case) or _now(flight, solution), units)} Press to fly there."
+                for flight in flights
+            ],
+            action="flown",
+            press=[flight.case for flight in flights],
+            faint=[not flight.same_air(design) for flight in flights],
             size=2.6,
         )
 
     def value(self, solution: Solution) -> str:
         """The error at the present flight where it is a measured one."""
-        here = next((one for one in _shown(solution.design) if one.same_flight(solution.design)), None)
+        here = next((flight for flight in _shown(solution.design) if flight.same_flight(solution.design)), None)
         if here is None:
             return ""
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
@@ -209,26 +215,26 @@ class FlownPowers:
         if len(self._ours) > _KEPT:
             self._ours.clear()
         known = self._ours.setdefault(key, {})
-        if all(one.case in known for one in flights):
+        if all(flight.case in known for flight in flights):
             return
-        for one in flights:
+        for flight in flights:
             if superseded():
                 return
-            if one.case not in known:
-                found = solve(key.at(mu=one.mu, mass_kg=one.mass, altitude_m=one.altitude))
-                ends, power = between_drag_areas(found), found.power.main_rotor if found.converged else None
+            if flight.case not in known:
+                trimmed = solve(key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude))
+                ends, power = between_drag_areas(trimmed), trimmed.power.main_rotor if trimmed.converged else None
                 band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
-                known[one.case] = OurPower(power, band)
+                known[flight.case] = OurPower(power, band)
         shown()
 
 
-def flight_words(one: MeasuredPower, ours: OurPower | None, units: Units) -> str:
+def flight_words(measured: MeasuredPower, ours: OurPower | None, units: Units) -> str:
     """A measured flight in words, with ours where it is known."""
-    words = f"{one.title}. Main rotor: measured {units.watts(one.power, 1)}"
+    words = f"{measured.title}. Main rotor: measured {units.watts(measured.power, 1)}"
     if ours is not None and ours.power is None:
         words += "; ours does not trim"
     elif ours is not None and ours.power is not None:
-        percent = number(100.0 * (ours.power / one.power - 1.0), 1, sign=True)
+        percent = number(100.0 * (ours.power / measured.power - 1.0), 1, sign=True)
         words += f", ours {units.watts(ours.power, 1)}, {percent} %"
         low, high = (units.watts(end, 1) for end in ours.band or (0.0, 0.0))
         if low != high:
@@ -244,16 +250,16 @@ def source_of(design: Design) -> str:
 
 
 def _shown(design: Design) -> tuple[MeasuredPower, ...]:
-    """The flights of this rotor; none on a stand, in climb, and with another blade."""
+    """The flights of this rotor; none on a stand, in climb, at another rotor speed, and with another blade."""
     here = design.condition
-    level = here.stand is None and here.climb_speed == 0.0 and not design.pitch_per_rev
+    level = here.stand is None and not here.beside and not design.pitch_per_rev
     return flight_powers(design.aircraft.key) if level and as_measured(design) else ()
 
 
 def _any_flight(design: Design) -> Design:
-    """The same design for every flight."""
+    """One design for all flights of an aircraft."""
     return replace(design, condition=FlightCondition(0.0, design.aircraft.mass))
 
 
-def _now(one: MeasuredPower, solution: Solution) -> OurPower | None:
-    return OurPower(solution.power.main_rotor, None) if one.same_flight(solution.design) else None
+def _now(measured: MeasuredPower, solution: Solution) -> OurPower | None:
+    return OurPower(solution.power.main_rotor, None) if measured.same_flight(solution.design) else None

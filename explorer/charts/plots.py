@@ -21,8 +21,8 @@ from rotor import Design, Solution, solve
 from rotor.arrays import Array
 from rotor.study.series import between_drag_areas
 from rotor.trim import Guess
-from rotor.trim.low_speed import passes_over
-from rotor.trim.validity import LOW_SPEED, vortex_ring
+from rotor.trim.low_speed import passes_over, vortex_ring
+from rotor.trim.validity import LOW_SPEED
 
 Range = tuple[float, float]
 
@@ -64,7 +64,7 @@ HASTE = 0.08
 _FEW = (0, 1, 3, 6, 9, 12, 15, 18)
 """Places in `SWEEP` computed first; a smooth line joins them where time is short."""
 _FEWEST = (0, 6, 12, 15, 18)
-"""The same where the curve of a design much like it is known: the line then joins the differences from it."""
+"""Places in `SWEEP` computed first where a like design's curve is known: a line joins the differences from it."""
 _BAND = (4, 8, 13, 18)
 """Places in `SWEEP` at which the band between the drag areas is trimmed."""
 _KEPT = 200
@@ -83,7 +83,7 @@ class PowerCurve:
     current: bool = True
     """Whether `design` has been swept; else it is the curve of the design before it."""
     main_rotor: Array | None = None
-    """Of `design`, as flight tests measure it."""
+    """Main-rotor power of `design`, as flight tests measure it."""
     band: Array | None = None
     """Power of `design` with the lowest and the highest drag area of its sources, (2, speeds); None until it is known,
     and where the sources give one value."""
@@ -133,7 +133,7 @@ class PowerCurves:
             self._band = family
         # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
         near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
-        level = near is not None and near.condition.climb_speed == design.condition.climb_speed
+        level = near is not None and near.condition.beside == design.condition.beside
         band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
         reference_total = self._curves.get(_family(reference), blank)[0]
         return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)
@@ -148,7 +148,7 @@ class PowerCurves:
         flies = design.condition.stand is None and design.models.fuselage
         if family in self._bands or design.fuselage.drag_area_band is None or not flies:
             return False
-        found: dict[int, tuple[float, float]] = {}
+        changes: dict[int, tuple[float, float]] = {}
         for k in _BAND:
             if superseded():
                 return False
@@ -159,12 +159,12 @@ class PowerCurves:
             ends = between_drag_areas(point)
             if ends is not None:
                 low, high = ((end.power.total - point.power.total) / 1e3 for end in ends)
-                found[k] = low, high
-        if len(found) < 2:
+                changes[k] = low, high
+        if len(changes) < 2:
             return False
         if len(self._bands) >= _KEPT:
             del self._bands[next(iter(self._bands))]
-        self._bands[family] = _over_speed(found)
+        self._bands[family] = _over_speed(changes)
         return True
 
     def sweep(
@@ -235,14 +235,14 @@ class PowerCurves:
 
 
 def _family(design: Design) -> Design:
-    """The same design for every advance ratio; a test may have no hover, so there it is another one."""
+    """One design for every advance ratio; a test may have no hover, so there it is another one."""
     any_speed = 0.0 if design.condition.stand is None else 0.2
     return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
 
 
-def _alike(one: Design, other: Design) -> bool:
+def _alike(design: Design, other: Design) -> bool:
     """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
-    return (one.rotor, one.models, one.condition.stand) == (other.rotor, other.models, other.condition.stand)
+    return (design.rotor, design.models, design.condition.stand) == (other.rotor, other.models, other.condition.stand)
 
 
 def _powers(point: Solution) -> tuple[float, float, float]:
@@ -253,10 +253,10 @@ def _powers(point: Solution) -> tuple[float, float, float]:
     return total, least, point.power.main_rotor / 1e3
 
 
-def _over_speed(found: dict[int, tuple[float, float]]) -> Array:
+def _over_speed(changes: dict[int, tuple[float, float]]) -> Array:
     """Changes of power over `SWEEP`, (2, points), from those at a few of its places; NaN beyond the last."""
-    mus, at = np.array(SWEEP), np.array(sorted(found))
-    ratios = np.array([found[k] for k in at.tolist()]) / mus[at, None] ** 3
+    mus, at = np.array(SWEEP), np.array(sorted(changes))
+    ratios = np.array([changes[k] for k in at.tolist()]) / mus[at, None] ** 3
     inside = np.clip(mus, mus[at[0]], None)
     line = PchipInterpolator(mus[at], ratios, extrapolate=False)(inside)
     return np.asarray(line * mus[:, None] ** 3, dtype=np.float64).T

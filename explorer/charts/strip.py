@@ -1,19 +1,20 @@
-"""The four charts of the results strip as plain values: power change over µ, α, lift, and where to twist.
+"""The charts of the results strip as plain values: power over µ, α and lift.
 
 Each chart compares this design with its reference. Gaps are NaN.
 """
 
 import math
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
-from rotor import Aircraft, Solution
+from rotor import Design, Solution
 from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Line, Points, Values
-from rotor.trim import PitchGradient
+from rotor.chart import Axis, Band, Chart, Line, Points, Rule, Values
 
 Role = Literal["this", "reference", "pinned", "limit", "saving", "earlier", "flown"]
 """What a line stands for.
@@ -28,6 +29,12 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
     "limit": ("var(--rx-stall)", 1.3, "3 3"),
 }
 """Colour, width [px] and dashes by role."""
+_LEAST_SWEPT = 4
+"""Trims of a sweep, at least, of which speeds are told."""
+INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
+
+_LEAST_SWEPT = 4
+"""Trims of a sweep, at least, of which speeds are told."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 _SHOWN_QUANTILE = 0.93
@@ -89,13 +96,13 @@ def total_power_chart(
     units: Units = SI,
     held: Range | None = None,
     marks: Points | None = None,
-    aircraft: Aircraft | None = None,
+    design: Design | None = None,
 ) -> Chart:
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
-    `marks`: main-rotor power measured in flight; then there is a line of ours too. `aircraft`: draws the power of its
-    engines, where its file has it.
+    `marks`: main-rotor power measured in flight; then there is a line of ours too. `design`: draws the power of its
+    engines, where the rotor file has it.
     """
     unit = units.power[0]
     here = curve.in_unit(unit)
@@ -111,14 +118,14 @@ def total_power_chart(
     driven = role_line(role, mus, np.where(power < 0.0, power, np.nan), filled=True)
     value = "autorotation" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
     note, engines = autorotation_words(curve), []
-    if aircraft is not None and aircraft.installed_power is not None:
-        installed = unit.of(aircraft.installed_power)
+    if design is not None and design.aircraft.installed_power is not None:
+        installed = unit.of(design.aircraft.installed_power)
         engines = [role_line("limit", mus, np.full(len(mus), installed))]
         top = top_speed(mus, power, installed) if curve.current else math.nan
         note += f" Engines: {number(installed)} {unit.symbol} at sea level, less at altitude; losses of gearboxes and"
         note += " what the gearbox allows are not counted, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
-            value = f"least µ {mus[least]:.2f} · top ≤ {units.speed[0].text(top * aircraft.rotor.tip_speed)}"
+            value = f"least µ {mus[least]:.2f} · top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [role_line("reference", mus, here.main_rotor)]
     y_range = held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan))
     return Chart(
@@ -141,9 +148,9 @@ def total_power_chart(
 
 
 def _mostly_seen(limits: list[Line], y_range: Range) -> list[Line]:
-    """Those of which most lies within the axis."""
+    """The series of which most lies within the axis."""
     low, high = y_range
-    return [one for one in limits if np.mean([low <= value <= high for value in one.y]) > 0.5]
+    return [limit for limit in limits if np.mean([low <= value <= high for value in limit.y]) > 0.5]
 
 
 def top_speed(mus: Array, power: Array, installed: float) -> float:
@@ -158,6 +165,41 @@ def top_speed(mus: Array, power: Array, installed: float) -> float:
         return math.nan
     k = below[-1]
     return float(x[k] + (x[k + 1] - x[k]) * above[k] / (above[k] - above[k + 1]))
+
+
+def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart, float]:
+    """Power over µ with walls and two speeds of level flight, which are pressed; and the fastest µ before them.
+
+    A wall is the power of the engines, or the last trim of the sweep. Endurance is longest where power is least, range
+    where power over speed is, as long as fuel flow is proportional to power (Leishman, Principles of Helicopter
+    Aerodynamics, 2nd ed., chapter 5). `curve`: in kW over `SWEEP`.
+    """
+    mus, known = np.array(SWEEP), np.isfinite(curve.design)
+    x, power = mus[known], curve.design[known]
+    if len(x) < _LEAST_SWEPT:
+        return chart, math.nan
+    walls, marks = [(float(x[-1]), "no trim")] if x[-1] < mus[-1] else [], list[tuple[float, str]]()
+    installed = design.aircraft.installed_power
+    if installed is not None and math.isfinite(top := top_speed(mus, curve.design, installed / KILOWATT.size)):
+        walls.append((top, "engines"))
+    if design.condition.climb_speed == 0.0:
+        fine = np.linspace(max(float(x[0]), 0.02), float(x[-1]), 800)
+        total = CubicSpline(x, power)(fine)
+        for word, cost in (("endurance", total), ("range", total / fine)):
+            k = int(np.argmin(cost))
+            if 0 < k < len(fine) - 1:
+                marks.append((float(fine[k]), word))
+    drawn = np.array(next(one.y for one in chart.series if isinstance(one, Line) and one.colour == SAVING))[known]
+    pressed = [
+        Points("", (mu,), (float(np.interp(mu, x, drawn)),), SAVING, "ring", action="speed", press=(f"{mu:.3f}",),
+               words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",), names=(word,), size=3.5,
+               beside="above" if word == "endurance" else "below")
+        for mu, word in marks
+    ]  # fmt: skip
+    rules = [Rule(mu, label=word, colour=LOOKS["limit"][0]) for mu, word in walls]
+    *lines, now = chart.series
+    chart = replace(chart, series=(*lines, *pressed, now), rules=(*chart.rules, *rules))
+    return chart, min((mu for mu, _ in walls), default=float(x[-1]))
 
 
 def alpha_chart(
@@ -213,31 +255,6 @@ def lift_per_metre(solution: Solution) -> Array:
     design = solution.design
     per_blade = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
     return solution.disk.dct.mean(axis=1) * per_blade
-
-
-def where_to_twist_chart(gradient: PitchGradient, units: Units = SI, previous: Range | None = None) -> Chart:
-    """Power for a degree more pitch per unit of r/R along the blade, trim kept.
-
-    The axis fits most of the blade; `note` says how high the clipped spike, as a rule at the tip, really is.
-    """
-    unit = units.power[0]
-    density = gradient.density * math.radians(1.0) / unit.size
-    reach = max(1.0, 1.25 * float(np.quantile(np.abs(density), _SHOWN_QUANTILE)))
-    y_range = held_range(previous, -reach, reach)
-    outside = int(np.argmax(np.maximum(density - y_range[1], y_range[0] - density)))
-    value = note = ""
-    if not y_range[0] <= density[outside] <= y_range[1]:
-        height = number(float(density[outside]), 0, sign=True)
-        value = f"{height} at {gradient.r[outside]:.2f} R"
-        note = f"Off the chart: {height} at {gradient.r[outside]:.2f} R."
-    return Chart(
-        "Pitch sensitivity",
-        Axis("r/R", (0.1, 1.0)),
-        Axis(f"{unit.symbol}/° per R", y_range),
-        (role_line("saving", gradient.r, density, filled=True),),
-        value=value,
-        note=note,
-    )
 
 
 def _margin(r: Array, margin: Array) -> tuple[str, str]:

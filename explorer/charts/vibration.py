@@ -35,7 +35,7 @@ def stopping(superseded: Superseded) -> Callable[[Design, Solution | Guess | Non
 
 
 class IndexCurves:
-    """Those of one session; a curve belongs to a design at any speed."""
+    """Curves of the vibration index of one session; a curve belongs to a design at any speed."""
 
     def __init__(self) -> None:
         self._curves: dict[Design, dict[float, float]] = {}
@@ -75,7 +75,7 @@ class IndexCurves:
 
 
 def _family(design: Design) -> Design:
-    """The same design for every speed, with blades that bend."""
+    """One design for every speed, with blades that bend."""
     return replace(design.at(mu=SLOWEST), models=replace(design.models, bending=True))
 
 
@@ -93,8 +93,8 @@ def index_chart(
     """
     if not _has_curve(solution.design):
         return None
-    own, other = curves.known(solution.design), curves.known(reference.design)
-    seen = [value for value in (*own, *other, math.nan if index is None else index) if math.isfinite(value)]
+    indices, other = curves.known(solution.design), curves.known(reference.design)
+    seen = [value for value in (*indices, *other, math.nan if index is None else index) if math.isfinite(value)]
     same = reference.design == solution.design
     left = curves.left(solution.design) + (0 if same else curves.left(reference.design))
     mus = np.array(SPEEDS)
@@ -104,7 +104,7 @@ def index_chart(
         Axis(f"index, {index_unit(solution.design)}", held_range(held, 0.0, max(seen, default=math.nan))),
         (
             *([] if same else [role_line(compared, mus, other)]),
-            role_line("saving", mus, own),
+            role_line("saving", mus, indices),
             *([] if index is None else [now_dot(solution.design.condition.advance_ratio, index)]),
         ),
         (Rule(0.0, SLOWEST, f"none below µ {SLOWEST:g}"),),
@@ -146,11 +146,11 @@ class FanKey:
     def at(self, speed: float) -> BladeFrequencies | None:
         """At a rotor speed over the rated one [per rev of the rated one]."""
         rotor = replace(self.rotor, angular_speed=speed * self.rotor.angular_speed)
-        found = blade_frequencies(rotor, self.twist, math.radians(self.collective_deg))
-        if found is None:
+        frequencies = blade_frequencies(rotor, self.twist, math.radians(self.collective_deg))
+        if frequencies is None:
             return None
-        parts = (found.flap, found.lag, found.torsion)
-        return BladeFrequencies(*(tuple(speed * own for own in part) for part in parts))
+        parts = (frequencies.flap, frequencies.lag, frequencies.torsion)
+        return BladeFrequencies(*(tuple(speed * per_rev for per_rev in part) for part in parts))
 
 
 class FanPlots:
@@ -170,10 +170,10 @@ class FanPlots:
             if speed not in known:
                 if superseded():
                     return False
-                found = key.at(speed)
-                if found is None:
+                frequencies = key.at(speed)
+                if frequencies is None:
                     return False
-                known[speed] = found
+                known[speed] = frequencies
         return True
 
 
@@ -187,15 +187,15 @@ def fan_chart(known: dict[float, BladeFrequencies], collective_deg: int) -> Char
     named: set[str] = set()
     for mode in modes:
         kind = mode[-1][0]
-        shown = ", ".join(number(own, 2) for own in getattr(rated, kind) if own <= _TOP) or "above 9"
+        shown = ", ".join(number(value, 2) for value in getattr(rated, kind) if value <= _TOP) or "above 9"
         label = "" if kind in named else f"{kind} {shown}"
         named.add(kind)
         colour, dashes = _KINDS[kind]
-        lines.append(Line(label, percent, [own for _, own in mode], colour, dashes))
+        lines.append(Line(label, percent, [value for _, value in mode], colour, dashes))
     dots = [
-        Points("", (100.0,), (own,), _KINDS[kind][0], size=3.2, words=(f"{kind} {number(own, 2)} per rev",))
-        for kind, own in _sorted(rated)
-        if own <= _TOP
+        Points("", (100.0,), (value,), _KINDS[kind][0], size=3.2, words=(f"{kind} {number(value, 2)} per rev",))
+        for kind, value in _sorted(rated)
+        if value <= _TOP
     ]
     return Chart(
         "Blade frequencies",
@@ -208,7 +208,7 @@ def fan_chart(known: dict[float, BladeFrequencies], collective_deg: int) -> Char
     )
 
 
-def _sorted(found: BladeFrequencies) -> list[tuple[str, float]]:
+def _sorted(frequencies: BladeFrequencies) -> list[tuple[str, float]]:
     """Bending in ascending order, with its kind, then torsion."""
-    bending = sorted([(own, "flap") for own in found.flap] + [(own, "lag") for own in found.lag])
-    return [(kind, own) for own, kind in bending] + [("torsion", own) for own in found.torsion]
+    bending = sorted([(value, "flap") for value in frequencies.flap] + [(value, "lag") for value in frequencies.lag])
+    return [(kind, value) for value, kind in bending] + [("torsion", value) for value in frequencies.torsion]

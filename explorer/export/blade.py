@@ -37,7 +37,7 @@ from explorer.picture.solids import Faces
 from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
-from rotor.terminal import run_command
+from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
@@ -192,7 +192,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m explorer blade",
+        formatter_class=help_formatter,
+        prog=called("explorer", "rotor-explorer") + " blade",
         description="One blade for CAD, in metres, in jig shape and as flown: STL, and section curves to loft as CSV.",
     )
     parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")

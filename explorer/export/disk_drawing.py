@@ -1,7 +1,6 @@
 """The disk from above as SVG: field, marked regions, azimuth marks, flight arrow, colour bar and key."""
 
 import math
-from html import escape
 
 from explorer.charts import svg
 from explorer.colours import RIM, VOID, colour_map, css
@@ -14,7 +13,8 @@ from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_code
 from explorer.picture.scene_theme import DiskInk
 from explorer.text.design_words import flight_words, title_words
 from rotor import Solution
-from rotor.chart import round_ticks, tick_text
+from rotor.chart import bar_ticks
+from rotor.markup import Attribute, Markup, group, tag
 
 Range = tuple[float, float]
 
@@ -31,7 +31,7 @@ def disk_drawing(
     marks: Marks = ALL_MARKS,
     letters: float = 9.0,
     units: Units = SI,
-) -> str:
+) -> Markup:
     """The inside of an SVG that spans −HALF…HALF: nose up, advancing side right.
 
     `pixels`: along each edge of the field's picture; `letters`: their height.
@@ -39,28 +39,32 @@ def disk_drawing(
     half = image.half_width(100.0, min(pixels, image.LARGEST))
     png = disk_png(solution, field, colour_range, size=pixels, marks=marks)
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
-    rings = "".join(f'<circle r="{r:.2f}" fill="none"/>' for r in (100.0, cutout))
-    rim = f'<g stroke="{css(RIM)}" stroke-width=".8">{rings}<path d="{_ticks()}"/></g>'
-    return (
-        f"{svg.image(-half, -half, 2 * half, 2 * half, png)}{rim}{_labels(letters)}{_flight(solution, letters, units)}"
+    rings = [tag("circle", r=r, fill="none") for r in (100.0, cutout)]
+    rim = tag("g", rings, tag("path", d=_ticks()), stroke=css(RIM), stroke_width=0.8)
+    return group(
+        svg.image(-half, -half, 2 * half, 2 * half, png), rim, _labels(letters), _flight(solution, letters, units)
     )
 
 
-def disk_svg(solution: Solution, field: Field, colour_range: Range, marks: Marks, units: Units) -> str:
+def disk_svg(solution: Solution, field: Field, colour_range: Range, marks: Marks, units: Units) -> Markup:
     """The drawing as a file of its own, with a title, the colour bar and the key; black on white."""
     size, wide = 9.0, 200.0
     key, at = [], -HALF + 6.0
     for title, swatch in key_entries(solution, field, marks):
-        key.append(f'<g transform="translate({at:.1f} 0)">{swatch}{svg.text(18.0, 7.5, title, size)}</g>')
+        key.append(tag("g", swatch, svg.text(18.0, 7.5, title, size), transform=f"translate({at:.1f} 0)"))
         at += 30.0 + 0.55 * size * len(title)
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-HALF:g} {-HALF - 34:g} {2 * HALF:g} {2 * HALF + 98:g}" '
-        'font-family="system-ui,sans-serif" color="#212529" style="background:#fff">'
-        f"{svg.text(0, -HALF - 20, title_words(solution.design), 10.5, anchor='middle', weight=650)}"
-        f"{svg.text(0, -HALF - 6, flight_words(solution.design, units), size, anchor='middle')}"
-        f"{disk_drawing(solution, field, colour_range, 1000, marks, size, units)}"
-        f'<g transform="translate({-0.5 * wide:g} {HALF + 4:g})">{bar_drawing(field, colour_range, wide, "scale")}</g>'
-        f'<g transform="translate(0 {HALF + 48:g})">{"".join(key)}</g></svg>'
+    bar = bar_drawing(field, colour_range, wide, "scale")
+    look: dict[str, Attribute] = {"font_family": "system-ui,sans-serif", "color": "#212529", "style": "background:#fff"}
+    return tag(
+        "svg",
+        svg.text(0, -HALF - 20, title_words(solution.design), 10.5, anchor="middle", weight=650),
+        svg.text(0, -HALF - 6, flight_words(solution.design, units), size, anchor="middle"),
+        disk_drawing(solution, field, colour_range, 1000, marks, size, units),
+        tag("g", bar, transform=f"translate({-0.5 * wide:g} {HALF + 4:g})"),
+        tag("g", key, transform=f"translate(0 {HALF + 48:g})"),
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"{-HALF:g} {-HALF - 34:g} {2 * HALF:g} {2 * HALF + 98:g}",
+        **look,
     )
 
 
@@ -73,17 +77,18 @@ def _ticks() -> str:
     return "".join(parts)
 
 
-def _labels(size: float) -> str:
+def _labels(size: float) -> Markup:
     """Four azimuths, and the sense of rotation outside the rim between ψ 22° and 51°."""
     (x, y), (x_end, y_end) = _at(22.0, 109.0), _at(45.0, 109.0)
     head = " ".join(f"{a:.2f},{b:.2f}" for a, b in (_at(45.0, 105.6), _at(51.0, 109.0), _at(45.0, 112.4)))
-    return (
-        svg.text(0, 107 + size, "ψ = 0°", size, anchor="middle")
-        + svg.text(107, 0.35 * size, "90°", size)
-        + svg.text(0, -107, "180°", size, anchor="middle")
-        + svg.text(-107, 0.35 * size, "270°", size, anchor="end")
-        + f'<path d="M{x:.2f},{y:.2f}A109,109 0 0 0 {x_end:.2f},{y_end:.2f}" fill="none" stroke="{css(RIM)}" '
-        f'stroke-width="2.4"/><polygon points="{head}" fill="{css(RIM)}"/>'
+    arc = f"M{x:.2f},{y:.2f}A109,109 0 0 0 {x_end:.2f},{y_end:.2f}"
+    return group(
+        svg.text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
+        svg.text(107, 0.35 * size, "90°", size),
+        svg.text(0, -107, "180°", size, anchor="middle"),
+        svg.text(-107, 0.35 * size, "270°", size, anchor="end"),
+        tag("path", d=arc, fill="none", stroke=css(RIM), stroke_width=2.4),
+        tag("polygon", points=head, fill=css(RIM)),
     )
 
 
@@ -92,46 +97,47 @@ def _at(psi_deg: float, r: float) -> tuple[float, float]:
     return r * math.sin(psi), r * math.cos(psi)
 
 
-def _flight(solution: Solution, size: float, units: Units) -> str:
+def _flight(solution: Solution, size: float, units: Units) -> Markup:
     """The arrow ahead of the nose with the speed; nothing in hover."""
     speed = solution.design.airspeed
     if speed == 0.0:
-        return ""
-    arrow = '<path d="M0,-131 l4.4,7 h-2.9 v6 h-3 v-6 h-2.9 Z" fill="#c92a2a"/>'
+        return Markup()
+    arrow = tag("path", d="M0,-131 l4.4,7 h-2.9 v6 h-3 v-6 h-2.9 Z", fill="#c92a2a")
     return arrow + svg.text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
 
 
-def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> str:
+def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> Markup:
     """A colour bar `wide` across with its label above and its numbers below: 4 × `size` high. `name`: unique."""
-    low, high = colour_range
-    stops = "".join(
-        f'<stop offset="{k / (_STOPS - 1):.4f}" stop-color="{css(colour)}"/>'
+    stops = [
+        tag("stop", offset=f"{k / (_STOPS - 1):.4f}", stop_color=css(colour))
         for k, colour in enumerate(colour_map(field.colours, _STOPS).tolist())
-    )
-    scale = []
-    for value in round_ticks(low, high, 5):
-        x = wide * (value - low) / (high - low)
-        scale.append(f'<path d="M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}" stroke="currentColor"/>')
-        scale.append(svg.text(x, 3.75 * size, tick_text(value), 0.92 * size, anchor="middle"))
-    return (
-        f'<linearGradient id="{escape(name)}">{stops}</linearGradient>{svg.text(0, size, field.label, size)}'
-        f'<rect y="{1.5 * size:.1f}" width="{wide:g}" height="{size:g}" rx="1" fill="url(#{escape(name)})"/>'
-        + "".join(scale)
+    ]
+    scale: list[Markup] = []
+    for percent, word in bar_ticks(*colour_range):
+        x = 0.01 * wide * percent
+        scale.append(tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor"))
+        scale.append(svg.text(x, 3.75 * size, word, 0.92 * size, anchor="middle"))
+    return group(
+        tag("linearGradient", stops, id=name),
+        svg.text(0, size, field.label, size),
+        tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})"),
+        scale,
     )
 
 
-def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, str]]:
+def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, Markup]]:
     """Key of the marked regions and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
     grid, ink = polar_grid(solution.disk, 80, 240), DiskInk()
     codes = region_codes(solution, grid, marks, 0.02)
-    entries = []
-    for region, title, colour, dash in (
-        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, ""),
-        (MarkedRegion.STALLED, "stall", ink.stall, ""),
-        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, ' stroke-dasharray="4 3"'),
+    entries: list[tuple[str, Markup]] = []
+    for region, title, colour, dashes in (
+        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, None),
+        (MarkedRegion.STALLED, "stall", ink.stall, None),
+        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, "4 3"),
     ):
         if codes is not None and (codes == region).any():
-            entries.append((title, f'<path d="M0,4h14" stroke="{css(colour)}" stroke-width="3"{dash}/>'))
+            swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
+            entries.append((title, swatch))
     if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(solution, grid).any():
-        entries.append(("not defined", f'<rect width="14" height="8" rx="1.5" fill="{css(VOID)}"/>'))
+        entries.append(("not defined", tag("rect", width=14, height=8, rx=1.5, fill=css(VOID))))
     return entries

@@ -20,6 +20,7 @@ from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.arrays import Array
 from rotor.assets import commit
+from rotor.design.quantities import BESIDE
 from rotor.trim import DiskFields
 from rotor.units import KNOT
 
@@ -30,27 +31,27 @@ _SHOWN = {"rotor-explorer": PROGRAM, "viser": "viser", "numpy": "NumPy", "scipy"
 @cache
 def versions() -> dict[str, str]:
     """Version of the program (with the commit, where it runs from a checkout) and of what it computes with."""
-    found: dict[str, str] = {}
+    numbers: dict[str, str] = {}
     for package, shown in _SHOWN.items():
         try:
-            found[shown] = version(package)
+            numbers[shown] = version(package)
         except PackageNotFoundError:
-            found[shown] = "unknown"
+            numbers[shown] = "unknown"
     at = commit()
     if at:
-        found[PROGRAM] += f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
-    found["Python"] = platform.python_version()
-    return found
+        numbers[PROGRAM] += f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
+    numbers["Python"] = platform.python_version()
+    return numbers
 
 
 def condition_line(design: Design) -> str:
-    """Advance ratio, climb, mass and altitude in one line."""
+    """The flight condition in one line."""
     condition = design.condition
     speed = "hover" if design.hovering else f"advance ratio {condition.advance_ratio:g}"
+    load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
     if condition.stand is not None:
-        return f"{speed}, {design.models.trim}: {condition.stand}"
-    climb = f", climb {condition.climb_speed:g} m/s" if condition.climb_speed else ""
-    return f"{speed}{climb}, {condition.mass:.0f} kg, {condition.altitude:.0f} m"
+        load = f"{design.models.trim}: {condition.stand}"
+    return ", ".join((speed, *condition.beside, load))
 
 
 def provenance_lines(solution: Solution) -> list[str]:
@@ -67,7 +68,10 @@ def provenance_lines(solution: Solution) -> list[str]:
     active = () if design.active_twist is None else design.active_twist.harmonics
     for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", active)):
         if harmonics:
-            waves = ", ".join(f"{one.per_rev}/rev {one.amplitude:g} rad, phase {one.phase:g} rad" for one in harmonics)
+            waves = ", ".join(
+                f"{harmonic.per_rev}/rev {harmonic.amplitude:g} rad, phase {harmonic.phase:g} rad"
+                for harmonic in harmonics
+            )
             lines.insert(1, f"added {what}: {waves}" + (" (at rest in hover)" if design.hovering else ""))
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
@@ -78,8 +82,8 @@ def provenance_lines(solution: Solution) -> list[str]:
 def file_stem(design: Design, *parts: str) -> str:
     """A file name without ending: rotor, twist, speed and what else tells files apart; safe on every system."""
     speed = "hover" if design.hovering else f"mu{design.condition.advance_ratio:.3f}"
-    climb = [f"climb{design.condition.climb_speed:g}"] if design.condition.climb_speed else []
-    words = [design.rotor.name, design.twist.spec(), speed, *climb, *parts]
+    beside = [f"{row.word}{row.of(design):g}" for row in BESIDE.values() if row.of(design) != row.default]
+    words = [design.rotor.name, design.twist.spec(), speed, *beside, *parts]
     safe = (re.sub(r"[^a-z0-9.+-]+", "_", word.lower()).strip("_.") for word in words)
     return "-".join(word[:60] for word in safe if word)
 
@@ -181,7 +185,7 @@ def power_csv(solution: Solution, reference: Design, curve: PowerCurve) -> bytes
 def _disk_fields(disk: DiskFields) -> list[str]:
     """Names of the fields of shape (elements, azimuths)."""
     shape = (len(disk.r), len(disk.psi))
-    return [one.name for one in fields(disk) if np.shape(getattr(disk, one.name)) == shape]
+    return [entry.name for entry in fields(disk) if np.shape(getattr(disk, entry.name)) == shape]
 
 
 def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:

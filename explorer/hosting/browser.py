@@ -11,6 +11,8 @@ from typing import Any
 
 import viser
 
+from explorer.hosting.gate import PRESSES, checked_press
+from explorer.hosting.request_filter import LONGEST_HEAD
 from explorer.hosting.viser_compat import run_in_page, widget_id
 
 _log = logging.getLogger(__name__)
@@ -18,7 +20,7 @@ _log = logging.getLogger(__name__)
 
 def call(client: viser.ClientHandle, function: str, *arguments: Any) -> None:
     """Call a function that `explorer/web` defines in the page, with arguments that JSON can hold."""
-    run_in_page(client, f"{function}({','.join(json.dumps(one, ensure_ascii=False) for one in arguments)})")
+    run_in_page(client, f"{function}({','.join(json.dumps(argument, ensure_ascii=False) for argument in arguments)})")
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,7 @@ class PageFacts:
     dark: bool = False
     """Whether it asks for dark pages."""
     query: str | None = ""
-    """Of its address, from the question mark on; None where the browser did not tell."""
+    """The query of the page's address, from the question mark on; None where the browser did not tell."""
     kept: Mapping[str, str] = field(default_factory=dict[str, str])
     """Texts that it was given to keep by name: see `keep`."""
     page: str = ""
@@ -42,9 +44,11 @@ def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
     try:
         text = client.local_storage.get_item(key, timeout=timeout)
         client.local_storage.remove_item(key)
-        found = json.loads(text or "{}")
-        kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
-        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept, str(found.get("page", ""))[:40])
+        facts = json.loads(text or "{}")
+        kept = {str(name): str(value) for name, value in facts.get("kept", {}).items()}
+        return PageFacts(
+            bool(facts.get("dark")), str(facts.get("query", ""))[:LONGEST_HEAD], kept, str(facts.get("page", ""))[:40]
+        )
     except (TimeoutError, RuntimeError, ValueError, AttributeError):
         return PageFacts(query=None)
 
@@ -85,9 +89,12 @@ class Bridge:
         call(client, "RX.begin", widget_id(self._heard))
 
     def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
-        """Call `action` with the value that comes with each press of `name`; ValueError for a name that is taken."""
-        if name in self._actions:
-            raise ValueError(f"the frame's {name!r} has an action already: choose another name")
+        """Call `action` with the value that comes with each press of `name`, which `gate.PRESSES` lists.
+
+        ValueError for a name that is taken, or not listed.
+        """
+        if name in self._actions or name not in PRESSES:
+            raise ValueError(f"the frame's {name!r} has an action already, or no row in gate.PRESSES")
         self._actions[name] = action
         if at_once:
             self._at_once.add(name)
@@ -112,11 +119,11 @@ class Bridge:
         # On the event loop, so that presses keep their order; what they do must not hold the loop.
         if event.client is None:
             return
-        try:
-            _, name, value = json.loads(event.target.value)
-            action = self._actions[name]
-        except (ValueError, TypeError, KeyError):
-            return  # Not a message of ours.
+        press = checked_press(event.target.value)
+        if press is None or press[0] not in self._actions:  # The page is still being built.
+            return
+        name, value = press
+        action = self._actions[name]
         if name in self._at_once:
             self._act(action, name, value)
             return

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from explorer.hosting.gate import LONGEST_TEXT, is_number
 from rotor.user_input import brief
 
 _PAUSE = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
 _M_ARENA_MAX = -8
-"""Of glibc's malloc.h."""
+"""Option of `mallopt`, from glibc's malloc.h."""
 _lock = threading.Lock()
 _due: threading.Timer | None = None
 
@@ -88,6 +89,8 @@ class RateLimit:
 
 MESSAGES = RateLimit(rate=200.0, burst=2000.0)
 """A dragged slider sends 20 a second, a turned camera 50; a tab that slept may send more at once."""
+FRAMES = RateLimit(rate=1000.0, burst=10_000.0)
+"""Frames of the connection: a message may come in parts, without end where nobody counts them."""
 BYTES = RateLimit(rate=2e6, burst=48e6)
 """A file too large by mistake is refused with a sentence (`refuse_upload`) before this limit ends its connection."""
 LARGEST_MESSAGE = 16 * 2**20
@@ -137,10 +140,6 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     return None
 
 
-LONGEST_TEXT = 20_000
-"""Characters of a text field."""
-
-
 def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None) -> Any:
     """What a widget takes of a value that its page sent; ValueError with one sentence for what no page of ours sends.
 
@@ -152,12 +151,12 @@ def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low
     elif isinstance(current, str):
         fits = isinstance(value, str) and len(value) <= LONGEST_TEXT and (not choices or value in choices)
     elif isinstance(current, (int, float)):
-        fits = _is_number(value)
+        fits = is_number(value)
         if fits and low is not None and high is not None:
             value = min(max(value, low), high)
     else:  # Numbers; an upload button's value is a file, which comes in another way.
         pairs = isinstance(value, (list, tuple)) and isinstance(current, (list, tuple)) and len(value) == len(current)
-        fits = pairs and all(map(_is_number, value))
+        fits = pairs and all(map(is_number, value))
     if not fits:
         raise ValueError(f"A field of this page cannot hold {brief(repr(value))[:LONGEST_SHOWN]}: it stays as it was.")
     return value
@@ -165,10 +164,6 @@ def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low
 
 LONGEST_SHOWN = 60
 """Characters of a refused value that its sentence repeats."""
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e15
 
 
 def _is_accepted(name: str, accepts: str) -> bool:
@@ -215,5 +210,5 @@ def limit_log() -> None:
     """Limit what this process writes to its log."""
     handlers = logging.getLogger().handlers or ([logging.lastResort] if logging.lastResort else [])
     for handler in handlers:
-        if not any(isinstance(one, RepeatFilter) for one in handler.filters):
+        if not any(isinstance(known, RepeatFilter) for known in handler.filters):
             handler.addFilter(RepeatFilter())

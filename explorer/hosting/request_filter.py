@@ -15,16 +15,18 @@ from typing import Any
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers, MultipleValuesError
 from websockets.exceptions import ConnectionClosed
-from websockets.frames import CloseCode
+from websockets.frames import CloseCode, Frame
 from websockets.http11 import Request, Response
+from websockets.protocol import Event
 
 from explorer import web
 from explorer.hosting.allowed_hosts import AllowedHosts
-from explorer.hosting.limits import LARGEST_MESSAGE, RateLimiter
+from explorer.hosting.limits import FRAMES, LARGEST_MESSAGE, RateLimiter
 from rotor.compiled import compiling
+from rotor.markup import end_of, start_of, with_title
 
 TITLE = "Rotor explorer"
-_SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = "<script", "</head>", "<body>"
+_SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = start_of("script"), end_of("head"), f"{start_of('body')}>"
 
 
 @dataclass(frozen=True)
@@ -50,10 +52,9 @@ def with_loading_screen(client: str, frame: str = "") -> ServedPage:
     head, begins, rest = client.partition(_SCRIPT_BEGINS)
     script, ends, tail = rest.partition(_HEAD_ENDS)
     before, body, content = tail.partition(_BODY_BEGINS)
-    if not (begins and ends and body) or before.strip() or "<title>" not in head:
+    if not (begins and ends and body) or before.strip() or start_of("title") not in head:
         raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
-    title, _, after = head.partition("<title>")
-    head = f"{title}<title>{TITLE}{after[after.index('</title>') :]}"
+    head = with_title(head, TITLE)
     veil = web.text("loading.html") + web.scripts("loading.js")
     return ServedPage(f"{head}{web.styles('loading.css')}{ends}{body}{veil}{frame}{begins}{script}{content}".encode())
 
@@ -86,6 +87,8 @@ class RequestFilter:
     """Served in place of the server's own page."""
     frame_ancestors: tuple[str, ...] = ()
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
+    first_answer: Callable[[str], str] = lambda query: ""
+    """What the loading screen says of the design in an address's query; it must not block."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the filter before them."""
@@ -115,10 +118,13 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.FORBIDDEN, sentence)
             if upgrade and len(connection.server.connections) >= self.connections:
                 return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
-            if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
+            path, _, query = request.path.partition("?")
+            if not upgrade and self.page is not None and path in ("/", "/index.html"):
                 return _served(self.page, request, self._headers)
-            if not upgrade and request.path == "/compiling":  # The loading screen asks.
+            if not upgrade and path == "/compiling":  # The loading screen asks.
                 return _plain(http.HTTPStatus.OK, compiling())
+            if not upgrade and path == "/first-answer":
+                return _plain(http.HTTPStatus.OK, self.first_answer(query))
             try:
                 answer = inner(connection, request)
             except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
@@ -143,6 +149,7 @@ class RateLimitedConnection(ServerConnection):
         super().__init__(*positional, **named)
         self._head = 0
         self._limiter = RateLimiter(time.monotonic())
+        self._frames = RateLimiter(time.monotonic(), FRAMES)
 
     def data_received(self, data: bytes) -> None:
         """Bytes of the request or, once it is answered, of messages."""
@@ -154,6 +161,16 @@ class RateLimitedConnection(ServerConnection):
                     self.transport.close()
                 return
         super().data_received(data)
+
+    def process_event(self, event: Event) -> None:
+        """A frame, counted: parts of a message that never ends fill the memory before any limit of messages."""
+        if self.transport.is_closing():
+            return
+        if isinstance(event, Frame) and not self._frames.allows(0, time.monotonic()):
+            _log.warning("a browser sent a message in too many parts; its connection was closed")
+            self.transport.abort()
+            return
+        super().process_event(event)
 
     async def recv(self, decode: bool | None = None) -> Any:
         """The next message, counted."""

@@ -10,12 +10,13 @@
 | the handlers of `ShareUrl…` messages | any client could open a public tunnel | `remove_share_tunnel` |
 | the handlers of `FileTransfer…` messages | uploads have no limit | `guard_uploads` |
 | the handler of `GuiUpdateMessage` messages | any value is taken | `guard_values` |
+| `WebsockMessageHandler._handle_incoming_message` | cameras and presses may be NaN | `_through_gate` |
 | the threads of callbacks | a thread costs more than a quick callback takes | `quick` |
 
 `tests/explorer/hosting/test_viser_compat.py` has a test for each, or says where it is. What is changed in viser's
 client is in `explorer/web/viser.js`: its docks stay in a narrow window, no edit is lost to the next, we hear when it
 can send, a page that is seen tries to connect, and an attempt to connect may take its time
-(`test_reconnect.py`). What would make each of these changes needless: docs/upstream/README.md.
+(`test_reconnect.py`). What would make each of these changes needless: docs/developers/upstream/README.md.
 """
 
 import asyncio
@@ -36,6 +37,7 @@ from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
+from explorer.hosting.gate import dropped, message_fault
 from explorer.hosting.limits import accepted_value, refuse_upload
 from explorer.hosting.request_filter import LONGEST_HEAD, RequestFilter
 from rotor.arrays import Array
@@ -79,6 +81,20 @@ class ThreadedBuffer(AsyncMessageBuffer):
 
 setattr(_infra, "AsyncMessageBuffer", ThreadedBuffer)  # noqa: B010 - its module does not export it
 
+_handle_incoming = _infra.WebsockMessageHandler._handle_incoming_message
+
+
+async def _through_gate(handler: Any, client_id: Any, message: Any) -> None:
+    """A message for the server, and again for its client, unless the gate drops it."""
+    if fault := message_fault(vars(message)):
+        if isinstance(handler, _infra.WebsockServer):
+            dropped(f"{type(message).__name__}: {fault}")
+        return
+    await _handle_incoming(handler, client_id, message)
+
+
+setattr(_infra.WebsockMessageHandler, "_handle_incoming_message", _through_gate)  # noqa: B010 - as above
+
 _cast = AssignablePropsBase._cast_value_recursive
 _PLAIN = frozenset((str, bool, int, float, type(None)))
 
@@ -93,6 +109,16 @@ def _cast_unless_plain(handle: Any, hint: Any, value: Any, name: str) -> Any:
 
 
 setattr(AssignablePropsBase, "_cast_value_recursive", _cast_unless_plain)  # noqa: B010 - as above
+
+_add_html = viser.GuiApi.add_html
+
+
+def _add_plain_html(gui: viser.GuiApi, content: str, **options: Any) -> viser.GuiHtmlHandle:
+    """Markup as a plain `str`, for the reason given above."""
+    return _add_html(gui, str(content), **options)
+
+
+setattr(viser.GuiApi, "add_html", _add_plain_html)  # noqa: B010 - as above
 
 
 websockets.http11.MAX_LINE_LENGTH = LONGEST_HEAD

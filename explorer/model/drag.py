@@ -68,11 +68,19 @@ def stations(inputs: Inputs) -> tuple[Station, ...]:
 def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
     """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
     slopes = turn_slopes(inputs, station)
-    for name, slope in slopes.items():  # All stop when the first meets its limit.
-        ends = sorted((end - getattr(inputs, name)) / slope for end in limits(name))
-        degrees = min(max(degrees, ends[0]), ends[1])
+    (lowest, _), (highest, _) = turn_ends(inputs, station)
+    degrees = min(max(degrees, lowest), highest)
     values: dict[str, Any] = {name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()}
     return replace(inputs, **values)
+
+
+def turn_ends(inputs: Inputs, station: Station) -> tuple[tuple[float, str], tuple[float, str]]:
+    """The least and the greatest turn [°] of a station, each with the input that meets its limit there first."""
+    ends = [
+        sorted(((end - getattr(inputs, name)) / slope, name) for end in limits(name))
+        for name, slope in turn_slopes(inputs, station).items()
+    ]
+    return max(low for low, _ in ends), min(high for _, high in ends)
 
 
 def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
@@ -84,7 +92,7 @@ def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
         # The slider holds the difference over the whole radius, of which the blade covers a part.
         return {"quadratic_difference": (1.0 if station.index else -1.0) / (1.0 - root)}
     rates = PIECES[inputs.law][0]
-    places = [one.r for one in stations(inputs)]
+    places = [station.r for station in stations(inputs)]
     # Degrees per radius that a degree of this station means for the piece inboard of it and the one outboard.
     slopes: dict[str, float] = {}
     if station.index > 0:
@@ -106,7 +114,7 @@ def slid(inputs: Inputs, station: Station, r: float) -> Inputs:
     """The inputs with a division at another r/R, between its neighbours and within its slider."""
     if station.division is None:
         return inputs
-    others = [one.r for one in stations(inputs)]
+    others = [placed.r for placed in stations(inputs)]
     low, high = limits(station.division)
     inboard, outboard = others[station.index - 1], others[station.index + 1]
     value = min(max(r, low, inboard + _GAP), high, outboard - _GAP)
@@ -149,8 +157,8 @@ class BestTurn:
     """Turn [°] and slope of power by it, the latest last."""
 
     def with_slope(self, turn: float, slope: float) -> "BestTurn":
-        """The same with one more turn seen."""
-        others = tuple(one for one in self.seen if abs(one[0] - turn) > 1e-6)
+        """This search with one more turn seen."""
+        others = tuple(point for point in self.seen if abs(point[0] - turn) > 1e-6)
         return BestTurn((*others, (turn, slope))[-40:])
 
     @property
@@ -159,14 +167,14 @@ class BestTurn:
         if len(self.seen) < 2:
             return None
         now = self.seen[-1][0]
-        below = [one for one in self.seen if one[1] < 0.0]
-        above = [one for one in self.seen if one[1] >= 0.0]
+        below = [point for point in self.seen if point[1] < 0.0]
+        above = [point for point in self.seen if point[1] >= 0.0]
         if below and above:
             # Between the two closest turns on either side of the minimum.
             pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
         else:
-            near = sorted(self.seen, key=lambda one: abs(one[1]))
-            pair = near[0], next((one for one in near[1:] if abs(one[0] - near[0][0]) > 0.15), near[1])
+            near = sorted(self.seen, key=lambda point: abs(point[1]))
+            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > 0.15), near[1])
         (t1, s1), (t2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.

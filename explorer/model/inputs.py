@@ -3,15 +3,14 @@
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, make_dataclass, replace
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from explorer.model.stand import StandInputs, stand_of, tested
 from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.switches import SWITCHES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design import (
     ActiveTwist,
@@ -25,8 +24,11 @@ from rotor.design import (
 )
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, preset_models
+from rotor.design.quantities import CONDITION, QUANTITIES
+from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.trim import at_rest
 from rotor.units import KNOT
 
 OWN = "own"
@@ -36,13 +38,13 @@ _LIGHTEST, _HEAVIEST = 0.6, 1.32
 
 
 @cache
-def menu_titles(own: Aircraft | None) -> dict[str, str]:
+def menu_titles(brought: Aircraft | None) -> dict[str, str]:
     """The menu: name in `Inputs` → title; rotors that were tested on a stand follow, the user's own comes last."""
     titles = {
         name: re.sub(r"-(\d+) deg\b", "−\\1°", shipped_aircraft(name).name)
         for name in (*SHIPPED_ROTORS, *MEASURED_ROTORS)
     }
-    return titles if own is None else {**titles, OWN: f"{own.name} (own)"}
+    return titles if brought is None else {**titles, OWN: f"{brought.name} (own)"}
 
 
 def mass_range(aircraft: Aircraft) -> tuple[float, float, float]:
@@ -70,65 +72,75 @@ INFLOW_MENUS = {
     "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
     "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
     "loss_on": {"lift": "On the lift", "inflow": "On the inflow, eq. (3.3)"},
+    "dynamic_stall": {"auto": "Beyond 5 % of the disk stalled", "on": "On", "off": "Off"},
+    "unsteady": {"auto": "Where pitch or loads follow the azimuth", "on": "On", "off": "Off"},
 }
 """Inputs that choose the inflow: name → title of each choice."""
 
-MODEL_INPUTS = (*INFLOW_MENUS, *SWITCHES, "bending", "dynamic_stall")
-"""Inputs that are fields of `rotor.design.design.Models`."""
+
+def _twist(
+    name: str, default: float, label: str, low: float = -30.0, high: float = 10.0, step: float = 0.1
+) -> Quantity:
+    """Degrees, or degrees per radius."""
+    return Quantity(name, "number", default=default, input=name, slider=Slider(label, low, high, step))
+
+
+def _break(name: str, default: float, label: str = "Break point [r/R]") -> Quantity:
+    return Quantity(name, "number", default=default, input=name, slider=Slider(label, 0.2, 0.95, 0.01, 0.1, "/0.1 R"))
+
+
+_TWISTS = (
+    _twist("built_inner", 0.0, "Δ inboard [°/R]", -20.0, 20.0),
+    _twist("built_outer", 0.0, "Δ outboard [°/R]", -20.0, 20.0),
+    _break("built_division", 0.5),
+    _twist("linear", -12.0, "Rate [°/R]"),
+    _twist("quadratic_curvature", 8.0, "Curvature [°/R²]", -40.0, 40.0, 0.5),
+    _twist("quadratic_difference", -14.0, "Tip−root [°]"),
+    _twist("two_inner", -14.0, "Inboard [°/R]"),
+    _twist("two_outer", -8.0, "Outboard [°/R]"),
+    _break("two_division", 0.5),
+    _twist("three_inner", -16.0, "Inboard [°/R]"),
+    _twist("three_middle", -12.0, "Middle [°/R]"),
+    _twist("three_outer", -6.0, "Outboard [°/R]"),
+    _break("three_first", 0.4, "Break 1 [r/R]"),
+    _break("three_second", 0.75, "Break 2 [r/R]"),
+)
+"""The page's own: parameters of its twist laws."""
+FLIGHT = {row.input: row for row in CONDITION.values()}
+"""Quantities of the flight condition, by input."""
+MODELS = {
+    row.input: row for row in QUANTITIES.values() if row.input and row.place == f"models.{row.input}" != "models.trim"
+}
+"""Quantities that are fields of `rotor.design.design.Models`."""
+_PRESET = QUANTITIES["preset"]
+ROWS = {row.input: row for row in (_PRESET, *_TWISTS)} | FLIGHT | MODELS
+"""Quantities on the sliders, menus and boxes of Explore, by the field of `Inputs`."""
+
+
+def _default(row: Quantity) -> Any:
+    """Default of the first rotor, where the table leaves it to rotor or preset."""
+    if row.place == "condition.mass":
+        return reference_mass_t(shipped_aircraft(SHIPPED_ROTORS[0]))
+    return getattr(FLIGHT_MODELS, row.field) if row.default is None else row.default
+
+
+if TYPE_CHECKING:
+    _Quantities = Any  # Fields that are data are no more than that to a type checker.
+else:
+    _Quantities = make_dataclass("_Quantities", [(name, Any, _default(row)) for name, row in ROWS.items()], frozen=True)
 
 
 @dataclass(frozen=True)
-class Inputs:
-    """Everything on the sliders that decides the answer. Rates are degrees per radius."""
+class Inputs(_Quantities):
+    """Everything on the sliders that decides the answer: a field for each of `ROWS`, and these."""
 
     rotor: str = SHIPPED_ROTORS[0]
     """Name of a shipped rotor, or `OWN`."""
     own_rotor: Aircraft | None = None
     """The rotor that the user brought; kept while another one is looked at."""
-    preset: str = "flight"
     law: str = "two"
-    built_inner: float = 0.0
-    """Change of the twist as built, inboard of the division; the two with it [°/R], [°/R], [R]."""
-    built_outer: float = 0.0
-    built_division: float = 0.5
-    linear: float = -12.0
-    quadratic_curvature: float = 8.0
-    quadratic_difference: float = -14.0
-    two_inner: float = -14.0
-    two_outer: float = -8.0
-    two_division: float = 0.5
-    three_inner: float = -16.0
-    three_middle: float = -12.0
-    three_outer: float = -6.0
-    three_first: float = 0.4
-    three_second: float = 0.75
-    advance_ratio: float = 0.2
-    mass_t: float = 8.32
-    altitude_m: float = 0.0
-    climb_m_s: float = 0.0
-    """Negative in descent; without effect where `climbs` says so."""
-    rotor_speed_percent: float = 100.0
     stand: StandInputs | None = None
     """The test of the rotor alone, in place of mass, altitude and climb; None in flight."""
-    inflow: str = FLIGHT_MODELS.inflow
-    hover_inflow: str = FLIGHT_MODELS.hover_inflow
-    low_speed: str = FLIGHT_MODELS.low_speed
-    loss_on: str = FLIGHT_MODELS.loss_on
-    flapping: bool = True
-    tip_loss: bool = True
-    hub_loss: bool = True
-    reverse_flow: bool = True
-    compressibility: bool = True
-    surface_drag: bool = True
-    swept_tip: bool = True
-    radial_friction: bool = True
-    elastic_twist: bool = True
-    swirl: bool = True
-    fuselage: bool = True
-    download: bool = True
-    bending: bool = False
-    dynamic_stall: bool = False
-    """Whether sections stall with lags and vortices."""
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
     optimised: TwistLaw | None = None
@@ -140,7 +152,7 @@ class Inputs:
     twist_per_rev: tuple[Harmonic, ...] = ()
     """Active twist, that of an actuator apart."""
     active_shape: tuple[tuple[float, ...], tuple[float, ...]] | None = None
-    """Its stations and shape where a design file gives them; else it is linear from the root cut-out."""
+    """Stations and shape of active twist where a design file gives them; else it is linear from the root cut-out."""
 
     @property
     def aircraft(self) -> Aircraft:
@@ -162,12 +174,8 @@ class Inputs:
             preset=self.preset,
             rotor=self.aircraft,
             twist=self.twist(),
-            mu=self.advance_ratio,
-            mass_kg=None if self.aircraft.isolated else 1e3 * self.mass_t,
-            altitude_m=self.altitude_m,
-            climb_m_s=self.climb_m_s if self.climbs else 0.0,
-            rotor_speed_percent=self.rotor_speed_percent,
-            models=replace(models, **{name: getattr(self, name) for name in MODEL_INPUTS}),
+            **self._flight(),
+            models=replace(models, **{name: getattr(self, name) for name in MODELS}),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
             pitch_per_rev=self.pitch_per_rev,
@@ -179,10 +187,17 @@ class Inputs:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
         return design
 
-    @property
-    def climbs(self) -> bool:
-        """Whether the rate of climb counts: neither on a test stand nor with the document's equations."""
-        return self.stand is None and preset_models(self.preset).disk_axial_flow
+    def _flight(self) -> dict[str, Any]:
+        """The numbers of the flight condition, in the units of their names."""
+        return {
+            row.name: row.input_size * getattr(self, name)
+            for name, row in FLIGHT.items()
+            if not (self.aircraft.isolated and row.in_flight) and not (row.axial and not self.counts(row))
+        }
+
+    def counts(self, row: Quantity) -> bool:
+        """Whether a quantity counts: some do not on a test stand, or with the document's equations."""
+        return row.applies(tested=self.stand is not None, axial=preset_models(self.preset).disk_axial_flow)
 
     @property
     def idle(self) -> frozenset[str]:
@@ -294,17 +309,15 @@ def inputs_of(design: Design) -> Inputs:
         rotor=design.aircraft.key or OWN,
         own_rotor=None if design.aircraft.key else design.aircraft,
         preset=design.preset,
-        advance_ratio=design.condition.advance_ratio,
-        mass_t=reference_mass_t(design.aircraft) if design.aircraft.isolated else design.condition.mass / 1e3,
-        altitude_m=design.condition.altitude,
-        climb_m_s=design.condition.climb_speed,
-        rotor_speed_percent=design.condition.rotor_speed_percent,
         stand=stand_of(design),
         pitch_per_rev=design.pitch_per_rev,
         twist_per_rev=() if active is None else active.harmonics,
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
-        **{name: getattr(design.models, name) for name in MODEL_INPUTS},
+        **{name: row.of(design) / row.input_size for name, row in FLIGHT.items()},
+        **{name: row.of(design) for name, row in MODELS.items()},
     )
+    if design.aircraft.isolated:
+        start = replace(start, mass_t=reference_mass_t(design.aircraft))
     twist, airfoils = design.twist, _own_airfoils(design)
     if not airfoils and twist == design.rotor.builtin_twist:
         return replace(start, law="builtin")
@@ -312,14 +325,14 @@ def inputs_of(design: Design) -> Inputs:
     return held or replace(start, law="given", given=twist, airfoils=airfoils)
 
 
-def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs:
-    """The same flight with another rotor as it is built, at its own reference mass; `own`: one newly brought.
+def with_rotor(inputs: Inputs, name: str, brought: Aircraft | None = None) -> Inputs:
+    """A flight with another rotor as it is built, at its own reference mass; `own`: one newly brought.
 
     A rotor without an airframe begins on the test stand, in a condition in which it was measured if it was.
     """
-    changed = replace(inputs, rotor=name, own_rotor=own or inputs.own_rotor)
+    changed = replace(inputs, rotor=name, own_rotor=brought or inputs.own_rotor)
     mass = reference_mass_t(changed.aircraft)
-    plain = {"built_inner": 0.0, "built_outer": 0.0, "built_division": 0.5, "rotor_speed_percent": 100.0}
+    plain = {name: ROWS[name].default for name in (*LAWS["builtin"].inputs, "rotor_speed_percent")}
     mu, stand = inputs.advance_ratio, None
     if changed.aircraft.isolated:
         mu, stand = tested(changed.aircraft)
@@ -331,7 +344,7 @@ def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
-    """The same inputs with the blade of an optimum: on the sliders of a law where one holds it."""
+    """Inputs with the blade of an optimum: on the sliders of a law where one holds it."""
     airfoils = _own_airfoils(design)
     held = None if airfoils else _with_law(inputs, design.twist)
     return held or replace(inputs, law="optimised", optimised=design.twist, airfoils=airfoils)
@@ -373,18 +386,14 @@ def preset_inflow(preset: str) -> dict[str, Any]:
 
 
 def baseline_of(design: Design) -> Design:
-    """The same flight and models with the preset's rotor and its baseline twist, at rest."""
+    """A flight and models with the preset's rotor and its baseline twist, without n/rev but in the flow that has it."""
     craft, preset = design.aircraft, design.preset
-    plain = replace(design, active_twist=None, pitch_per_rev=())
-    return replace(plain, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
+    return replace(at_rest(design), twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
 
 
 def baseline_title(design: Design) -> str:
     """What the change of power is measured against, in the user's words."""
     return design.aircraft.twist_title(design.preset)
-
-
-INPUT_NAMES = tuple(field.name for field in fields(Inputs))
 
 
 def _degrees(angle: float) -> float:

@@ -4,14 +4,13 @@ from collections import deque
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from explorer.model.inputs import Inputs
+from explorer.model.inputs import FLIGHT, Inputs
 from explorer.workers.solver import BaselineCache
 from rotor import Design, Solution, solve
 from rotor.design import SumTwist
+from rotor.design.quantities import BESIDE
 
 Order = Literal["pin", "unpin", "swap", "back"]
-FLIGHT = ("advance_ratio", "mass_t", "altitude_m", "climb_m_s", "rotor_speed_percent")
-"""The numbers of the flight condition."""
 CONDITION = (*FLIGHT, "stand")
 """The inputs of the condition; the others are the aircraft and the models."""
 _NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
@@ -24,7 +23,7 @@ class Pinned:
 
     inputs: Inputs
     solution: Solution
-    """Its solution when it was pinned; converged."""
+    """Solution of the design when it was pinned; converged."""
 
     @property
     def driven(self) -> bool:
@@ -35,13 +34,12 @@ class Pinned:
 
     def design(self, present: Design) -> Design:
         """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
-        own = self.solution.design
-        tested = own.condition.stand is not None, present.condition.stand is not None
-        trim = present.models.trim if any(tested) else own.models.trim
-        condition = present.condition
-        if not own.models.disk_axial_flow:
-            condition = replace(condition, climb_speed=0.0)
-        return replace(own, condition=condition, models=replace(own.models, trim=trim))
+        design = self.solution.design
+        tested = design.condition.stand is not None, present.condition.stand is not None
+        trim = present.models.trim if any(tested) else design.models.trim
+        level = {row.field: row.default for row in BESIDE.values() if row.axial and not design.models.disk_axial_flow}
+        condition = replace(present.condition, **level)
+        return replace(design, condition=condition, models=replace(design.models, trim=trim))
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
         """The slider positions that mean A: in the present flight when it flies along, else in its own.
@@ -53,9 +51,9 @@ class Pinned:
         return replace(self.inputs, **{name: getattr(present, name) for name in CONDITION})
 
 
-def same_but_flight(one: Inputs, other: Inputs) -> bool:
+def same_but_flight(inputs: Inputs, other: Inputs) -> bool:
     """Whether two inputs mean the same blade, computed in the same way."""
-    return replace(one, **{name: getattr(other, name) for name in CONDITION}) == other
+    return replace(inputs, **{name: getattr(other, name) for name in CONDITION}) == other
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,7 +57,7 @@ class Reading:
 
 
 @dataclass(frozen=True, eq=False)
-class Failure:
+class FailedTrim:
     """Inputs without a solution."""
 
     reading: Reading

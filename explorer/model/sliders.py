@@ -13,13 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.inputs import LAWS, Inputs, mass_range
-from explorer.model.pinned import FLIGHT
+from explorer.model.inputs import FLIGHT, LAWS, ROWS, Inputs, mass_range
 from explorer.model.undo import differing
-from explorer.model.units import AVIATION, POUND, SI, Unit, Units, number
+from explorer.model.units import AVIATION, POUND, SI, Units, form_of, meant, number
 from rotor import Aircraft, Solution, solve
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.quantities import BY_INPUT
 from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation import CONCEPTS, Concept
@@ -51,71 +49,27 @@ def _weight(aircraft: Aircraft, units: Units) -> Slider:
     return Slider("Mass [lb]", coarse * ends[0], coarse * ends[1], coarse, 0.2 * POUND.size, "/200 lb")
 
 
-def _rate(label: str) -> Slider:
-    return Slider(label, -30.0, 10.0, 0.1)
-
-
-def _division(label: str) -> Slider:
-    return Slider(label, 0.2, 0.95, 0.01, 0.1, "/0.1 R")
-
-
 _FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
-_FLIGHT = {name: BY_INPUT[name] for name in FLIGHT}
-SLIDERS: dict[str, Slider] = {
-    "built_inner": Slider("Δ inboard [°/R]", -20.0, 20.0, 0.1),
-    "built_outer": Slider("Δ outboard [°/R]", -20.0, 20.0, 0.1),
-    "built_division": _division("Break point [r/R]"),
-    "linear": _rate("Rate [°/R]"),
-    "quadratic_curvature": Slider("Curvature [°/R²]", -40.0, 40.0, 0.5),
-    "quadratic_difference": _rate("Tip−root [°]"),
-    "two_inner": _rate("Inboard [°/R]"),
-    "two_outer": _rate("Outboard [°/R]"),
-    "two_division": _division("Break point [r/R]"),
-    "three_inner": _rate("Inboard [°/R]"),
-    "three_middle": _rate("Middle [°/R]"),
-    "three_outer": _rate("Outboard [°/R]"),
-    "three_first": _division("Break 1 [r/R]"),
-    "three_second": _division("Break 2 [r/R]"),
-    **{name: row.slider for name, row in _FLIGHT.items() if row.slider},
-}
+SLIDERS: dict[str, Slider] = {name: row.slider for name, row in ROWS.items() if row.slider}
 """By the field of `Inputs`, in SI; the weight is the first rotor's."""
-_AVIATION = {name: row.aviation for name, row in _FLIGHT.items() if row.aviation}
 
 
 def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
-    """As it is shown in these units, for this aircraft."""
+    """The slider as it is shown in these units, for this aircraft."""
     if name == "mass_t":
         return _weight(aircraft, units)
     if name == "advance_ratio" and aircraft.isolated:
         return replace(SLIDERS[name], high=0.75)
-    return _AVIATION[name] if units is AVIATION and name in _AVIATION else SLIDERS[name]
-
-
-def shown(name: str, value: float, units: Units) -> float:
-    """The place of an input on its slider."""
-    if name not in _AVIATION:
-        return value
-    return _unit(name, units).of(value * BY_INPUT[name].input_size)
-
-
-def meant(name: str, place: float, units: Units) -> float:
-    """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
-    if name not in _AVIATION:
-        return place
-    return round(place * _unit(name, units).size / BY_INPUT[name].input_size, 9)
-
-
-def _unit(name: str, units: Units) -> Unit:
-    return {"mass_t": units.mass, "altitude_m": units.altitude, "climb_m_s": units.climb}[name]
+    return form_of(ROWS[name], units)
 
 
 def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
     """What the slider can hold in whichever units are shown."""
-    one, other = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
-    if name not in _AVIATION:
-        return one.low, one.high
-    low, high = meant(name, other.low, AVIATION), meant(name, other.high, AVIATION)
-    return min(one.low, low), max(one.high, high)
+    in_si, in_aviation = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
+    if (row := ROWS[name]).aviation is None:
+        return in_si.low, in_si.high
+    low, high = meant(row, in_aviation.low, AVIATION), meant(row, in_aviation.high, AVIATION)
+    return min(in_si.low, low), max(in_si.high, high)
 
 
 @dataclass(frozen=True)
@@ -175,11 +129,11 @@ def flight_sensitivities(
     before every trim; once it says yes the sliders so far are returned. On a test stand only the advance ratio counts.
     """
     sensitivities: dict[str, SliderSensitivity] = {}
-    tested = solution.design.condition.stand is not None
-    for name in FLIGHT[:1] if tested else FLIGHT:
+    tested, axial = solution.design.condition.stand is not None, solution.design.models.disk_axial_flow
+    for name, row in FLIGHT.items():
         if name == "advance_ratio" and solution.design.hovering:
             continue
-        if not BY_INPUT[name].applies(tested=tested, axial=solution.design.models.disk_axial_flow):
+        if (tested and name != "advance_ratio") or not row.applies(tested=tested, axial=axial):
             continue
         points = [(0.0, solution.power.total)]
         for direction in (-1.0, 1.0):
@@ -197,7 +151,7 @@ def flight_sensitivities(
 
 def _moved(solution: Solution, name: str, step: float) -> float | None:
     """Total power [W] with one flight input moved; None where there is no trim or no such condition."""
-    row = BY_INPUT[name]
+    row = ROWS[name]
     value = row.of(solution.design) + row.input_size * step
     if name == "advance_ratio" and value <= 0.0:
         return None  # Hover is another model.
@@ -210,7 +164,7 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
 
 
 def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool]) -> Inputs:
-    """Of the designs from one that trims towards one that does not, the last that trims, on the sliders' steps.
+    """The last design that trims, from one that does towards one that does not, on the sliders' steps.
 
     Sliders that differ move together; where anything else differs it is `good` itself.
     """

@@ -9,7 +9,7 @@ from typing import Any
 from rotor import Aircraft, Design, Solution, make_design
 from rotor.design import Flapping, Harmonic, Stand
 from rotor.design.aircraft import read_stand
-from rotor.design.quantities import LOAD_KEYS, StandTrim
+from rotor.design.quantities import BESIDE, LOAD_KEYS, STAND, STAND_TRIMS, StandTrim
 from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.flown import MeasuredPower, measured_powers
@@ -21,10 +21,18 @@ TRIM_TITLES: dict[str, str] = {
     "controls": "Test stand: controls",
 }
 """The menu: flight, and the trims of a test stand."""
-LOAD_TITLES = {"ct_over_sigma": "Loading CT/σ", "thrust_n": "Thrust", "collective_deg": "Collective"}
+LOAD_TITLES = {name: row.title for name, row in STAND.items() if name in LOAD_KEYS}
 """What the rotor is given, by key of a record."""
 _ROUND = 9
 """Decimals of angles that were radians."""
+
+
+_FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
+"""Field of `StandInputs` by key of a record, but for what is given and flapping."""
+_GIVEN_WITH: dict[Flapping, tuple[str, ...]] = {
+    "free": ("cyclic_1c_deg", "cyclic_1s_deg"), "hub-moments": ("hub_roll_nm", "hub_pitch_nm"),
+}  # fmt: skip
+"""Keys of a record that only one kind of flapping is given with."""
 
 
 @dataclass(frozen=True)
@@ -47,22 +55,13 @@ class StandInputs:
 
     def stand(self) -> Stand:
         """The inputs of the trim; ValueError with one sentence for values that no test has."""
-        free, moments = self.flapping == "free", self.flapping == "hub-moments"
-        record = {
-            self.load: self.value,
-            "flapping": self.flapping,
-            "cyclic_1c_deg": self.cyclic_1c_deg if free else 0.0,
-            "cyclic_1s_deg": self.cyclic_1s_deg if free else 0.0,
-            "hub_roll_nm": self.hub_roll_nm if moments else 0.0,
-            "hub_pitch_nm": self.hub_pitch_nm if moments else 0.0,
-            "shaft_tilt_deg": self.shaft_tilt_deg,
-            "tip_mach": self.tip_mach,
-            "density_kg_m3": self.density,
-        }
+        record: dict[str, Any] = {self.load: self.value, "flapping": self.flapping}
+        unused = {name for flapping, names in _GIVEN_WITH.items() if flapping != self.flapping for name in names}
+        record |= {key: getattr(self, name) for key, name in _FIELDS.items() if key not in unused}
         return read_stand({key: value for key, value in record.items() if value is not None}, self.trim)
 
     def with_trim(self, trim: StandTrim, collective_deg: float | None = None) -> "StandInputs":
-        """The same test with another trim: given controls need a collective and free flapping."""
+        """A test with another trim: given controls need a collective and free flapping."""
         if trim != "controls":
             return replace(self, trim=trim, flapping="trimmed" if trim == "wind-tunnel" else "free")
         changed = replace(self, trim=trim, flapping="free")
@@ -76,26 +75,13 @@ def stand_of(design: Design) -> StandInputs | None:
     stand = design.condition.stand
     if stand is None:
         return None
-    record = stand.record()
+    record = {
+        key: round(float(value), _ROUND) if key.endswith("_deg") else value for key, value in stand.record().items()
+    }
     load = next(key for key in LOAD_KEYS if key in record)
-
-    def degrees(name: str) -> float:
-        return round(float(record.get(name, 0.0)), _ROUND)
-
-    tilt = None if stand.shaft_tilt is None else degrees("shaft_tilt_deg")
-    return StandInputs(
-        trim=next(trim for trim in ("wind-tunnel", "free-rotor", "controls") if trim == design.models.trim),
-        load=load,
-        value=degrees(load) if load.endswith("_deg") else record[load],
-        shaft_tilt_deg=tilt,
-        cyclic_1c_deg=degrees("cyclic_1c_deg"),
-        cyclic_1s_deg=degrees("cyclic_1s_deg"),
-        flapping=stand.flapping,
-        hub_roll_nm=stand.hub_roll,
-        hub_pitch_nm=stand.hub_pitch,
-        tip_mach=stand.tip_mach,
-        density=stand.density,
-    )
+    values = {name: record[key] for key, name in _FIELDS.items() if key in record}
+    trim: StandTrim = next(trim for trim in STAND_TRIMS if trim == design.models.trim)
+    return StandInputs(trim=trim, load=load, value=record[load], flapping=stand.flapping, **values)
 
 
 def load_of(solution: Solution, load: str) -> float:
@@ -124,7 +110,7 @@ def stand_like(solution: Solution) -> StandInputs:
 @cache
 def flight_powers(rotor: str) -> tuple[MeasuredPower, ...]:
     """The powers of a shipped rotor measured in flight, by its name; none for a rotor without."""
-    return tuple(one for one in measured_powers() if one.rotor == rotor)
+    return tuple(measured for measured in measured_powers() if measured.rotor == rotor)
 
 
 @cache
@@ -194,10 +180,9 @@ class MeasuredCondition:
     def inputs(self) -> dict[str, Any]:
         """What it sets of the page's inputs, by name."""
         shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
-        shared |= {"rotor_speed_percent": 100.0}
-        if self.stand is not None:
-            return shared
-        return {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude, "climb_m_s": 0.0}
+        tested = self.stand is not None
+        shared |= {row.input: row.default for row in BESIDE.values() if row.applies(tested=tested, axial=True)}
+        return shared if tested else {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude}
 
 
 @cache
@@ -221,11 +206,12 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
     powers = flight_powers(rotor)
-    flown = {one.case for one in powers}
+    flown = {measured.case for measured in powers}
     conditions.extend(
-        MeasuredCondition("Flight", one.title, one.mu, None, mass=one.mass, altitude=one.altitude) for one in powers
+        MeasuredCondition("Flight", measured.title, measured.mu, None, mass=measured.mass, altitude=measured.altitude)
+        for measured in powers
     )
-    for number, case in enumerate(one for one in airload_cases(rotor) if one.name not in flown):
+    for number, case in enumerate(case for case in airload_cases(rotor) if case.name not in flown):
         title, label = _CASES.get(case.name, (case.test, case.name))
         conditions.append(replace(_condition(title, label, case.design()), first=number == 0))
     return tuple(conditions)
@@ -241,18 +227,18 @@ def _condition(test: str, label: str, design: Design) -> MeasuredCondition:
 def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
     """The measured condition of a flight or of airloads, by the name of the case."""
     label = _CASES.get(case, ("", f"{case}:"))[1]
-    return next((one for one in measured_conditions(rotor) if one.label.startswith(label)), None)
+    return next((condition for condition in measured_conditions(rotor) if condition.label.startswith(label)), None)
 
 
 def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
     """The condition that a test begins with."""
-    return next((one for one in conditions if one.first), conditions[len(conditions) // 2])
+    return next((condition for condition in conditions if condition.first), conditions[len(conditions) // 2])
 
 
 def first_condition(rotor: str) -> MeasuredCondition | None:
     """The condition that a measured rotor begins with: the middle one of its first test."""
     conditions = measured_conditions(rotor)
-    first = [one for one in conditions if one.test == conditions[0].test]
+    first = [condition for condition in conditions if condition.test == conditions[0].test]
     return opening(first) if first else None
 
 
@@ -281,6 +267,6 @@ _TITLES = {
 _CASES = {
     "BL": ("HART II", "Baseline"),
     "MN": ("HART II", "Minimum noise: 3/rev pitch"),
-    **{one.name: ("Tunnel, pitch link", one.name) for one in CASES if one.test == PITCH_LINK},
+    **{case.name: ("Tunnel, pitch link", case.name) for case in CASES if case.test == PITCH_LINK},
 }
 """Title of the test and of the point in the menu, by the name of a case of airloads."""

@@ -57,7 +57,7 @@ class History:
         self._held, self._moving = True, frozenset()
 
     def release(self) -> None:
-        """It was let go: what moves next is another step, except the last movements of the drag."""
+        """The control was let go: what moves next is another step, except the last movements of the drag."""
         self._held = False
 
     def note(self, inputs: Inputs, pause: float) -> bool:

@@ -3,7 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from rotor import units
+from rotor import FlightCondition, units
+from rotor.design.quantities import BESIDE
+from rotor.design.quantity import Quantity, Slider
 
 BLANK = "–"
 """Shown in place of a missing number."""
@@ -38,6 +40,30 @@ class Unit:
         return f"{number(None if value is None else self.of(value), digits, sign)} {self.symbol}"
 
 
+def form_of(row: Quantity, units: "Units") -> Slider:
+    """How a row's number is shown in these units; ValueError for a row without a slider."""
+    form = row.aviation if units is AVIATION and row.aviation else row.slider
+    if form is None:
+        raise ValueError(f"{row.name} has no slider: show it as a text")
+    return form
+
+
+def in_both(row: Quantity, value: float) -> str:
+    """A number in the unit of its name, in both systems where they differ: `5.0 m/s · 984 ft/min`."""
+    forms = [form for form in (row.slider, row.aviation) if form]
+    return " · ".join(Unit(form.unit or row.symbol, form.size).text(value, form.digits) for form in forms)
+
+
+def shown(row: Quantity, value: float, units: "Units") -> float:
+    """The place of an input on its slider."""
+    return value if row.aviation is None else value * row.input_size / form_of(row, units).size
+
+
+def meant(row: Quantity, place: float, units: "Units") -> float:
+    """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
+    return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
+
+
 KILOWATT, HORSEPOWER = Unit("kW", 1e3), Unit("hp", 745.699872)
 """[W]; the mechanical horsepower, 550 ft·lbf/s."""
 METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", units.KNOT)
@@ -62,12 +88,21 @@ class Units:
         """A power [W] in the main unit."""
         return self.power[0].text(value, digits, sign)
 
-    def climb_rate(self, value: float) -> str:
-        """A rate of climb [m/s] in words, `climb 5.0 m/s` or `descent 3.0 m/s`; empty for level flight."""
-        if value == 0.0:
+    def said(self, row: Quantity, value: float) -> str:
+        """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""
+        if value == row.default:
             return ""
-        digits = 1 if self.climb is METRE_PER_SECOND else 0
-        return f"{'climb' if value > 0.0 else 'descent'} {self.climb.text(abs(value), digits)}"
+        form, falls = form_of(row, self), bool(row.below) and value < 0.0
+        unit = Unit(form.unit or row.symbol, form.size)
+        return f"{row.below if falls else row.short} {unit.text(abs(value) if falls else value, form.digits)}"
+
+    def beside(self, condition: FlightCondition) -> list[str]:
+        """What is not as in most flights, in words."""
+        return [words for row in BESIDE.values() if (words := self.said(row, getattr(condition, row.field)))]
+
+    def climb_rate(self, value: float) -> str:
+        """A rate of climb [m/s] in words; empty for level flight."""
+        return self.said(BESIDE["climb_m_s"], value)
 
     def airspeed(self, value: float) -> str:
         """A speed [m/s] in all three units; `hover` for zero."""

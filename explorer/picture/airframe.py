@@ -123,8 +123,8 @@ def _shipped() -> tuple[dict[str, Mesh], dict[str, float]]:
     """The meshes of the file by name, and the heights of the ground."""
     scene = trimesh.load_scene(asset_path("airframe.glb"), process=False)
     meshes = {
-        name: Mesh(np.asarray(one.vertices, dtype=float), np.asarray(one.faces, dtype=np.uint32))
-        for name, one in scene.geometry.items()
-        if isinstance(one, trimesh.Trimesh)
+        name: Mesh(np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.uint32))
+        for name, mesh in scene.geometry.items()
+        if isinstance(mesh, trimesh.Trimesh)
     }
     return meshes, dict(scene.metadata["ground_m"])

@@ -113,8 +113,8 @@ def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
 def section_ring(rotor: Rotor, r: float, points: int) -> Array:
     """The section at r/R about its quarter chord, (y, z) [m], shape (points, 2); y to the leading edge, untwisted."""
     inner, outer, weight = rotor.blade.section_at(r)
-    one, two = (blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer))
-    return float(rotor.blade.chord(r)) * ((1.0 - weight) * one + weight * two)
+    at_inner, at_outer = (blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer))
+    return float(rotor.blade.chord(r)) * ((1.0 - weight) * at_inner + weight * at_outer)
 
 
 def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0, bent: Array | None = None) -> Array:
@@ -145,7 +145,7 @@ def ghost_vertices(
 
 
 def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
-    """The same blade's leading and trailing edge as lines, where the twists differ by `least` [rad]; (n, 2, 3).
+    """The blade's leading and trailing edge as lines, where the twists differ by `least` [rad]; (n, 2, 3).
 
     A section closes each stretch at both ends.
     """

@@ -23,7 +23,7 @@ _MARGIN = 0.955
 _USUAL_TILT = math.radians(3.0)
 _FOLLOWS_TILT = 0.8
 """How much of a further shaft tilt the camera rises with, so that it keeps its angle to the disk."""
-_ELEVATION = {"top": math.radians(89.9), "side": math.radians(9.0)}
+_ELEVATION = {"disk": math.radians(89.9), "top": math.radians(89.9), "side": math.radians(9.0)}
 """Above the horizon; not quite 90° for the plan, where "up" would be undefined."""
 _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
@@ -46,7 +46,6 @@ class _Stand:
 
 _STANDS = {
     "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4),
-    "disk": _Stand(math.radians(0.02), math.radians(46.0), (1.0, 0.0, -2.0), 48.0, 1.05),
 }
 _APART = 1.32
 """Half the distance between the hubs of two rotors side by side, in radii."""
@@ -90,7 +89,7 @@ class Shot:
     """From where; 0 is behind the tail, 90 the advancing side."""
     elevation_deg: float
     centre: tuple[float, float, float]
-    """Of the box that fills the canvas, from the hub [R]."""
+    """Centre of the box that fills the canvas, from the hub [R]."""
     half: tuple[float, float, float]
     """Half its size [R]."""
 
@@ -136,7 +135,8 @@ def fit(
         if not beside:
             return _standing(stand, size(radius), aspect, backward, cover)
     else:
-        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
+        across = _STANDS["3d"].azimuth if beside else 0.0
+        backward = direction(math.radians(90.0) if view == "side" else across, _ELEVATION[view])
         if view == "side" and not beside:  # The airframe, coning and tilt need height where the disk has none.
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
             points = np.concatenate((points, radius * np.array(more)))
@@ -158,8 +158,8 @@ def _two_outlines(radius: float) -> Array:
     """The rims of two rotors side by side, with their words and letters."""
     edge = 0.5 * LETTER_SIZE * radius
     corners = np.array([[x, y, 0.0] for x in (-edge, edge) for y in (-edge, edge)])
-    one = np.concatenate((_outline(radius), letter_place(radius) + corners))
-    return np.concatenate((one - apart(radius), one + apart(radius)))
+    outline = np.concatenate((_outline(radius), letter_place(radius) + corners))
+    return np.concatenate((outline - apart(radius), outline + apart(radius)))
 
 
 def _standing(stand: _Stand, size: float, aspect: float, backward: Array, cover: Cover) -> Camera:

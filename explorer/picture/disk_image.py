@@ -47,7 +47,7 @@ _REGION_ENTRIES = np.array([0, 0, _STALL_RIM, _DASH, _REVERSE, _REVERSE_RIM], dt
 REACH = 1.2
 """Half the edge of the picture with the words, in radii."""
 RING_SIZE = 1792
-"""Its pixels along each edge."""
+"""Pixels of the ring's image along each edge."""
 SHADOW_HALF, SHADOW_CENTRE = 1.72, 0.27
 """Half the edge of the shadow's picture and how far aft of the hub its middle lies, in radii."""
 _SHADOW_SIZE = 384
@@ -141,12 +141,12 @@ def indices(
 @_compile
 def levels_of(values: Array, low: float, high: float, levels: int) -> Bytes:
     """1…levels for values from `low` to `high` and beyond them."""
-    made = np.empty(values.shape, np.uint8)
+    image = np.empty(values.shape, np.uint8)
     scale, most = (levels - 1) / (high - low), levels - 1.0
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
-            made[i, j] = np.uint8(min(max((values[i, j] - low) * scale, 0.0), most) + 1.5)
-    return made
+            image[i, j] = np.uint8(min(max((values[i, j] - low) * scale, 0.0), most) + 1.5)
+    return image
 
 
 @_compile

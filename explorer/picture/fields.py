@@ -35,7 +35,7 @@ class Field:
     """Where else the quantity is not defined, on the polar grid."""
     note: str = ""
     speeds: int | None = None
-    """Its size goes with chord × tip speed to this power, and so does its range; None: one for all rotors."""
+    """Size and range go with chord × tip speed to this power; None: the same for all rotors."""
 
     @property
     def two_sided(self) -> bool:
@@ -84,9 +84,9 @@ def _cl(solution: Solution, grid: PolarGrid) -> Array:
     """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
     disk = solution.disk
     weight = disk.mach**2
-    found = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+    cl = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
     # Run on over half a wide element at the root, the weight may come near zero.
-    return np.clip(found, disk.cl.min(), disk.cl.max())
+    return np.clip(cl, disk.cl.min(), disk.cl.max())
 
 
 def _m2cn(solution: Solution, grid: PolarGrid) -> Array:
@@ -229,7 +229,7 @@ def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:
 
 
 _PART = 0.1
-"""Of a field's own range, to either side, that a difference is first shown over."""
+"""Part of a field's range, to either side, over which a difference is first shown."""
 _NAMES = ("Mach", "M²")
 """What begins a title and stays capital within one."""
 

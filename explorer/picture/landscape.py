@@ -21,7 +21,7 @@ SIZE, HEIGHT = 12.0, 3.9
 BASE = -0.7
 """Where the walls end [m]."""
 POINTS = 97
-"""Of the surface along each edge."""
+"""Points of the surface along each edge."""
 MOST = 0.4
 """Power above the least, as a part of it, at which the surface is cut off."""
 _ABOVE = math.radians(33.0)
@@ -104,7 +104,7 @@ class Landscape:
         return Mesh(vertices, faces[known[faces].all(axis=1)].astype(np.uint32))
 
     def colours(self, ends: float) -> NDArray[np.uint8]:
-        """Of each vertex: by power above the least, to `ends` as a part of it, as on the flat map, (n, 3)."""
+        """Colour of each vertex: by power above the least, to `ends` as a part of it, as on the flat map, (n, 3)."""
         shades = colour_map("sequential", 200)
         excess = np.nan_to_num(self.powers / self.least - 1.0, nan=0.0)
         return shades[(np.clip(excess / ends, 0.0, 1.0) ** 0.5 * 199).astype(int)].reshape(-1, 3)
@@ -119,8 +119,8 @@ class Landscape:
         )
         vertices = [np.concatenate((edge, edge * [1.0, 1.0, 0.0] + [0.0, 0.0, BASE])) for edge in sides]
         k = np.arange(n - 1)
-        one = np.concatenate((np.stack((k, k + n, k + n + 1), 1), np.stack((k, k + n + 1, k + 1), 1)))
-        return Mesh(np.concatenate(vertices), np.concatenate((one, one + 2 * n)).astype(np.uint32))
+        strip = np.concatenate((np.stack((k, k + n, k + n + 1), 1), np.stack((k, k + n + 1, k + 1), 1)))
+        return Mesh(np.concatenate(vertices), np.concatenate((strip, strip + 2 * n)).astype(np.uint32))
 
     def water(self) -> Mesh:
         """A level surface at the top of the band: what of the valley is below it is flooded."""

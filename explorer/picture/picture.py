@@ -57,7 +57,7 @@ class Picture:
     disk: Pose
     blades: Blades
     blade_vertices: Array
-    """Of the reference blade as flown, shape (n, 3); the same for every blade, unless `blades` says otherwise."""
+    """Vertices of the reference blade as flown, shape (n, 3); for every blade, unless `blades` says otherwise."""
     blade_faces: NDArray[np.uint32]
     """Shape (m, 3); changes only with the rotor."""
     png: bytes

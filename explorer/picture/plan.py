@@ -17,6 +17,7 @@ from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
 from explorer.picture.regions import divergence_margin, region_masks
 from rotor import Solution
 from rotor.arrays import Array
+from rotor.chart import AZIMUTH, Axis, Chart, as_json
 
 _OUTLINED = 80, 240
 """Radii and azimuths between which an outline is looked for."""
@@ -167,6 +168,7 @@ def plan(
         "unit": field.unit,
         "regions": _regions(solution, view, pinned),
         "flight": solution.design.airspeed > 0.0,
+        "around": as_json(around_chart(solution)),
         "mu": round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
     }
     if at_rest:
@@ -178,16 +180,27 @@ def plan(
     return content
 
 
+def around_chart(solution: Solution) -> Chart:
+    """The axes of the angle of attack over azimuth, the same for each radius; the page draws its lines into them."""
+    flow = solution.disk.u_t > 0.0
+    alpha = np.degrees(solution.disk.alpha[flow])
+    low, high = (float(alpha.min()), float(alpha.max())) if len(alpha) else (0.0, 0.0)
+    ends = min(-2.0, max(-10.0, low)), max(16.0, min(30.0, high))
+    return Chart(
+        "Angle of attack over azimuth", Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"), Axis("°", ends, unit="°"), ()
+    )
+
+
 def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[dict[str, Any]]:
     shares = region_shares(solution)
-    found: list[dict[str, Any]] = []
+    regions: list[dict[str, Any]] = []
     for name, (title, switch, segments) in _REGIONS.items():
         lines = _lines(segments(solution)) if getattr(view, switch) else []
         before = _lines(segments(pinned)) if pinned is not None and getattr(view, switch) else []
         if not lines and not before:
             continue
         area, thrust = shares[name]
-        found.append(
+        regions.append(
             {
                 "name": name,
                 "title": title,
@@ -196,7 +209,7 @@ def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> li
                 "before": before,
             }
         )
-    return found
+    return regions
 
 
 def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:

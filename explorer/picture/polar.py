@@ -86,7 +86,7 @@ def weighted_sums(fields: Any, rows: Places, along: Any, columns: Places, around
     """
     count, n, _ = fields.shape
     turned = np.zeros((count, n, columns.shape[1]), fields.dtype)
-    made = np.zeros((count, rows.shape[1], columns.shape[1]), fields.dtype)
+    sums = np.zeros((count, rows.shape[1], columns.shape[1]), fields.dtype)
     for field in range(count):
         for i in range(n):
             for k in range(len(columns)):
@@ -96,8 +96,8 @@ def weighted_sums(fields: Any, rows: Places, along: Any, columns: Places, around
             for k in range(len(rows)):
                 weight, row = along[k, i], rows[k, i]
                 for j in range(columns.shape[1]):
-                    made[field, i, j] += weight * turned[field, row, j]
-    return made
+                    sums[field, i, j] += weight * turned[field, row, j]
+    return sums
 
 
 def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:
@@ -216,11 +216,11 @@ class Refined:
 @_compile
 def angles_of_attack(theta: Single, u_t: Single, u_p: Single) -> Single:
     """α = θ − atan2(U_P, U_T) [rad], not wrapped, in the shape of all three."""
-    made = np.empty_like(theta)
+    alpha = np.empty_like(theta)
     for i in range(theta.shape[0]):
         for j in range(theta.shape[1]):
-            made[i, j] = theta[i, j] - arctangent(u_p[i, j], u_t[i, j])
-    return made
+            alpha[i, j] = theta[i, j] - arctangent(u_p[i, j], u_t[i, j])
+    return alpha
 
 
 @lru_cache(maxsize=3)  # The field and the marked regions of one picture share it.

@@ -18,7 +18,7 @@ BENDING_SHOWN = 10.0
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Of a child in its parent."""
+    """Pose of a child in its parent."""
 
     wxyz: Array
     """Unit quaternion, shape (4,)."""
@@ -69,8 +69,10 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
     """Root pitch [rad] in harmonics 1, cos ψ, sin ψ, cos 2ψ, …: collective, cyclic and n/rev of the design."""
     series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
     given = () if design is None or design.hovering else design.pitch_per_rev
-    for n in range(2, max((one.per_rev for one in given), default=1) + 1):
-        size, phase = next(((one.amplitude, one.phase) for one in given if one.per_rev == n), (0.0, 0.0))
+    for n in range(2, max((harmonic.per_rev for harmonic in given), default=1) + 1):
+        size, phase = next(
+            ((harmonic.amplitude, harmonic.phase) for harmonic in given if harmonic.per_rev == n), (0.0, 0.0)
+        )
         series += [size * math.cos(phase), size * math.sin(phase)]
     return series
 
@@ -168,7 +170,7 @@ def drawn_bending(solution: Solution, r: ArrayLike, psi: float) -> Array | None:
     bent = deflections(solution)
     if bent is None:
         return None
-    up, forward = (BENDING_SHOWN * own for own in bent.at(np.asarray(r, dtype=float), psi))
+    up, forward = (BENDING_SHOWN * deflection for deflection in bent.at(np.asarray(r, dtype=float), psi))
     pitch = root_pitch(solution.controls, psi, solution.design)  # The blade's own axes are pitched.
     cos, sin = math.cos(pitch), math.sin(pitch)
     return np.stack([np.zeros_like(up), cos * forward + sin * up, cos * up - sin * forward], axis=1)

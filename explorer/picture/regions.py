@@ -23,7 +23,7 @@ DRAG_DIVERGENCE = 0.1
 _SLOPE_LIMIT = 0.5
 """Steeper slopes belong to stall and are cut off before smoothing."""
 _SMOOTHING = (0.7, 1.2)
-"""Of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
+"""Smoothing of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
 _CLEAR_OF_REVERSE = 0.055
 """U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
 _DASHES = 96

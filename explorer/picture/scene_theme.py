@@ -50,7 +50,7 @@ class SceneTheme:
     glass: Rgb = (38, 46, 58)
     dark_parts: Rgb = (38, 41, 48)
     lettering: Rgb = (36, 44, 58)
-    """Of the words round the disk, unlit."""
+    """Colour of the words round the disk, unlit."""
     shadow: Rgb = (32, 42, 60)
     shadow_strength: float = 0.40
     """Opacity where the shadow is deepest."""
@@ -60,7 +60,7 @@ class SceneTheme:
     """Where it fades, close to the background."""
     inflow: Rgb = (20, 60, 130)
     hub_force: Rgb = (24, 33, 47)
-    """Of lines over the hub, unlit, as the next."""
+    """Colour of the force over the hub, unlit."""
     hub_moment: Rgb = (0, 118, 150)
     lights: tuple[Light, ...] = _lights(2.3, 0.7, 0.7)
     sky: float = 1.1

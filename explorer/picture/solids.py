@@ -20,7 +20,7 @@ class Mesh:
     """Shape (m, 3), counter-clockwise seen from outside."""
 
     def scaled(self, factor: float) -> "Mesh":
-        """The same shape, `factor` times as large about the origin."""
+        """This shape, `factor` times as large about the origin."""
         return Mesh(factor * self.vertices, self.faces)
 
 
@@ -63,7 +63,7 @@ def sides(rings: int, points: int) -> NDArray[np.intp]:
 
 
 def _volume(vertices: Array, faces: Faces) -> float:
-    """Of a closed surface [m³]; negative when its faces look inward."""
+    """Volume of a closed surface [m³]; negative when its faces look inward."""
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 

@@ -34,7 +34,7 @@ _HEAD = 0.28
 _TENTH = 0.5
 """A tenth of the reference weight is drawn about this long [R]."""
 LOADS_HEIGHT = 0.11
-"""Of the lines over the hub [R]: they stand clear of the blades."""
+"""Height of the lines over the hub [R]: they stand clear of the blades."""
 _LOAD_POINTS = 72
 
 
@@ -166,7 +166,7 @@ def load_scale(design: Design) -> float:
     wanted = 0.1 * design.aircraft.mass * GRAVITY / (_TENTH * design.rotor.radius)
     return min(
         (factor * 10.0**power for power in range(1, 6) for factor in (1.0, 2.0, 5.0)),
-        key=lambda own: abs(math.log(own / wanted)),
+        key=lambda step: abs(math.log(step / wanted)),
     )
 
 
@@ -185,12 +185,12 @@ class HubLines:
     now: Array
     """Force and moment at the azimuth of the reference blade, (2, 2, 3)."""
     places: dict[str, list[float]]
-    """Of the labels of `force`, `bar` and `moment`."""
+    """Places of the labels of `force`, `bar` and `moment`."""
     centre: list[float]
 
 
 def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
-    """Of these loads with the reference blade at ψ [rad]."""
+    """Arrows of these loads with the reference blade at ψ [rad]."""
     scale, radius = load_scale(design), design.rotor.radius
     centre = np.array([0.0, 0.0, LOADS_HEIGHT * radius])
 

@@ -31,7 +31,7 @@ class FittedCamera:
     def __init__(self, client: viser.ClientHandle, radius: float) -> None:
         self._client = client
         self.radius = radius
-        """Of the rotor that is shown [m]."""
+        """Radius of the rotor that is shown [m]."""
         self.subject: Callable[[float], Camera] | None = None
         """What `aim_with` was given; None while the rotor is looked at."""
         self._view: View | None = "3d"
@@ -109,7 +109,7 @@ class FittedCamera:
         self.aim_with(lambda aspect: shot.fit(self.radius, aspect), eased=True)
 
     def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
-        """The same for any other subject: `fitted` finds the camera for a width over height without cards."""
+        """Aim at another subject: `fitted` finds the camera for a width over height without cards."""
         self._view, self.subject = None, fitted
         self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased)
 
@@ -127,7 +127,7 @@ class FittedCamera:
         self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
 
     def _moved(self, camera: viser.CameraHandle) -> None:
-        if not self._following:
+        if not self._following or self._held:
             return
         if self._put is None:
             self._aim(self._fit)

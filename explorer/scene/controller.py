@@ -136,7 +136,7 @@ class _Drawn:
     """The camera's: labels on the disk face it."""
 
     def at(self, azimuth_deg: float) -> "_Drawn":
-        """The same with the reference blade elsewhere."""
+        """This picture with the reference blade elsewhere."""
         return replace(self, view=replace(self.view, azimuth_deg=azimuth_deg))
 
 

@@ -36,7 +36,7 @@ class OtherBlade:
 
     rotor: Rotor
     twist: TwistLaw
-    """As built."""
+    """The twist as built."""
     colour: colours.Rgb | None
     """None: the grey of the page's theme."""
 
@@ -114,7 +114,7 @@ class AirLines:
         self._vortices, self._arrows = _unseen_lines(api, VORTICES, 1.7), _unseen_lines(api, f"{ROTOR}/inflow", 1.5)
 
     def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:
-        """Of this solution, as far as the view wants them."""
+        """Show what belongs to this solution, as far as the view wants them."""
         rotor = solution.design.rotor
         if view.wake:
             step = 2.0 * math.pi / rotor.blades
@@ -129,7 +129,7 @@ class AirLines:
         self._vortices.visible, self._arrows.visible = view.wake, view.arrows
 
     def hide_vortices(self) -> None:
-        """They belong to blades that have moved on."""
+        """Remove the vortices: they belong to blades that have moved on."""
         self._vortices.visible = False
 
 

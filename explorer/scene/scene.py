@@ -47,7 +47,7 @@ class RotorNodes:
         self.frame = api.add_frame(name, show_axes=False)
         self._head = solid(api, f"{name}/head", mast(1.0), theme.head)
         self._blades: list[viser.MeshHandle] = []
-        """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
+        """Meshes for the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame(f"{name}/disk", show_axes=False)
         self.words = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
         self.image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))

@@ -1,21 +1,34 @@
 """Rotors recorded as scenes, and viser's viewer embedded to show them without a server."""
 
+import base64
+import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from html import escape
+from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from explorer import web
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
+from explorer.picture.blade_mesh import BladeShape, blade_vertices
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
 from explorer.picture.picture import make_picture, turned_blades
+from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.picture.scene_theme import scene_theme
-from explorer.scene.scene import Scene
-from rotor import Solution
+from explorer.scene.controller import motion_of
+from explorer.scene.scene import ROTOR, Scene
+from rotor import Solution, parse_twist
+from rotor.arrays import Array
+from rotor.markup import end_of, with_title
 
+HARMONICS = 4
+"""Harmonics of the elastic twist in the trim."""
+UNTWISTED = parse_twist("linear:0")
+DISK_PIXELS = 400
+"""Along each edge of a picture of the disk."""
 _SEAMS = re.compile(
     r'(?P<before>.*window\.__VISER_EMBED_DATA__=")(?P<scene>[^"]*)'
     r'(?P<between>";window\.__VISER_EMBED_CONFIG__=\{darkMode:)(?:true|false)(?P<after>\}.*)',
@@ -43,15 +56,14 @@ def embedded_viewer(pages: Sequence[str]) -> EmbeddedViewer:
 
 
 def _parts(page: str) -> dict[str, str]:
-    found = _SEAMS.fullmatch(page)
-    if found is None:
+    match = _SEAMS.fullmatch(page)
+    if match is None:
         raise ValueError("viser's viewer is not laid out as it was: the report has no 3D picture until it is adapted.")
-    return found.groupdict()
+    return match.groupdict()
 
 
-_TITLE = r"<title>[^<]*</title>"
 _ASPECT = 16.0 / 9.0
-"""Of the window that the camera is fitted to."""
+"""Aspect ratio of the window that the camera is fitted to."""
 _PIXELS = 640
 """Along each edge of the disk's picture: a file should be small."""
 
@@ -63,12 +75,12 @@ def scene_page(solution: Solution, view: ViewState, colour_range: tuple[float, f
     """
     viewer = make_stage([solution], view, colour_range)
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
-    words = {"scheme": "dark" if view.dark else "light", "title": escape(title), "line": escape(line)}
+    words = {"scheme": "dark" if view.dark else "light", "title": title, "line": line}
     caption = web.styles("still.css") + web.fill("still.html", words)
-    if not re.search(_TITLE, page) or page.count("</body>") != 1:
+    body = end_of("body")
+    if page.count(body) != 1:
         raise ValueError("viser's viewer is not laid out as it was: there is no 3D file until it is adapted.")
-    page = re.sub(_TITLE, lambda _: f"<title>{escape(title)}</title>", page, count=1)
-    return page.replace("</body>", f"{caption}</body>")
+    return with_title(page, title, web.policy()).replace(body, f"{caption}{body}")
 
 
 def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> EmbeddedViewer:
@@ -105,3 +117,53 @@ def still_page(
         return server.scene.as_html()
     finally:
         viser_compat.quiet_stop(server)
+
+
+def flown_pitch(solution: Solution, shape: BladeShape, exaggeration: float) -> Array:
+    """Drawn pitch of each ring in harmonics of azimuth 1, cos ψ, sin ψ, cos 2ψ, … [rad], (harmonics, rings).
+
+    The mean alone where the twist does not change around the disk.
+    """
+    waves = solution.design.pitch_waves
+    highest = (
+        max(HARMONICS, *(harmonic.per_rev for wave in waves for harmonic in wave.harmonics)) if waves else HARMONICS
+    )
+    count = max(24, 4 * highest) if follows_azimuth(solution) else 1
+    psi = 2.0 * np.pi * np.arange(count) / count
+    pitch = np.array([shape.pitch(flown_twist(solution, float(at)), exaggeration) for at in psi])
+    basis = [np.ones_like(psi)]
+    for n in range(1, highest + 1) if count > 1 else ():
+        basis += [2.0 * np.cos(n * psi), 2.0 * np.sin(n * psi)]
+    return np.array(basis) @ pitch / count
+
+
+def shape_record(shape: BladeShape) -> dict[str, Any]:
+    """What `still_rotor.js` shapes blades from."""
+    return {
+        "shape": _base64(blade_vertices(shape, UNTWISTED)),
+        "rings": list(shape.rings.shape[:2]),
+        "faces": _base64(np.asarray(shape.faces)),
+    }
+
+
+def point_record(
+    solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float], root: str = ROTOR
+) -> dict[str, Any]:
+    """One trim: motion and pitch of the blades, poses, and the picture of the disk as WebP."""
+    picture = make_picture(solution, view, colour_range, pixels=DISK_PIXELS)
+    image = io.BytesIO()
+    Image.open(io.BytesIO(picture.png)).convert("RGBA").save(image, "WEBP", quality=80)
+    return {
+        "motion": motion_of(solution, root),
+        "poses": [
+            [pose.wxyz.tolist(), pose.position.tolist()] for pose in (picture.rotor, picture.disk, picture.airframe)
+        ],
+        "flown": _base64(flown_pitch(solution, shape, view.exaggeration)),
+        "disk": base64.b64encode(image.getvalue()).decode("ascii"),
+    }
+
+
+def _base64(values: np.ndarray[Any, Any]) -> str:
+    """Vertices [m] as 32-bit floats, faces as 32-bit integers, base64."""
+    kind = np.float32 if values.dtype.kind == "f" else np.uint32
+    return base64.b64encode(values.astype(kind).tobytes()).decode("ascii")

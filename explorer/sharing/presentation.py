@@ -81,8 +81,8 @@ class Presentations:
     def release(self, session: object) -> None:
         """This session has ended: another page with the secret may present."""
         with self._lock:
-            for name, (_, own) in tuple(self._presenters.items()):
-                if own is session:
+            for name, (_, presenter) in tuple(self._presenters.items()):
+                if presenter is session:
                     del self._presenters[name]
                     self._watchers.pop(name, None)  # It belongs to the session's page.
 

@@ -41,7 +41,7 @@ LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 
 RETIRED_TITLE = "A retired model"
-"""Of the notice that says which model stands in."""
+"""Title of the notice that says which model stands in."""
 
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
@@ -107,8 +107,8 @@ def design_from(code: str, tell: Tell = warn) -> Design:
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
     record: dict[str, Any] = {"version": READS[-1], "twist": twist}
     for word in words:
-        key, found, value = word.partition("=")
-        if not found:
+        key, equals, value = word.partition("=")
+        if not equals:
             raise ValueError(
                 f"The design in the address holds {cut(word)!r}, not of the form key=value: ask for a new link."
             )
@@ -127,8 +127,8 @@ def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs
     """
     if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
-    own = kept if code == KEPT else None
-    return within(inputs_of(parse_design(own.encode(), "of this page", tell) if own else design_from(code, tell)))
+    record = kept if code == KEPT else None
+    return within(inputs_of(parse_design(record.encode(), "of this page", tell) if record else design_from(code, tell)))
 
 
 def tell_retired(notices: list[tuple[str, str]], sentence: str) -> None:
@@ -205,7 +205,7 @@ def read_history(text: str | None, start: Inputs) -> StoredHistory:
         present = _inputs([record["present"]] if record.get("present") else [])
     except (ValueError, TypeError, AttributeError, RecursionError):
         return StoredHistory(present=start)
-    same = [one for one in present if _code(one) == _code(start)]
+    same = [inputs for inputs in present if _code(inputs) == _code(start)]
     before, after = (past, future) if same or not present else ((*past, *present), ())
     return StoredHistory(before[-MOST_STEPS:], start, after[:MOST_STEPS], bookmarks)
 
@@ -224,13 +224,13 @@ def _codes(steps: Iterable[Inputs]) -> list[str]:
 
 
 def _inputs(codes: list[Any]) -> tuple[Inputs, ...]:
-    found: list[Inputs] = []
+    steps: list[Inputs] = []
     for code in codes[: 2 * MOST_STEPS]:
         try:
-            found.append(inputs_from(str(code), tell=lambda _: None))
+            steps.append(inputs_from(str(code), tell=lambda _: None))
         except ValueError:
             continue  # Of another version of the program, or changed in the page.
-    return tuple(found)
+    return tuple(steps)
 
 
 def _by_word(titles: Iterable[str]) -> dict[str, str]:
@@ -365,7 +365,7 @@ class Address:
 
     @property
     def query(self) -> str:
-        """As it is or is about to be written."""
+        """The query as it is or is about to be written."""
         return self._query
 
     def write_over(self) -> None:

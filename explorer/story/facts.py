@@ -21,7 +21,7 @@ from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, built, least, mov
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"
-"""Of the last step."""
+"""Actuator of the last step."""
 _FLAT = 0.001
 """Part of the least power within which an optimum is called flat, as everywhere in the program."""
 _HARMONICS, _REACH = (2, 3), 1.0
@@ -37,10 +37,10 @@ class Number:
     kind: Kind
     value: float
     text: str = ""
-    """Of "words"."""
+    """Text of a fact of kind "words"."""
 
     def words(self, units: Units) -> str:
-        """As it is written, on one line."""
+        """The fact as it is written, on one line."""
         value = self.value
         match self.kind:
             case "power" | "change":
@@ -106,12 +106,12 @@ class Facts:
     stops: tuple[Stop, ...]
     numbers: Mapping[str, Number]
     right: int
-    """Of the answers to choose from."""
+    """Place of the right answer among those to choose from."""
     chart: StepChart
 
     def words(self, units: Units) -> dict[str, str]:
         """The numbers as they are written."""
-        return {name: one.words(units) for name, one in self.numbers.items()}
+        return {name: number.words(units) for name, number in self.numbers.items()}
 
 
 def facts_of(step: LectureStep) -> Facts:
@@ -120,22 +120,22 @@ def facts_of(step: LectureStep) -> Facts:
 
 
 def facts_at(number: int) -> Facts:
-    """The same by the number of the step, from 0: a step cannot be pickled for a worker process."""
+    """Facts of a step by its number, from 0: a step cannot be pickled for a worker process."""
     return facts_of(STEPS[number])
 
 
 def _trim(step: LectureStep) -> Facts:
     flight = _Sweep(step)
-    powers = [one.power for one in flight.b]
+    powers = [solution.power for solution in flight.b]
     values = step.control.values
-    hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([one.total for one in powers]))
+    hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([power.total for power in powers]))
     parts = tuple(
-        ChartLine(name, name, tuple(getattr(one, name) for one in powers))
+        ChartLine(name, name, tuple(getattr(power, name) for power in powers))
         for name in ("induced", "profile", "parasite")
     )
     chart = StepChart(
         "advance ratio", "power", "power", values, "mu",
-        (ChartLine("total", "b", tuple(one.total for one in powers)), *parts),
+        (ChartLine("total", "b", tuple(power.total for power in powers)), *parts),
     )  # fmt: skip
     ratio = cruise.induced / hover.induced
     numbers = {
@@ -143,7 +143,7 @@ def _trim(step: LectureStep) -> Facts:
         "induced_ratio": Number("percent", ratio), "cruise_mu": Number("mu", 0.3),
         "least_mu": Number("mu", values[low]), "least_power": Number("power", powers[low].total),
     }  # fmt: skip
-    return flight.facts(numbers, ratio, chart, tuple(one.total for one in powers))
+    return flight.facts(numbers, ratio, chart, tuple(power.total for power in powers))
 
 
 def _hover_twist(step: LectureStep) -> Facts:
@@ -159,7 +159,7 @@ def _hover_twist(step: LectureStep) -> Facts:
         "best": Number("angle", least(_BUILT, 0.0, None).rate_deg),
         "best_rigid": Number("angle", least(rigid, 0.0, None).rate_deg),
     }  # fmt: skip
-    totals = tuple(one.power.total for one in blades.b)
+    totals = tuple(solution.power.total for solution in blades.b)
     chart = StepChart(
         "twist [°/R]", "total power", "power", step.control.values, "rate",
         (ChartLine("A", "a", (a.power.total,) * len(totals)), ChartLine("B", "b", totals)),
@@ -173,7 +173,8 @@ def _changes(step: LectureStep) -> Facts:
     a, b = blades.pair
     induced, profile = (
         tuple(
-            getattr(one.power, name) - getattr(other.power, name) for one, other in zip(blades.b, blades.a, strict=True)
+            getattr(solution.power, name) - getattr(other.power, name)
+            for solution, other in zip(blades.b, blades.a, strict=True)
         )
         for name in ("induced", "profile")
     )
@@ -197,7 +198,7 @@ def _fast_twist(step: LectureStep) -> Facts:
         totals = [
             solve(replace(stop.inputs, linear=rate).design(), blades.b[k]).require().power.total for rate in rates
         ]
-        ends = [one.power.total for one in (blades.a[k], blades.b[k])]
+        ends = [solution.power.total for solution in (blades.a[k], blades.b[k])]
         lowest = min(*totals, *ends)
         lines.append(ChartLine(name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)))
         dots.append([
@@ -219,15 +220,15 @@ def _fast_twist(step: LectureStep) -> Facts:
         **_named(step, a, b), "trim_low": Number("angle", moves[0]), "trim_high": Number("angle", moves[-1]),
         "without_drag": Number("fine", 1.0 - without[0].power.total / without[1].power.total),
     }  # fmt: skip
-    found = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
-    stops = tuple(replace(stop, dots=tuple(at)) for stop, at in zip(found.stops, dots, strict=True))
-    return replace(found, stops=stops)
+    facts = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
+    stops = tuple(replace(stop, dots=tuple(at)) for stop, at in zip(facts.stops, dots, strict=True))
+    return replace(facts, stops=stops)
 
 
 def _reverse_flow(step: LectureStep) -> Facts:
     flight = _Sweep(step)
     a, b = flight.pair
-    costs = tuple(one.power.total - other.power.total for one, other in zip(flight.b, flight.a, strict=True))
+    costs = tuple(solution.power.total - other.power.total for solution, other in zip(flight.b, flight.a, strict=True))
     slow = step.control.values.index(0.25)
     numbers = {
         **_named(step, a, b), "area": Number("percent", b.reverse_flow_area),
@@ -244,11 +245,11 @@ def _reverse_flow(step: LectureStep) -> Facts:
 def _two_segments(step: LectureStep) -> Facts:
     blades = _Sweep(step)
     a, b = blades.pair
-    changes = tuple(one.power.total / a.power.total - 1.0 for one in blades.b)
+    changes = tuple(solution.power.total / a.power.total - 1.0 for solution in blades.b)
     flat = [
         rate
-        for rate, one in zip(step.control.values, blades.b, strict=True)
-        if one.power.total < (1.0 + _FLAT) * min(other.power.total for other in blades.b)
+        for rate, solution in zip(step.control.values, blades.b, strict=True)
+        if solution.power.total < (1.0 + _FLAT) * min(other.power.total for other in blades.b)
     ]
     inputs = step.begin()
     numbers = {
@@ -269,11 +270,11 @@ def _two_segments(step: LectureStep) -> Facts:
 def _fixed_or_moving(step: LectureStep) -> Facts:
     best = [least(_BUILT, mu, None) for mu in SPEEDS]
     moving = moving_twist(_BUILT, SPEEDS, None)
-    gains = [moving_twist(_BUILT, SPEEDS, wake).gain for wake in INFLOW_MODELS]
+    gains = [moving_twist(_BUILT, SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
     baseline = built(_BUILT, SPEEDS[0]).twist
     assert isinstance(baseline, LinearTwist)
-    fixed, rates = round(moving.fixed_deg, 2), tuple(round(one.rate_deg, 2) for one in best)
-    low, high = zip(*(one.band_deg for one in best), strict=True)
+    fixed, rates = round(moving.fixed_deg, 2), tuple(round(twist.rate_deg, 2) for twist in best)
+    low, high = zip(*(twist.band_deg for twist in best), strict=True)
     stops = tuple(
         Stop(
             f"{speed_words(mu)}, {angle_words(rate)}", replace(step.inputs, advance_ratio=mu, linear=rate),
@@ -305,12 +306,12 @@ def _power_or_vibration(step: LectureStep) -> Facts:
     front = vibration_front(step.inputs.design(), harmonics=_HARMONICS, reach_deg=_REACH, points=FRONT)
     changes = [(0.01 * power, 0.01 * index) for power, index in front.changes]
     stops = list[Stop]()
-    for k, (one, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
-        twist = one.design.active_twist
+    for k, (point, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
+        twist = point.design.active_twist
         waves = () if twist is None else twist.harmonics
         inputs = replace(step.inputs, twist_per_rev=waves)
         stops.append(Stop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
-    last, ends = front.points[-1], front.points[-1].over_wakes or (0.0, 0.0)
+    last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
     numbers = {
         **_named(step, None, None), "harmonics": Number("words", 0.0, " and ".join(map(str, _HARMONICS))),
         "reach": Number("words", 0.0, f"{_REACH:g}°"),
@@ -368,8 +369,8 @@ class _Sweep:
         b = [control.apply(step.inputs, value) for value in control.values]
         a = [beside(step.against, step.inputs, inputs) for inputs in b]
         self.stops = tuple(
-            Stop(control.words(value), one, other, ())
-            for value, one, other in zip(control.values, b, a, strict=True)
+            Stop(control.words(value), inputs, other, ())
+            for value, inputs, other in zip(control.values, b, a, strict=True)
         )  # fmt: skip
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
 
@@ -390,11 +391,11 @@ class _Sweep:
 
 def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
     """Each from the one before; those that are equal once."""
-    found = list[Solution]()
+    solutions = list[Solution]()
     for inputs in designs:
-        design, before = inputs.design(), found[-1] if found else None
-        found.append(before if before and before.design == design else solve(design, before).require())
-    return found
+        design, before = inputs.design(), solutions[-1] if solutions else None
+        solutions.append(before if before and before.design == design else solve(design, before).require())
+    return solutions
 
 
 def _answered(
@@ -412,14 +413,14 @@ def _answered(
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:
     """What most texts name: the flight, the twists, powers of A and B and their differences."""
     inputs = step.begin()
-    found = {"mu": Number("mu", inputs.advance_ratio), "twist_b": Number("angle", inputs.linear)}
+    numbers = {"mu": Number("mu", inputs.advance_ratio), "twist_b": Number("angle", inputs.linear)}
     if step.against is not None:
-        found["twist_a"] = Number("angle", step.against.linear)
+        numbers["twist_a"] = Number("angle", step.against.linear)
     if a is None or b is None:
-        return found
+        return numbers
     parts = ("total", "induced", "profile")
     return {
-        **found,
+        **numbers,
         **{f"{name}_a": Number("power", getattr(a.power, name)) for name in parts},
         **{f"{name}_b": Number("power", getattr(b.power, name)) for name in parts},
         **{f"{name}_change": Number("change", getattr(b.power, name) - getattr(a.power, name)) for name in parts},

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from explorer.model.inputs import INPUT_NAMES, LAWS, Inputs, ViewState
+from explorer.model.inputs import LAWS, Inputs, ViewState
+from explorer.model.undo import differing
 from explorer.model.units import Units, degrees, number
 from explorer.picture.camera_views import Shot
 from explorer.text.readout import PART_TITLES
@@ -81,7 +82,7 @@ class Control:
     words: Callable[[float], str]
     """What stands beside it."""
     start: int
-    """Of `values`."""
+    """Place in `values` at which the step begins."""
     kind: Literal["slider", "switch"] = "slider"
 
 
@@ -90,7 +91,7 @@ class LectureStep:
     """One stop of the lecture."""
 
     name: str
-    """Of its file and of what finds its numbers."""
+    """Name of the lecture's file and of what finds its numbers."""
     text: StepText
     inputs: Inputs
     control: Control
@@ -116,7 +117,7 @@ def view_of(step: LectureStep, view: ViewState) -> ViewState:
     return replace(view, field=step.field, difference=False, beside=False, wipe=compared, reverse_flow=True, stall=True)
 
 
-def beside(against: Inputs | None, own: Inputs, inputs: Inputs) -> Inputs | None:
+def beside(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | None:
     """A for the inputs on the sliders, where a step sets `against` beside its `own` inputs; None without A.
 
     A and B differ by the twist and by what differs there, so only by the subject of the step, also after the user has
@@ -124,13 +125,12 @@ def beside(against: Inputs | None, own: Inputs, inputs: Inputs) -> Inputs | None
     """
     if against is None:
         return None
-    names = {name for name in INPUT_NAMES if getattr(against, name) != getattr(own, name)}
-    return replace(inputs, **{name: getattr(against, name) for name in names | MOVED})
+    return replace(inputs, **{name: getattr(against, name) for name in differing(against, stated) | MOVED})
 
 
 def quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
     """Numbers with their units, each on one line: of A (the reference), of B (the design), and of B − A."""
-    one, other = a.power, b.power
+    before, after = a.power, b.power
 
     def power(watts: float, sign: bool = False) -> str:
         return on_one_line(units.watts(watts, sign=sign))
@@ -138,26 +138,26 @@ def quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
     def percent(share: float, digits: int = 0, sign: bool = False) -> str:
         return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"
 
-    found = {
-        **{f"{name}_share": percent(getattr(other, name) / other.total) for name in PART_TITLES},
+    words = {
+        **{f"{name}_share": percent(getattr(after, name) / after.total) for name in PART_TITLES},
         **{
             f"{name}_{which}": power(getattr(part, name))
             for name in ("total", "induced")
-            for which, part in (("a", one), ("b", other))
+            for which, part in (("a", before), ("b", after))
         },
         **{
-            f"{name}_change": power(getattr(other, name) - getattr(one, name), sign=True)
+            f"{name}_change": power(getattr(after, name) - getattr(before, name), sign=True)
             for name in ("total", "induced", "profile")
         },
-        "induced_percent": percent(other.induced / one.induced - 1.0, 1, sign=True),
-        "total_percent": percent(other.total / one.total - 1.0, 2, sign=True),
+        "induced_percent": percent(after.induced / before.induced - 1.0, 1, sign=True),
+        "total_percent": percent(after.total / before.total - 1.0, 2, sign=True),
         "reverse_area": percent(b.reverse_flow_area, 1),
         "tilt": degrees(b.controls.shaft_tilt, 1),
     }
     if a.hub_loads is not None and b.hub_loads is not None:
-        found["index_b"] = percent(0.01 * b.hub_loads.index, 1)
-        found["index_change"] = percent(b.hub_loads.index / a.hub_loads.index - 1.0, 0, sign=True)
-    return found
+        words["index_b"] = percent(0.01 * b.hub_loads.index, 1)
+        words["index_change"] = percent(b.hub_loads.index / a.hub_loads.index - 1.0, 0, sign=True)
+    return words
 
 
 def on_one_line(text: str) -> str:
@@ -192,7 +192,7 @@ def _twist(start: float) -> Control:
 
 
 SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
-"""Of the steps whose twist follows the speed: those of `rotor.reproduce.ladder`."""
+"""Advance ratios of the steps whose twist follows the speed: those of `rotor.reproduce.ladder`."""
 FRONT = 5
 """Points of the front of power and vibration, after the blade without active twist."""
 _LINEAR, _UH60A = Inputs(law="linear"), Inputs(law="builtin")

@@ -11,7 +11,6 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,6 @@ from tqdm import tqdm
 from explorer import web
 from explorer.colours import colour_map, css
 from explorer.export.provenance import PROGRAM, versions
-from explorer.export.still_rotor import point_record, shape_record
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS, Units, number
 from explorer.picture.blade_mesh import blade_shape
@@ -28,12 +26,13 @@ from explorer.picture.camera_views import Cover, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.scene.controller import SURFACES, TURN_RATES
 from explorer.scene.scene import COMPARED, ROTOR
-from explorer.scene.still_scene import embedded_viewer, still_page
+from explorer.scene.still_scene import embedded_viewer, point_record, shape_record, still_page
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
-from rotor.chart import Axis, Band, Chart, Line, Series, as_json, round_ticks, tick_text
-from rotor.terminal import run_command
+from rotor.chart import Axis, Band, Chart, Line, Series, as_json, bar_ticks
+from rotor.markup import end_of, with_title
+from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
@@ -86,12 +85,12 @@ def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
     ways = {"power": (unit.size, f" [{unit.symbol}]"), "percent": (0.01, " [%]"), "angle": (1.0, "")}
     size, symbol = ways[chart.kind]
     wide = 100.0 if chart.x_kind == "signed" else 1.0
-    x = [wide * one for one in chart.x]
-    names = {one.name: "" if len(chart.lines) < 2 else one.name for one in chart.lines}
+    x = [wide * value for value in chart.x]
+    names = {line.name: "" if len(chart.lines) < 2 else line.name for line in chart.lines}
     series: list[Series] = [
-        Line(names[one.name], x, [math.nan if y is None else y / size for y in one.y], _colour(one.colour),
-             one.colour in ("a", "limit"), 2.4, dots=len(x) < 7 and len(chart.lines) == 1)
-        for one in chart.lines
+        Line(names[line.name], x, [math.nan if y is None else y / size for y in line.y], _colour(line.colour),
+             line.colour in ("a", "limit"), 2.4, dots=len(x) < 7 and len(chart.lines) == 1)
+        for line in chart.lines
     ]  # fmt: skip
     if chart.band is not None:
         low, high = ([y / size for y in edge] for edge in chart.band)
@@ -100,18 +99,21 @@ def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
     x_title = chart.x_title + (" [%]" if chart.x_kind == "signed" else "")
     words = tuple(_x_words(chart, end) for end in ends)
     x_axis = Axis(x_title, (x[0], x[-1]), (x[0], x[-1]), words)
-    colours = [_colour(one) for one in chart.dots or [line.colour for line in chart.lines]]
+    colours = [_colour(dot) for dot in chart.dots or [line.colour for line in chart.lines]]
     return {
         **as_json(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
         "dots": [
-            [[round(wide * at, 4), round(y / size, 4), one] for (at, y), one in zip(stop.dots, colours, strict=False)]
+            [
+                [round(wide * at, 4), round(y / size, 4), colour]
+                for (at, y), colour in zip(stop.dots, colours, strict=False)
+            ]
             for stop in facts.stops
         ],
     }
 
 
 _ROLES = {"a": "pinned", "b": "blade", "limit": "ghost", "total": "ink"}
-"""Of the page, by what a line of the lecture is."""
+"""Roles of colours on the page, by what a line of the lecture is."""
 
 
 def _colour(name: str) -> str:
@@ -152,15 +154,15 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
     words = {
         "styles": web.styles("frame.css", "story.css"),
-        "note": escape(f"Computed by {PROGRAM} {versions()[PROGRAM]}. Forward flight is a model, not a measurement."),
+        "note": f"Computed by {PROGRAM} {versions()[PROGRAM]}. Forward flight is a model, not a measurement.",
         "column": web.text("column.html"),
         "stage": web.text("wipe.html"),
         "data": web.json_block("story-data", record),
         "scripts": web.scripts("chart.js", "scene.js", "still_rotor.js", "wipe.js", "story.js", "story_file.js"),
     }
-    front = web.fill("story.html", words)
-    body = page.rindex("</body>")
-    return page[:body] + front + page[body:]
+    page, front = with_title(page, "Rotor explorer: lecture", web.policy()), web.fill("story.html", words)
+    body = page.rindex(end_of("body"))
+    return f"{page[:body]}{front}{page[body:]}"
 
 
 class _Points:
@@ -212,10 +214,13 @@ def _figures(step: LectureStep, b: Solution, a: Solution, facts: Facts, units: U
 
 def _scale(field: Field, rotor: Rotor) -> dict[str, Any]:
     """The colour bar."""
-    low, high = usual_range(field, rotor)
-    ticks = [[round(100.0 * (at - low) / (high - low), 2), tick_text(at)] for at in round_ticks(low, high, 5)]
     colours = [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()]
-    return {"title": field.title, "unit": field.unit, "ticks": ticks, "colours": colours}
+    return {
+        "title": field.title,
+        "unit": field.unit,
+        "ticks": bar_ticks(*usual_range(field, rotor)),
+        "colours": colours,
+    }
 
 
 def _cameras(step: LectureStep, radius: float) -> list[tuple[float, list[float], list[float]]]:
@@ -254,7 +259,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m explorer story",
+        formatter_class=help_formatter,
+        prog=called("explorer", "rotor-explorer") + " story",
         description="The lecture as one HTML file without a server: ten steps with guess, answer and a rotor to drag.",
     )
     parser.add_argument("out", metavar="FILE", help="where to write; in a folder, its story.html")

@@ -1,11 +1,21 @@
-"""What a button begins and a worker process does: a search, a map, a schedule. Each part of a page runs one."""
+"""What worker processes do for a part of a page: work that a button begins, and answers that the page asks for.
+
+A search, a map with its landscape, a schedule and what would pay are begun by a button. Verdicts, flights, the dial and
+the numbers of the lecture are asked for as the design changes.
+"""
 
 import threading
 import time
-from collections.abc import Callable
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
-from explorer.tabs.context import TabContext
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Task
+import viser
+
+from explorer.text.glossary import hint
+from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Pool, Task
 
 FRAME = 0.1
 """Between two progress reports that wake the page [s]; the end always does."""
@@ -14,9 +24,13 @@ FRAME = 0.1
 class BackgroundWork:
     """Begins, stops and hears of one task; a part of the page says which, and shows it in its own `refresh`."""
 
-    def __init__(self, context: TabContext, limit: float, urgency: int = 0, *, restarts: bool = False) -> None:
-        """`limit`: of its time [s]. `urgency` as in `Pool.submit`. `restarts`: a second begin ends the first."""
-        self._context, self._limit, self._urgency, self._restarts = context, limit, urgency, restarts
+    def __init__(
+        self, pool: Pool, wake: Callable[[], None], limit: float, urgency: int = 0, *, restarts: bool = False
+    ) -> None:
+        """`wake`: the page follows. `limit`: of its time [s]. `urgency` as in `Pool.submit`. `restarts`: a second begin
+        ends the first."""
+        self._pool, self._wake = pool, wake
+        self._limit, self._urgency, self._restarts = limit, urgency, restarts
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._woken = 0.0
@@ -42,17 +56,37 @@ class BackgroundWork:
                 self.line = str(error)
             else:
                 self._silence()
-                self.running, self.line = True, line
-                self._job = self._context.pool.submit(
-                    task, lambda news: self._heard(hear, news), self._limit, self._urgency
-                )
-        self._context.wake()
+                self.line = line
+                self._submit(task, hear)
+        self._wake()
+
+    def _submit(self, task: Task, hear: Callable[[JobEvent], None]) -> None:
+        self.running = True
+        self._job = self._pool.submit(
+            task, lambda news: self._heard(hear, news), limit=self._limit, urgency=self._urgency
+        )
+
+    def add_buttons(self, gui: viser.GuiApi, begin: str, stop: str, entries: tuple[str, str]) -> None:
+        """Buttons that begin and stop it, and the bar of its progress. `entries`: of the glossary, for the buttons."""
+        first, second = map(hint, entries)
+        self._begin = gui.add_button(begin, icon=viser.Icon.PLAYER_PLAY, hint=first)
+        self._halt = gui.add_button(stop, icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=second)
+        self._bar = gui.add_progress_bar(0.0)
+        self._begin.on_click(lambda _: self.begin())
+        self._halt.on_click(lambda _: self.halt())
+
+    def show_progress(self, part_done: float | None, under_way: bool) -> None:
+        """`part_done`: 0…1; None where nothing was begun yet."""
+        self._begin.visible, self._halt.visible = not under_way, under_way
+        self._bar.visible = part_done is not None
+        if part_done is not None:
+            self._bar.value, self._bar.animated = round(100.0 * part_done, 1), under_way
 
     def halt(self) -> None:
         """Stop what is under way, and keep what it found."""
         if self._job is not None and self.running:
-            self._context.pool.stop(self._job)
-            self._context.wake()
+            self._pool.stop(self._job)
+            self._wake()
 
     def stop(self) -> None:
         """The browser has left."""
@@ -61,7 +95,17 @@ class BackgroundWork:
     def _silence(self) -> None:
         """No further word of the last one."""
         if self._job is not None:
-            self._context.pool.stop(self._job, quiet=True)
+            self._pool.stop(self._job, quiet=True)
+
+    def _ended_without(self, news: JobEvent) -> None:
+        """Say why there is no answer where the news is of such an end."""
+        match news:
+            case JobEnded(str() as message) | JobFailed(message):
+                self.line = message
+            case JobEnded():
+                self.line = "This was stopped: find again."
+            case _:
+                pass
 
     def _heard(self, hear: Callable[[JobEvent], None], news: JobEvent) -> None:
         if isinstance(news, (JobEnded, JobFailed)):
@@ -70,4 +114,110 @@ class BackgroundWork:
         now = time.monotonic()
         if not isinstance(news, JobProgress) or now - self._woken > FRAME:
             self._woken = now
-            self._context.wake()
+            self._wake()
+
+
+@dataclass(frozen=True)
+class Call:
+    """A task of the pool: a function of a module and its arguments. It pickles; equal ones have one answer."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Hashable, ...]
+
+    def run(self, tell: object = None, stop: object = None) -> Any:
+        """What the function returns; for a ValueError or RuntimeError its sentence."""
+        del tell, stop  # Some seconds at most.
+        try:
+            return self.function(*self.arguments)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
+
+
+_KEPT = 64
+_STOPPED = "This was stopped: change any setting to try again."
+_lock = threading.Lock()
+_known: OrderedDict[Call, Any] = OrderedDict()
+
+
+class PoolAnswers(BackgroundWork):
+    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
+
+    def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
+        """`answered` is called after every answer, on a thread of the pool; `limit`: for each task [s]."""
+        super().__init__(pool, answered, limit, urgency)
+        self._tasks: tuple[Call, ...] = ()
+        self._delay = 0.0
+        self._failures: dict[Call, str] = {}
+        self._stopped = False
+        self._timer: threading.Timer | None = None
+        self._lock = threading.RLock()
+
+    def ask(self, tasks: tuple[Call, ...], delay: float, moved: bool = True) -> None:
+        """Have these answered, the first one first, once nothing has `moved` for so long [s]."""
+        with self._lock:
+            changed = tasks != self._tasks or delay < self._delay
+            if tasks != self._tasks:
+                self._failures.clear()
+            self._tasks, self._delay = tasks, delay
+            waits = self._timer is not None
+            if self._next() is not None and (changed or (moved and waits)):
+                self._stop_timer()
+                self._timer = threading.Timer(delay, self._next_one)
+                self._timer.daemon = True
+                self._timer.start()
+
+    def answer(self, task: Call | None) -> Any:
+        """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
+        with _lock:
+            return None if task is None else _known.get(task, self._failures.get(task))
+
+    def stop(self) -> None:
+        """The browser has left."""
+        with self._lock:
+            self._stopped = True
+            self._stop_timer()
+        super().stop()
+
+    def _stop_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = None
+
+    def _next(self) -> Call | None:
+        return next((task for task in self._tasks if self.answer(task) is None), None)
+
+    def _next_one(self) -> None:
+        with self._lock:
+            self._timer = None
+            task = self._next()
+            if not (self.running or self._stopped or task is None):
+                self._submit(task, partial(self._keep, task))
+
+    def _ended_without(self, news: JobEvent) -> None:
+        """Say why there is no answer where the news is of such an end."""
+        match news:
+            case JobEnded(str() as message) | JobFailed(message):
+                self.line = message
+            case JobEnded():
+                self.line = "This was stopped: find again."
+            case _:
+                pass
+
+    def _heard(self, hear: Callable[[JobEvent], None], news: JobEvent) -> None:
+        if isinstance(news, (JobEnded, JobFailed)):
+            super()._heard(hear, news)
+
+    def _keep(self, task: Call, news: JobEvent) -> None:
+        match news:
+            case JobEnded(result) if result is not None:
+                with _lock:
+                    _known[task] = result
+                    while len(_known) > _KEPT:
+                        _known.popitem(last=False)
+            case JobFailed(message):
+                self._failures[task] = message
+            case _:
+                self._failures[task] = _STOPPED
+        with self._lock:
+            if self._timer is None:
+                self._next_one()

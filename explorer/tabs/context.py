@@ -107,7 +107,7 @@ class Player:
         self._name = name
         self._lock = threading.Lock()
         self._pause: threading.Event | None = None
-        """Of the thread that plays now; None when none does."""
+        """Set to pause the thread that plays now; None when none does."""
 
     @property
     def playing(self) -> bool:

@@ -22,6 +22,7 @@ from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import parse_polar_file
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft, rotor_toml
+from rotor.markup import tag
 from rotor.user_input import refusing, shorten
 
 SUFFIXES = (".toml", ".c81", ".txt", ".csv", ".pol", ".dat")
@@ -134,7 +135,7 @@ class FilePanel(Tab):
         """Designs that the address cannot hold now, by name in it."""
         gui = context.gui
         with gui.add_folder("Link and file"):
-            gui.add_html('<div class="rx rx-dim rx-small">Anyone with the link sees this design.</div>')
+            gui.add_html(tag("div.rx.rx-dim.rx-small", "Anyone with the link sees this design."))
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
             self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray", hint=hint("save"))
         with folder:

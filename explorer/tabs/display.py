@@ -13,12 +13,12 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.controller import TURN_RATES
-from rotor.chart import round_ticks, tick_text
+from rotor.chart import bar_ticks
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
 COMPARED = ("beside", "wipe")
-"""The same while there is an A; one at a time."""
+"""Fields of `ViewState` that a press switches while there is an A; one at a time."""
 TIMES = (1.0, 2.0, 4.0)
 """How many times its twist a blade may be drawn with."""
 _COLOURS = 17
@@ -142,17 +142,14 @@ class Display:
     def _show_field(self) -> None:
         if self._range is None:
             return
-        (field, (low, high)), view = self._range, self._view
+        (field, range_), view = self._range, self._view
         self._bridge.set(
             field={
                 "fields": list(FIELDS),
                 "field": view.field,
                 "unit": f"{field.unit}{field.note}",
                 "colours": _bar(field.colours),
-                "ticks": [
-                    [round(100.0 * (value - low) / (high - low), 2), tick_text(value)]
-                    for value in round_ticks(low, high, 5)
-                ],
+                "ticks": bar_ticks(*range_),
                 "faded": self._faded,
                 "fitted": self._fitted,
                 "regions": {name: getattr(view, name) for name in REGIONS},

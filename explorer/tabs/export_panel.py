@@ -7,7 +7,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from html import escape
 
 import viser
 from PIL import Image
@@ -32,6 +31,7 @@ from explorer.text.glossary import hint
 from explorer.text.readout import fineness
 from rotor import Design
 from rotor.actuator import Verdict
+from rotor.markup import tag
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
@@ -220,6 +220,5 @@ class ExportPanel(Tab):
             self._busy.release()
 
     def _say(self, kind: str, sentence: str) -> None:
-        self._state.content = (
-            f'<div class="rx rx-small rx-export" data-explorer="export" data-kind="{kind}">{escape(sentence)}</div>'
-        )
+        told = {"data_explorer": "export", "data_kind": kind}
+        self._state.content = tag("div.rx.rx-small.rx-export", sentence, **told)

@@ -3,7 +3,6 @@
 import math
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from html import escape
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
 from rotor import Solution, solve
+from rotor.markup import Attribute, Markup, group, tag
 
 FIELD = "Take step"
 """Label of the text field that clicks are written to: `step 3`, `take 1`, `drop 1`."""
@@ -31,7 +31,7 @@ _WIDTH, _HEIGHT, _LOWEST = 300.0, 40.0, 7.0
 _SPARK = 46.0, 18.0
 
 
-def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> str:
+def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> Markup:
     """SVG of the steps; `powers` [W] of those that were solved, a hollow bar for those that have no answer."""
     steps, present = history.steps, len(history.past)
     first = min(max(len(steps) - SHOWN, 0), present)  # The newest, unless undo has gone further back.
@@ -39,7 +39,7 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
     known = [powers[step] for step in shown if step in powers]
     low, high = (min(known), max(known)) if known else (0.0, 1.0)
     pitch = min(_WIDTH / max(len(shown), 1), 16.0)
-    bars = []
+    bars: list[Markup] = []
     for k, step in enumerate(shown):
         number_of = first + k
         power = powers.get(step)
@@ -49,47 +49,50 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
         fill = "none" if power is None else colour
         words = f"{twist_name(step)}; {flight_name(step, units)}; "
         words += "no trim" if power is None else units.watts(power)
+        wide, top, fine = max(pitch - 1.2, 1.0), _HEIGHT - height, {"rx": 1, "fill": fill, "stroke_width": 0.8}
         bars.append(
-            f'<g data-write="{FIELD}" data-value="step {number_of}" class="rx-take">'
-            f"<title>{escape(words)}</title>"
-            f'<rect x="{pitch * k:.2f}" y="0" width="{pitch:.2f}" height="{_HEIGHT}" fill="transparent"/>'
-            f'<rect x="{pitch * k + 0.6:.2f}" y="{_HEIGHT - height:.2f}" width="{max(pitch - 1.2, 1.0):.2f}" '
-            f'height="{height:.2f}" rx="1" fill="{fill}" stroke="{colour}" stroke-width=".8"/></g>'
+            tag(
+                "g.rx-take",
+                tag("title", words),
+                tag("rect", x=pitch * k, y=0, width=pitch, height=_HEIGHT, fill="transparent"),
+                tag("rect", x=pitch * k + 0.6, y=top, width=wide, height=height, stroke=colour, **fine),
+                data_write=FIELD,
+                data_value=f"step {number_of}",
+            )
         )
-    return (
-        f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" class="rx-strip" data-explorer="history" '
-        f'data-steps="{len(steps)}" data-present="{present}" role="img" aria-label="Steps of the design">'
-        f"{''.join(bars)}</svg>"
-    )
+    told: dict[str, Attribute] = {"data_steps": len(steps), "data_present": present, "data_explorer": "history"}
+    box, label = f"0 0 {_WIDTH:g} {_HEIGHT:g}", "Steps of the design"
+    return tag("svg.rx-strip", bars, viewBox=box, width="100%", role="img", aria_label=label, **told)
 
 
-def caption(history: History) -> str:
+def caption(history: History) -> Markup:
     """Where in the history the page stands."""
-    return (
-        f'<div class="rx-line rx-dim rx-small"><span>Step {len(history.past) + 1} of {len(history.steps)}</span>'
-        "<span>bar height: total power; click to go there</span></div>"
-    )
+    here = tag("span", f"Step {len(history.past) + 1} of {len(history.steps)}")
+    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "bar height: total power; click to go there"))
 
 
-def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> str:
+def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
-        return '<div class="rx-dim rx-small">No bookmarks yet: Keep bookmarks this design.</div>'
-    rows = []
+        return tag("div.rx-dim.rx-small", "No bookmarks yet: Keep bookmarks this design.")
+    rows: list[Markup] = []
     for k, item in enumerate(kept):
         change = ""
         if present is not None and math.isfinite(item.power):
             change = f"now {units.watts(present.power.total - item.power, sign=True)}"
-        take, drop = (f'data-write="{FIELD}" data-value="{verb} {k}"' for verb in ("take", "drop"))
+        take, drop = ({"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop"))
+        name = tag("div", twist_name(item.inputs)), tag("div.rx-dim.rx-small", flight_name(item.inputs, units))
+        power = units.watts(item.power), tag("div.rx-dim.rx-small", change)
         rows.append(
-            f'<tr><td {take} class="rx-take">{_spark(item.solution)}</td>'
-            f'<td {take} class="rx-take rx-kept"><div>{escape(twist_name(item.inputs))}</div>'
-            f'<div class="rx-dim rx-small">{escape(flight_name(item.inputs, units))}</div></td>'
-            f'<td {take} class="rx-take rx-num">{units.watts(item.power)}'
-            f'<div class="rx-dim rx-small">{change}</div></td>'
-            f'<td class="rx-num"><a {drop} class="rx-take rx-dim" title="Forget it">✕</a></td></tr>'
+            tag(
+                "tr",
+                tag("td.rx-take", _spark(item.solution), **take),
+                tag("td.rx-take.rx-kept", name, **take),
+                tag("td.rx-take.rx-num", power, **take),
+                tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Forget it", **drop)),
+            )
         )
-    return f'<table class="rx-kept-table" data-explorer="kept">{"".join(rows)}</table>'
+    return tag("table.rx-kept-table", rows, data_explorer="kept")
 
 
 def _asked(text: str) -> tuple[str, int] | None:
@@ -98,16 +101,15 @@ def _asked(text: str) -> tuple[str, int] | None:
     return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
 
 
-def _spark(solution: Solution) -> str:
+def _spark(solution: Solution) -> Markup:
     """The twist along the blade, ±12° high."""
     width, height = _SPARK
     r = np.linspace(solution.design.rotor.blade.root_cutout, 1.0, 24)
     angle = np.clip(np.degrees(solution.design.twist(r)) / 12.0, -1.0, 1.0)
     points = " ".join(f"{width * x:.1f},{0.5 * height * (1.0 - y):.1f}" for x, y in zip(r, angle, strict=True))
-    return (
-        f'<svg width="{width:g}" height="{height:g}"><path d="M0,{0.5 * height} h{width}" stroke="currentColor" '
-        f'opacity=".25"/><polyline points="{points}" fill="none" stroke="{THIS}" stroke-width="1.6"/></svg>'
-    )
+    zero = tag("path", d=f"M0,{0.5 * height} h{width}", stroke="currentColor", opacity=0.25)
+    twist = tag("polyline", points=points, fill="none", stroke=THIS, stroke_width=1.6)
+    return tag("svg", zero, twist, width=width, height=height)
 
 
 class HistoryPanel(Tab):
@@ -129,7 +131,7 @@ class HistoryPanel(Tab):
             self._strip = gui.add_html("")
             keep = gui.add_button("Keep this design", color="gray", hint=hint("keep"))
             self._rows = gui.add_html("")
-            gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
+            gui.add_html(tag("div.rx-bridge"))  # The style sheet hides the row after it.
             self._field = gui.add_text(FIELD, "", hint=hint("take"))
         for name, act in (("undo", self.undo), ("redo", self.redo)):
             context.keyboard.bind(name, act)
@@ -155,7 +157,7 @@ class HistoryPanel(Tab):
                 self._history.release()
 
     def solved(self, inputs: Inputs, power: float) -> None:
-        """They have an answer: total power [W]."""
+        """Note the answer of the inputs: total power [W]."""
         self._powers[inputs] = power
 
     def undo(self) -> None:
@@ -225,9 +227,9 @@ class HistoryPanel(Tab):
             if self._drawn == (steps, present, kept, solution, units):
                 return
             self._drawn = (steps, present, kept, solution, units)
-            steps_html = strip(self._history, self._powers, units) + caption(self._history)
-        self._strip.content = f'<div class="rx">{steps_html}</div>'
-        self._rows.content = f'<div class="rx">{kept_rows(kept, solution, units)}</div>'
+            steps_html = group(strip(self._history, self._powers, units), caption(self._history))
+        self._strip.content = tag("div.rx", steps_html)
+        self._rows.content = tag("div.rx", kept_rows(kept, solution, units))
 
     def _move(self, inputs: Inputs | None) -> None:
         """Move the widgets, under the lock."""

@@ -3,12 +3,12 @@
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import viser
 
 from explorer.hosting.browser import call
+from rotor.markup import Markup, tag
 
 SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 COARSE = 10
@@ -25,7 +25,7 @@ class Key:
     group: str
     title: str
     key: str = ""
-    """As the page names it; empty: in the palette only."""
+    """The key as the page names it; empty: in the palette only."""
     modifier: str = ""
     """`SHIFT`, `CTRL`, `CTRL_SHIFT`, or empty."""
 
@@ -101,22 +101,21 @@ _ALWAYS = (
 """What works without being a command."""
 
 
-def keys_help(bound: Iterable[str]) -> str:
+def keys_help(bound: Iterable[str]) -> Markup:
     """The list of keys, by group, of the commands that this page has; as HTML."""
     known = set(bound)
-    groups: dict[str, list[str]] = {}
+    groups: dict[str, list[Markup]] = {}
     for name, key in KEYS.items():
         if name in known and key.key:
             groups.setdefault(key.group, []).append(_row(key.title, key.parts))
     for group, title, parts in _ALWAYS:
         groups.setdefault(group, []).append(_row(title, parts))
-    lists = "".join(f"<section><h4>{escape(group)}</h4>{''.join(rows)}</section>" for group, rows in groups.items())
-    return f'<div class="rx rx-keys" data-explorer="keys">{lists}</div>'
+    lists = [tag("section", tag("h4", group), rows) for group, rows in groups.items()]
+    return tag("div.rx.rx-keys", lists, data_explorer="keys")
 
 
-def _row(title: str, parts: tuple[str, ...]) -> str:
-    caps = "".join(f"<kbd>{escape(part)}</kbd>" for part in parts)
-    return f'<div class="rx-line"><span>{escape(title)}</span><span>{caps}</span></div>'
+def _row(title: str, parts: tuple[str, ...]) -> Markup:
+    return tag("div.rx-line", tag("span", title), tag("span", [tag("kbd", part) for part in parts]))
 
 
 class Keyboard:

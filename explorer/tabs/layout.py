@@ -1,12 +1,12 @@
 """Where the parts of the page stand: three modes in the rail on the right, and one drawer at a time on the left."""
 
-from collections.abc import Callable, Mapping
-from html import escape
+from collections.abc import Callable
 from typing import Any, Literal
 
 import viser
 
 from explorer.hosting.browser import Bridge
+from rotor.markup import tag
 
 Mode = Literal["explore", "optimise", "actuate"]
 MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
@@ -31,11 +31,6 @@ def by_hand(handle: Any, action: Callable[[Any], None]) -> None:
     handle.on_update(lambda event: action(event.target.value) if event.client is not None else None)
 
 
-def key_of(titles: Mapping[Any, str], title: str) -> Any:
-    """The key of what a menu shows."""
-    return next(key for key, value in titles.items() if value == title)
-
-
 class Layout:
     """One session's. What is not shown is not in the page, so that it costs the browser nothing."""
 
@@ -56,10 +51,8 @@ class Layout:
             for name, title in DRAWERS.items():
                 self._drawers[name] = gui.add_folder(None, visible=False)
                 with self._drawers[name]:
-                    gui.add_html(
-                        f'<div class="rxp-title" data-explorer="drawer" data-name="{name}">{escape(title)}'
-                        '<button data-do="drawer" data-value="" aria-label="Close" title="Close (Esc)">×</button></div>'
-                    )
+                    close = tag("button", "×", data_do="drawer", data_value="", aria_label="Close", title="Close (Esc)")
+                    gui.add_html(tag("div.rxp-title", title, close, data_explorer="drawer", data_name=name))
         self._panel.dock_left()
         self.enlarge(False)
         bridge.on("mode", self.show_mode)
@@ -86,9 +79,9 @@ class Layout:
         """Open a drawer in place of another; one that is open, or the empty name, closes it."""
         name = "" if name == self.drawer or name not in self._drawers else name
         before, self.drawer = self.drawer, name
-        for one, folder in self._drawers.items():
-            if one in (before, name):
-                folder.visible = one == name
+        for title, folder in self._drawers.items():
+            if title in (before, name):
+                folder.visible = title == name
         self._panel.visible = bool(name)
         self._tell()
 
@@ -142,9 +135,8 @@ class Sections:
                 self._changed()
 
     def _draw(self) -> None:
-        buttons = "".join(
-            f'<button data-do="{self._name}" data-value="{escape(title)}" '
-            f'aria-pressed="{str(title == self._now).lower()}">{escape(title)}</button>'
+        buttons = [
+            tag("button", title, data_do=self._name, data_value=title, aria_pressed=str(title == self._now).lower())
             for title in self._parts
-        )
-        self._row.content = f'<div class="rxp-sections" role="group">{buttons}</div>'
+        ]
+        self._row.content = tag("div.rxp-sections", buttons, role="group")

@@ -1,6 +1,7 @@
 """The live charts: those of the panels, and the strip below the scene."""
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -15,7 +16,7 @@ from explorer.charts.strip import (
     lift_chart,
     power_change_chart,
     total_power_chart,
-    where_to_twist_chart,
+    with_speeds,
 )
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import baseline_of
@@ -24,7 +25,6 @@ from explorer.model.units import UNITS, number
 from rotor import Design, Solution
 from rotor.chart import Chart, as_json
 from rotor.markup import Markup, tag
-from rotor.trim import PitchGradient
 
 
 def chart_box(chart: Chart, height: float = 94.0) -> Markup:
@@ -52,7 +52,7 @@ class PanelChart:
 
 
 _BESIDE_STARTS = ("power", "lift")
-_ORDER = ("power", "alpha", "lift", "worth")
+_ORDER = ("power", "alpha", "lift")
 _VIBRATION = "vibration"
 """Takes the place of the lift where blades bend."""
 _MEASURED = "measured"
@@ -66,7 +66,7 @@ class ChartStrip:
         self._bridge = bridge
         self._charts: dict[str, Chart] = {}
         self._told: dict[str, dict[str, Any]] = {}
-        """The same as the page draws them."""
+        """The charts as the page draws them."""
         self._kinds: dict[str, str] = {}
         self._faded = self._pinned = False
         self._plain = False
@@ -77,16 +77,11 @@ class ChartStrip:
         self._power: tuple[SessionState, PowerCurve, bool] | None = None
         """What power over µ shows, to be drawn again when more is known."""
 
-    def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
-        """Follow a converged state; `gradient`: of its power by pitch, None where there is none.
-
-        Sent together with power over µ: `show_power` follows at once.
-        """
+    def show(self, state: SessionState) -> None:
+        """Follow a converged state; sent together with power over µ: `show_power` follows at once."""
         self._pinned, self._faded = state.pinned is not None, False
         self._show_alpha(state)
         self._place("lift", lift_chart(state.solution, state.reference, self._held("lift"), self._compared))
-        units, held = UNITS[state.view.units], self._held("worth")
-        self._place("worth", None if gradient is None else where_to_twist_chart(gradient, units, held))
         self._show_measured(state.solution)
 
     def solve_measured(self, state: SessionState, superseded: Callable[[], bool]) -> None:
@@ -146,13 +141,18 @@ class ChartStrip:
         if plain:
             marks = self._flown.marks(state.solution, units)
             total = None if failed else state.solution.power.total
-            chart = total_power_chart(curve, mu, total, units, held, marks, design.aircraft)
+            chart = total_power_chart(curve, mu, total, units, held, marks, design)
             notes = [chart.note, band_words(design, curve.band is not None), source_of(design)]
             value = "" if failed else self._flown.value(state.solution)
             chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
         else:
             chart = power_change_chart(curve, mu, change, name, units, held)
+        fastest = math.nan
+        if level := curve.current and state.inputs.stand is None:
+            chart, fastest = with_speeds(chart, curve, design)
         self._place("power", chart)
+        if level and not failed and math.isfinite(fastest):
+            self._told["power"]["speeds"] = {"mu": mu, "fastest": math.floor(200.0 * fastest) / 200.0}
         self._send()
 
     def show_vibration(self, chart: Chart | None) -> None:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from explorer.charts.doubt import card_words, doubt_rows
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
@@ -14,16 +15,21 @@ from explorer.picture.blade_mesh import inset
 from explorer.picture.camera_views import LETTER_SIZE
 from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import ChartStrip, against
 from explorer.text import readout
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, status_panel, trust_page, validated
 from explorer.text.why import why
-from rotor import Solution
+from rotor import Solution, doubt
+from rotor.markup import Markup
 from rotor.study.series import between_drag_areas
 from rotor.trim import PitchGradient, power_gradient
+from rotor.trim.doubt import models_beside
 
+_STILL = 0.6
+"""[s] without a change before other models are solved."""
 _HALF = 6e3
 """Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
 
@@ -38,15 +44,15 @@ class SliderSensitivities:
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
         """Follow a converged state; those of flight sliders are not known yet."""
-        own = gradient is not None and state.solution.design == state.inputs.design()
-        self._twist = twist_sensitivities(state.inputs, gradient) if gradient is not None and own else {}
+        current = gradient is not None and state.solution.design == state.inputs.design()
+        self._twist = twist_sensitivities(state.inputs, gradient) if gradient is not None and current else {}
         self._flight = {}
         self._send(state)
 
     @property
     def slopes(self) -> dict[str, float]:
         """Change of power for a unit of each twist slider [W]."""
-        return {name: one.slope for name, one in self._twist.items()}
+        return {name: worth.slope for name, worth in self._twist.items()}
 
     def solve_flight(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """Compute those of the flight sliders, unless newer input comes."""
@@ -62,19 +68,19 @@ class SliderSensitivities:
     def _send(self, state: SessionState) -> None:
         units = UNITS[state.view.units]
         known = {**self._twist, **self._flight}
-        self._bridge.set(worth={name: sensitivity_row(state.inputs, one, units) for name, one in known.items()})
+        self._bridge.set(worth={name: sensitivity_row(state.inputs, change, units) for name, change in known.items()})
 
 
-def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dict[str, Any]:
+def sensitivity_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units) -> dict[str, Any]:
     """The change of power by a step up, with its sign, where the arrow starts along the slider, and which way saves."""
-    form = slider(one.name, SI, inputs.aircraft)
-    at = (getattr(inputs, one.name) - form.low) / (form.high - form.low)
-    way = {1: "up", -1: "down", 0: ""}[one.saving_direction]
-    value = one.value_text(units) if way else "no effect"
-    if one.name in inputs.idle:
+    form = slider(sensitivity.name, SI, inputs.aircraft)
+    at = (getattr(inputs, sensitivity.name) - form.low) / (form.high - form.low)
+    way = {1: "up", -1: "down", 0: ""}[sensitivity.saving_direction]
+    value = sensitivity.value_text(units) if way else "no effect"
+    if sensitivity.name in inputs.idle:
         value = "no effect while both changes are 0"
-    title = SLIDERS[one.name].label.partition(" [")[0]
-    step = slider(one.name, units).per.removeprefix("/").strip("()")
+    title = SLIDERS[sensitivity.name].label.partition(" [")[0]
+    step = slider(sensitivity.name, units).per.removeprefix("/").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"
     sentence = (
         f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
@@ -82,9 +88,9 @@ def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dic
         if way
         else f"{title}: {step} more changes power by less than 0.05 kW."
     )
-    size = abs(one.watts())
+    size = abs(sensitivity.watts())
     return {
-        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": one.unit_text(units),
+        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": sensitivity.unit_text(units),
         "size": round(size / (size + _HALF), 3), "sentence": sentence,
     }  # fmt: skip
 
@@ -108,8 +114,9 @@ class PowerCard:
         self._before: Solution | None = None
         """The solution that the change since the grab counts from."""
         self._counted_from: float | None = None
-        """Its power [W]."""
+        """Power of the solution that the change counts from [W]."""
         self._content: dict[str, Any] | None = None
+        self._doubt = _NO_DOUBT
 
     def show(self, state: SessionState, pause: float) -> None:
         """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
@@ -120,8 +127,15 @@ class PowerCard:
             self._counted_from, self._before = self._tracker.reference, solution if first else self._last
         self._last = solution
         numbers = {**_numbers(state, units), **self._change(state, units)}
-        self._content = {**numbers, "problem": "", "band": "", "status": _status(state)}
+        self._content = {**numbers, "problem": "", "band": "", "status": _status(state), **self._doubt}
         self._bridge.set(power=self._content)
+
+    def show_doubt(self, words: dict[str, Any]) -> None:
+        """Say how sure the numbers shown are; while the twist moves, the words of the step before stay."""
+        self._doubt = words
+        if self._content is not None and not self._content["problem"]:
+            self._content = {**self._content, **words}
+            self._bridge.set(power=self._content)
 
     def show_band(self, words: str) -> None:
         """Say between which powers the drag area of the sources leaves the total."""
@@ -208,22 +222,31 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
 
 
 def _status(state: SessionState) -> dict[str, str]:
-    """The chip: trimmed, the stalled area or the number of caveats, and how well this rotor is validated here."""
+    """The chip: trimmed, or engines, stalled area, number of caveats; and how well this rotor is validated here."""
     reasons = cautions(state.solution, state.pinned)
     stalled = state.solution.stalled_area
     record = validated(state.solution)
     title = " ".join([*reasons, record.sentence])
     if state.solution.power.total < 0.0:
         words = "autorotation"
-    elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
+    elif (installed := _exceeded(state.solution)) is not None:
+        words = f"engines give only {UNITS[state.view.units].watts(installed)}"
+    elif state.solution.redone or max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
         words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
+        words = f"dynamic stall: {words}" if state.solution.redone else words
     elif reasons:
         words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
     else:
         title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
         return {"kind": "converged", "words": "trimmed", "measured": record.words, "title": title}
     return {"kind": "care", "words": words, "measured": record.words, "title": title}
+
+
+def _exceeded(solution: Solution) -> float | None:
+    """Power of the engines [W] where the rotors take more; None where they do not, or it is not known."""
+    beyond = any(caveat.name == "installed-power" for caveat in solution.caveats)
+    return solution.design.aircraft.installed_power if beyond else None
 
 
 def _kind(change: float, total: float) -> str:
@@ -233,7 +256,9 @@ def _kind(change: float, total: float) -> str:
     return "good" if change < 0.0 else "bad"
 
 
+_NO_DOUBT: dict[str, Any] = {"within": "", "change_within": "", "sure": "", "doubt": ""}
 _EMPTY: dict[str, Any] = {
+    **_NO_DOUBT,
     "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
     "ideal_title": "", "since": None, "rest": "", "why": "", "band": "",
 }  # fmt: skip
@@ -246,6 +271,8 @@ class ResultsPanel:
         self.card = PowerCard(bridge, context.tracker)
         self.strip = ChartStrip(bridge)
         self.sliders = SliderSensitivities(bridge)
+        self._models = PoolAnswers(context.pool, 5, context.wake)
+        """The powers with other models."""
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
@@ -256,6 +283,7 @@ class ResultsPanel:
             self._trim = gui.add_html("")
         with layout.in_drawer("trust"):
             self._status = gui.add_html(status_panel(None))
+            self._doubts = gui.add_html("")
             gui.add_html(trust_page())
 
     def show(self, state: SessionState, pause: float) -> None:
@@ -265,11 +293,16 @@ class ResultsPanel:
         self._show_inset(state)
         gradient = self._gradient_of(state.solution)
         self.sliders.show(state, gradient)
-        self.strip.show(state, gradient)
+        self.strip.show(state)
+        self._show_doubt(state)
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
             self._power.content, self._trim.content = _tables(state, self._band_words(state))
+
+    def stop(self) -> None:
+        """The browser has left."""
+        self._models.stop()
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
@@ -293,6 +326,24 @@ class ResultsPanel:
         if self._state is not None:
             numbers = _tables(self._state, self._band_words(self._state))
             self._power.content, self._trim.content = map(readout.faded, numbers)
+
+    def _show_doubt(self, state: SessionState) -> None:
+        """How sure power is, and its change from the reference."""
+        solution, reference = state.solution, state.reference
+        if solution.design.models.trim == "free-rotor":
+            self.card.show_doubt(_NO_DOUBT)
+            self._doubts.content = ""
+            return
+        there = reference.design
+        compared = reference.converged and there != solution.design and there.models.trim != "free-rotor"
+        units, doubted = UNITS[state.view.units], doubt(solution, reference if compared else None)
+        self.card.show_doubt(card_words(doubted, units))
+        task = Call(models_beside, (solution.design, there if compared else None))
+        opened = self._layout.drawer == "trust"
+        self._models.ask((task,) if opened else (), _STILL)
+        if opened:
+            models = self._models.answer(task)
+            self._doubts.content = doubt_rows(doubted, units, models if isinstance(models, tuple) else ())
 
     def _show_inset(self, state: SessionState) -> None:
         solution, psi = state.solution, math.radians(state.view.azimuth_deg)
@@ -340,7 +391,7 @@ class ResultsPanel:
         return self._gradient[1]
 
 
-def _tables(state: SessionState, band: str) -> tuple[str, str]:
+def _tables(state: SessionState, band: str) -> tuple[Markup, Markup]:
     """Power and trim: of this design, or of A and B."""
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:

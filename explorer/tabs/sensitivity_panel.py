@@ -20,8 +20,9 @@ from rotor import Solution
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line
 from rotor.design import TwistLaw
+from rotor.markup import Markup, tag
 from rotor.trim import PitchGradient
-from rotor.trim.adjoint import Adjoint, power_along
+from rotor.trim.adjoint import adjoint_of, power_along
 
 _KILOWATT_PER_DEGREE = math.radians(1.0) / 1e3
 _ALONG, _ACROSS = 150, 9
@@ -33,7 +34,7 @@ def sensitivity_chart(solution: Solution, previous: Range | None, pinned: Soluti
 
     All in kW per degree per unit of r/R; there is no A where none is pinned or it has no trim.
     """
-    adjoint = Adjoint(solution)
+    adjoint = adjoint_of(solution)
     total, induced = (power_along(adjoint, power) for power in ("total", "induced"))
     lines = [Line("induced", induced.r, induced.density * _KILOWATT_PER_DEGREE, BASELINE, "5 3", 1.5)]
     if pinned is not None and pinned.converged:
@@ -41,7 +42,7 @@ def sensitivity_chart(solution: Solution, previous: Range | None, pinned: Soluti
         lines.append(role_line("pinned", along.r, along.density * _KILOWATT_PER_DEGREE, label="A"))
     here = "B" if len(lines) > 1 else "total"
     lines.append(role_line("saving", total.r, total.density * _KILOWATT_PER_DEGREE, label=here))
-    seen = [value for one in lines for value in one.y if math.isfinite(value)]
+    seen = [value for line in lines for value in line.y if math.isfinite(value)]
     y_range = held_range(previous, min(-1.0, *seen), max(1.0, *seen))
     note = READOUTS["chart_sensitivity"].text
     return Chart("dP/dθ", Axis("r/R", (0.1, 1.02)), Axis("kW/° per r/R", y_range), tuple(lines), note=note)
@@ -50,7 +51,7 @@ def sensitivity_chart(solution: Solution, previous: Range | None, pinned: Soluti
 @lru_cache(maxsize=4)
 def _of_pinned(solution: Solution) -> PitchGradient:
     """A stays while the sliders move: half the work of a round."""
-    return power_along(Adjoint(solution), "total")
+    return power_along(adjoint_of(solution), "total")
 
 
 def strip(
@@ -82,11 +83,11 @@ def _total(chart: Chart) -> tuple[Array, Array]:
     return np.array(line.x), np.array(line.y)
 
 
-def explanation(chart: Chart) -> str:
+def explanation(chart: Chart) -> Markup:
     """What to do, in a line, under the chart."""
     r, values = _total(chart)
     if not np.isfinite(values).all():
-        return ""
+        return Markup()
     up, down = float(r[np.argmin(values)]), float(r[np.argmax(values)])
     if max(abs(values)) < 1.0:
         return _box("No local change of pitch saves power: the twist is near its optimum.")
@@ -96,14 +97,14 @@ def explanation(chart: Chart) -> str:
     )
 
 
-def _box(text: str) -> str:
-    return f'<div class="rx rx-dim rx-small rx-where" data-explorer="sensitivity">{text}</div>'
+def _box(text: str) -> Markup:
+    return tag("div.rx.rx-dim.rx-small.rx-where", text, data_explorer="sensitivity")
 
 
 _HEIGHT = 220
 _WORDS = (
-    '<div class="rx rx-dim rx-small rx-found">Power sensitivity to local pitch, with the rotor retrimmed: '
-    "positive where more pitch costs power, negative where it saves.</div>"
+    "Power sensitivity to local pitch, with the rotor retrimmed: positive where more pitch costs power, negative where "
+    "it saves."
 )
 
 
@@ -111,7 +112,7 @@ class SensitivityPanel(Tab):
     def __init__(self, context: TabContext, strip: Strip) -> None:
         self._strip, self._layout, gui = strip, context.layout, context.gui
         self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
-        gui.add_html(_WORDS)
+        gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", _WORDS))
         self._chart = PanelChart(gui, _HEIGHT)
         self._words = gui.add_html("")
         self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))

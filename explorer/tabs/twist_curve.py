@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import LOOKS, Role, role_line
-from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations
+from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations, turn_ends
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
+from explorer.model.sliders import slider
+from explorer.model.units import SI
 from explorer.tabs.context import TabContext
 from rotor import Design, Solution
 from rotor.arrays import Array
@@ -58,13 +60,18 @@ class TwistCurveEditor:
         self._begin(grab)
         self._presses += 1
         places = stations(grab.inputs)
+        before, response = self._response(grab)
+        ends = sorted(
+            [before + response * turn, slider(name, SI).label] for turn, name in turn_ends(grab.inputs, grab.station)
+        )
         self._context.bridge.set(
             rubber={
                 "press": self._presses,
                 "knot": str(grab.station.index),
                 "by_key": by_key,
-                "stations": [one.r for one in places],
-                "titles": [one.title for one in places],
+                "stations": [place.r for place in places],
+                "titles": [place.title for place in places],
+                "ends": ends,
             }
         )
 
@@ -90,7 +97,7 @@ class TwistCurveEditor:
         name, change = value
         if change == "start":
             start = grabbed_inputs(self._context.inputs())
-            station = next((one for one in stations(start) if str(one.index) == name), None)
+            station = next((station for station in stations(start) if str(station.index) == name), None)
             if station is not None and not self._context.held:
                 self._begin(Grab(start, station))
         elif change == "end":
@@ -108,7 +115,7 @@ class TwistCurveEditor:
     def _move(self, name: str, place: list[float | None]) -> None:
         """Move a station to r/R and to a twist [°] less that at 0.75 R, or to a twist alone."""
         start = self._grab.inputs if self._grab is not None else self._context.inputs()
-        station = next((one for one in stations(start) if str(one.index) == name), None)
+        station = next((station for station in stations(start) if str(station.index) == name), None)
         if station is None:
             return
         grab, (r, theta) = Grab(start, station), place
@@ -128,21 +135,22 @@ class TwistCurveEditor:
 
         The curve is drawn about 0.75 R, which may turn as well: so much more that the handle meets the pointer.
         """
-        at = np.array([grab.station.r])
-        before, after = (float(shown_twist(one.design())(at)[0]) for one in (grab.inputs, grab.turned(1.0)))
-        return before, after - before if abs(after - before) > _LEAST_RESPONSE else 1.0
+        at, (_, (highest, _)) = np.array([grab.station.r]), turn_ends(grab.inputs, grab.station)
+        turn = 1.0 if highest >= 1.0 else -1.0  # Away from the end of its slider.
+        before, after = (float(shown_twist(inputs.design())(at)[0]) for inputs in (grab.inputs, grab.turned(turn)))
+        return before, (after - before) / turn if abs(after - before) > _LEAST_RESPONSE else 1.0
 
     def show(self, state: SessionState) -> None:
         """Draw the jig twist over what it is compared with, as the pitch less that at 0.75 R, and the flown twist."""
         design = state.solution.design
         root = design.rotor.blade.root_cutout
         r = np.linspace(root, 1.0, _POINTS)
-        own, other = shown_twist(design)(r), shown_twist(state.reference.design)(r)
+        angles, other = shown_twist(design)(r), shown_twist(state.reference.design)(r)
         flown = flown_band(state.solution, r)
-        seen = np.concatenate((own, other, *(flown or ())))
+        seen = np.concatenate((angles, other, *(flown or ())))
         axis = self._axis(float(seen.min()), float(seen.max()))
         compared: Role = "reference" if state.pinned is None else "pinned"
-        parts: list[Series] = [role_line(compared, r, other), role_line("this", r, own, label="jig")]
+        parts: list[Series] = [role_line(compared, r, other), role_line("this", r, angles, label="jig")]
         if flown is not None:
             mean, low, high = flown
             parts = [Band("", r, low, high, FLOWN), parts[0], role_line("flown", r, mean, label="flown"), parts[1]]
@@ -176,7 +184,7 @@ def flown_band(solution: Solution, r: Array) -> tuple[Array, Array, Array] | Non
     """
     disk, design = solution.disk, solution.design
     active = None if design.active_twist is None or design.hovering else design.active_twist(disk.r, disk.psi)
-    added = [one for one in (disk.elastic_twist, active) if one is not None]
+    added = [twist for twist in (disk.elastic_twist, active) if twist is not None]
     if not added:
         return None
     both, jig, stations = sum(added[1:], start=added[0]), shown_twist(design)(r), disk.r

@@ -43,17 +43,17 @@ _FAN_HEIGHT = 200.0
 
 class VibrationPanel:
     def __init__(self, context: TabContext, scene: SceneController, strip: ChartStrip) -> None:
-        """Its widgets, the fan plot, go where the context stands."""
+        """The fan plot goes where the context stands."""
         self._context, self._scene, self._strip = context, scene, strip
         self._state: SessionState | None = None
         self._curves, self._fans = IndexCurves(), FanPlots()
         self._loads: dict[Solution, HubLoads | None] = {}
-        """Of the present solution and of its reference."""
+        """Hub loads of the present solution and of its reference."""
         self._rigid: tuple[Solution, Solution] | None = None
         """A solution, and that of the same design without bending."""
         self._heading = context.gui.add_html("", visible=False)
         self._fan = context.gui.add_html("", visible=False)
-        self._content = ""
+        self._content = Markup()
 
     def show(self, state: SessionState) -> None:
         self._state = state
@@ -65,10 +65,10 @@ class VibrationPanel:
             self._clear()
             return
         known = self._loads
-        self._loads = {one: known[one] for one in (state.solution, state.reference) if one in known}
-        for one in (state.solution, state.reference):
-            if one not in self._loads and one.converged and one.design.models.bending:
-                self._loads[one] = hub_loads(one, solve, band=False)
+        self._loads = {solution: known[solution] for solution in (state.solution, state.reference) if solution in known}
+        for solution in (state.solution, state.reference):
+            if solution not in self._loads and solution.converged and solution.design.models.bending:
+                self._loads[solution] = hub_loads(solution, solve, band=False)
         self._draw()
         self._show_fan()
 
@@ -104,7 +104,7 @@ class VibrationPanel:
 
     @property
     def index(self) -> float | None:
-        """Of the state that is shown [%]; None without hub loads."""
+        """Vibration index of the state that is shown [%]; None without hub loads."""
         loads = None if self._state is None else self._loads.get(self._state.solution)
         return None if loads is None else loads.index
 
@@ -121,9 +121,9 @@ class VibrationPanel:
         known = self._loads.get(solution)
         if not solution.converged or (known is not None and (known.band is not None or not band)):
             return
-        found = hub_loads(solution, stopping(superseded), band=band)
+        loads = hub_loads(solution, stopping(superseded), band=band)
         if not superseded():
-            self._loads[solution] = found
+            self._loads[solution] = loads
             self._draw()
 
     def _solve_cost(self, state: SessionState) -> None:
@@ -199,9 +199,9 @@ class VibrationPanel:
         if reason is not None or loads is None:
             sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
             return {"index": "", "sentence": sentence, "change": "", "title": sentence}
-        band = "band over wakes: computing"
+        band = "band over inflow models: computing"
         if loads.band is not None:
-            band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over wakes"
+            band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over inflow models"
         change, kind = self._change(state, loads)
         return {
             "index": number(loads.index, 1),

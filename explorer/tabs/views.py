@@ -22,6 +22,7 @@ from explorer.tabs.probe.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, pinned_name
 from explorer.text.glossary import hint
 from rotor import Design, Solution
+from rotor.markup import tag
 
 
 class TopBar(Tab):
@@ -119,9 +120,8 @@ class SettingsPanel(Tab):
         by_hand(self._units, lambda title: self._change(units=title))
         by_hand(self._dark, lambda dark: self._change(dark=dark))
         self._big.on_update(lambda _: self._enlarge())
-        gui.add_html(
-            '<div class="rx rx-dim rx-small"><p>Keys: press <b>?</b> for the list, Ctrl+K to find a command.</p></div>'
-        )
+        words = tag("p", "Keys: press ", tag("b", "?"), " for the list, Ctrl+K to find a command.")
+        gui.add_html(tag("div.rx.rx-dim.rx-small", words))
         bind("units", lambda: self._change(units=_after(tuple(UNITS), context.view().units)))
         bind("dark", lambda: self._change(dark=not context.view().dark))
         bind("field_next", lambda: self._change(field=_after(tuple(FIELDS), context.view().field)))
@@ -265,7 +265,7 @@ class SceneViews:
         self._show()
 
     def _show(self) -> None:
-        lifted, own = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
-        views = (*([("actuator", "Actuator")] if own else []), *VIEWS)
+        lifted, on_stage = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
+        views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
         now = "actuator" if lifted else "" if self._instead else self._view
         self._context.bridge.set(views={"all": views, "now": now})

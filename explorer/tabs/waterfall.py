@@ -1,7 +1,6 @@
 """What each part of the physics costs: the waterfall of power, each switch off alone, and their panel."""
 
 from collections.abc import Callable, Iterator, Sequence
-from html import escape
 
 from explorer.colours import PARTS
 from explorer.model.session_state import SessionState
@@ -11,6 +10,7 @@ from explorer.text import readout
 from explorer.text.readout import part_titles
 from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
+from rotor.markup import Markup, group, tag
 from rotor.study.series import WaterfallStep, waterfall_steps
 
 WIDTH = 312
@@ -24,12 +24,12 @@ _THINNEST = 1.6
 """[px] of a bar that stands for next to nothing."""
 
 
-def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
+def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup:
     """Rows from everything off to everything on; as far as the steps are known. Empty without steps."""
     if not steps:
-        return '<div class="rx rx-dim" data-explorer="waterfall" data-steps="0">Computing …</div>'
+        return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
     top = 1.04 * max((_length(step) for step in steps if step.power is not None), default=1.0)
-    rows: list[str] = []
+    rows: list[Markup] = []
     for k, step in enumerate(steps):
         y = 2.0 + k * _ROW
         last = k == len(SWITCHES)
@@ -37,17 +37,16 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
         if last and step.power is not None:
             rows.append(_whole("All switched on", step, y + _ROW, top, units))
     height = (len(steps) + (len(steps) > len(SWITCHES))) * _ROW - 8.0
-    done = f'data-explorer="waterfall" data-steps="{len(steps)}"'
-    return (
-        f'<div class="rx rx-waterfall" {done}><svg viewBox="0 0 {WIDTH} {height:.0f}" width="100%" role="img" '
-        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key(steps[0], units)}</div>'
-    )
+    box = f"0 0 {WIDTH} {height:.0f}"
+    drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
+    key = _key(steps[0], units)
+    return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
 
 
-def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
+def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     if step.power is None:
-        sentence = f"<title>{escape(step.solution.message)}</title>"
-        return f"<g>{sentence}{_words(0, y + 11, step.title)}{_words(_BAR_LEFT, y + 11, 'has no trim', 'rx-w-bad')}</g>"
+        sentence, words = tag("title", step.solution.message), _words(0, y + 11, step.title)
+        return tag("g", sentence, words, _words(_BAR_LEFT, y + 11, "has no trim", "rx-w-bad"))
     change, added = step.change, step.added
     if change is None or added is None or step.against is None:
         return _whole(step.title, step, y, top, units)
@@ -57,22 +56,19 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
     if width < _THINNEST:
         left, width = 0.5 * (before + after - _THINNEST), _THINNEST
     colour = _MORE if added > 0.0 else _LESS
-    bar = "" if step.note else _rect(left, y + 2, width, colour)
-    link = f'<line x1="{before:.1f}" x2="{before:.1f}" y1="{y - 12:.1f}" y2="{y + 13:.1f}" class="rx-w-link"/>'
-    title = f"<title>{escape(_spoken(step, units))}</title>"
+    bar = None if step.note else _rect(left, y + 2, width, colour)
+    link = tag("line.rx-w-link", x1=before, x2=before, y1=y - 12, y2=y + 13)
     beneath = _patches(change, y, units)
     if step.note:  # From the bars on; one too long for that ends at the right edge.
         long = len(step.note) > _LONG_NOTE
         place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
         beneath = _words(place, y + 24, step.note, look)
     shown = number(unit.of(added), 1, sign=True)
-    return (
-        f"<g>{title}{link}{_words(0, y + 11, step.title)}{bar}"
-        f"{_words(WIDTH, y + 11, shown, 'rx-w-number')}{beneath}</g>"
-    )
+    power = _words(WIDTH, y + 11, shown, "rx-w-number")
+    return tag("g", tag("title", _spoken(step, units)), link, _words(0, y + 11, step.title), bar, power, beneath)
 
 
-def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> str:
+def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     """A bar of all parts from zero."""
     power, x, rects = step.solution.power, _BAR_LEFT, []
     titles = part_titles(step.solution.design)
@@ -83,23 +79,21 @@ def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -
     unit = units.power[0]
     parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in titles)
     total = _words(WIDTH, y + 11, number(unit.of(power.total), 1), "rx-w-number rx-w-strong")
-    return (
-        f"<g><title>{escape(f'{name}: {unit.text(power.total, 1)}; {parts}')}</title>"
-        f"{_words(0, y + 11, name, 'rx-w-strong')}{''.join(rects)}{total}</g>"
-    )
+    title = tag("title", f"{name}: {unit.text(power.total, 1)}; {parts}")
+    return tag("g", title, _words(0, y + 11, name, "rx-w-strong"), rects, total)
 
 
-def _patches(change: dict[str, float], y: float, units: Units) -> str:
+def _patches(change: dict[str, float], y: float, units: Units) -> Markup:
     """The change by part: a patch of the part's colour and a number, for parts that change."""
     x, drawn = _BAR_LEFT, []
     for part, value in change.items():
         text = number(units.power[0].of(value), 0, sign=True)
         if text == "0":
             continue
-        drawn.append(f'<rect x="{x:.1f}" y="{y + 18:.1f}" width="6" height="6" rx="1.5" fill="{PARTS[part]}"/>')
+        drawn.append(tag("rect", x=x, y=y + 18, width=6, height=6, rx=1.5, fill=PARTS[part]))
         drawn.append(_words(x + 9, y + 24, text, "rx-w-note"))
         x += 17.0 + 5.6 * len(text)
-    return "".join(drawn)
+    return group(drawn)
 
 
 def _spoken(step: WaterfallStep, units: Units) -> str:
@@ -117,57 +111,48 @@ def _length(step: WaterfallStep) -> float:
     return max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS))
 
 
-def _key(step: WaterfallStep, units: Units) -> str:
+def _key(step: WaterfallStep, units: Units) -> Markup:
     """The parts' colours, and the unit of every number above."""
-    entries = "".join(
-        f'<span><span class="rx-patch" style="background:{PARTS[name]}"></span>{escape(name)}</span>'
-        for name in part_titles(step.solution.design)
-    )
-    return f'<div class="rx-dim rx-small rx-line">{entries}<span>[{units.power[0].symbol}]</span></div>'
+    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(step.solution.design)]
+    return tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
 
 
-def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
+def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup:
     """Each switch off alone: the change of the total and of its two large parts."""
     if not steps:
-        return ""
+        return Markup()
     unit = units.power[0]
-    rows: list[str] = []
+    heads = (f"total [{unit.symbol}]", "induced", "profile")
+    rows = [tag("tr", tag("td.rx-dim", "one off, all others on"), [tag("td.rx-num.rx-dim", head) for head in heads])]
     for step in steps:
-        sentence = step.switch.off if step.switch else ""
-        name = f'<tr title="{escape(sentence)}"><td>no {escape(step.title.lower())}</td>'
         if step.change is None or step.added is None:
-            rows.append(f'{name}<td colspan="3" class="rx-num rx-broken">has no trim</td></tr>')
+            cells = [tag("td.rx-num.rx-broken", "has no trim", colspan=3)]
         elif step.note:
-            rows.append(f'{name}<td colspan="3" class="rx-num rx-dim rx-small rx-wraps">{escape(step.note)}</td></tr>')
+            cells = [tag("td.rx-num.rx-dim.rx-small.rx-wraps", step.note, colspan=3)]
         else:
             values = (step.added, step.change["induced"], step.change["profile"])
-            cells = "".join(f'<td class="rx-num">{number(unit.of(value), 1, sign=True)}</td>' for value in values)
-            rows.append(f"{name}{cells}</tr>")
-    head = "".join(
-        f'<td class="rx-num rx-dim">{title}</td>' for title in (f"total [{unit.symbol}]", "induced", "profile")
-    )
-    return (
-        '<div class="rx rx-alone" data-explorer="each-alone"><table>'
-        f'<tr><td class="rx-dim">one off, all others on</td>{head}</tr>{"".join(rows)}</table></div>'
-    )
+            cells = [tag("td.rx-num", number(unit.of(value), 1, sign=True)) for value in values]
+        sentence = step.switch.off if step.switch else ""
+        rows.append(tag("tr", tag("td", f"no {step.title.lower()}"), cells, title=sentence))
+    return tag("div.rx.rx-alone", tag("table", rows), data_explorer="each-alone")
 
 
 def _x(power: float, top: float) -> float:
     return _BAR_LEFT + (_BAR_RIGHT - _BAR_LEFT) * power / top
 
 
-def _rect(x: float, y: float, width: float, colour: str) -> str:
-    return f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{_BAR_HEIGHT:g}" fill="{colour}"/>'
+def _rect(x: float, y: float, width: float, colour: str) -> Markup:
+    return tag("rect", x=x, y=y, width=width, height=_BAR_HEIGHT, fill=colour)
 
 
-def _words(x: float, y: float, text: str, look: str = "") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" class="rx-w {look}">{escape(text)}</text>'
+def _words(x: float, y: float, text: str, look: str = "") -> Markup:
+    return tag("text.rx-w", text, x=x, y=y, class_=look)
 
 
 _WORDS = (
-    '<div class="rx rx-dim rx-small rx-found">The same condition without flapping, losses, reverse flow, '
-    "compressibility and fuselage drag, then with one more at a time; every row is a trim. "
-    "The cost of an effect depends on the others, so below: each effect removed on its own.</div>"
+    "The same condition without flapping, losses, reverse flow, compressibility and fuselage drag, then with one more "
+    "at a time; every row is a trim. The cost of an effect depends on the others, so below: each effect removed on its "
+    "own."
 )
 _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 """Steps from everything off to everything on, and with each switch off alone."""
@@ -176,7 +161,7 @@ _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 class WaterfallPanel(Tab):
     def __init__(self, context: TabContext) -> None:
         self._controls, gui = context.controls, context.gui
-        gui.add_html(_WORDS)
+        gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", _WORDS))
         self._chart = gui.add_html(waterfall_chart(()))
         self._table = gui.add_html("")
         self._design: Design | None = None
@@ -184,7 +169,7 @@ class WaterfallPanel(Tab):
         self._units = SI
         self._coming: Iterator[WaterfallStep] = iter(())
         self._steps: list[WaterfallStep] = []
-        self._drawn = waterfall_chart(()), ""
+        self._drawn = waterfall_chart(()), alone_table(())
 
     def show(self, state: SessionState) -> None:
         """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""

@@ -21,17 +21,10 @@ from rotor.design import (
     TableTwist,
     TwistLaw,
 )
+from rotor.design.quantities import BESIDE, CHOSEN, OPTIONS, QUANTITIES
 from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
-_SHAPES = {
-    "builtin": ("built_inner", "built_outer"),
-    "linear": ("linear",),
-    "quadratic": ("quadratic_curvature", "quadratic_difference"),
-    "two": ("two_inner", "two_outer"),
-    "three": ("three_inner", "three_middle", "three_outer"),
-}
-_PLACES = {"builtin": ("built_division",), "two": ("two_division",), "three": ("three_first", "three_second")}
 
 
 def twist_words(law: TwistLaw) -> str:
@@ -73,12 +66,12 @@ def wave_words(design: Design) -> str:
 def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> str:
     """Harmonics of active twist and root pitch."""
 
-    def words(one: Harmonic) -> str:
-        amplitude, phase = number(math.degrees(one.amplitude), 2), math.degrees(one.phase)
-        return f"{amplitude}° at {one.per_rev}/rev (phase {phase:.0f}°)"
+    def words(harmonic: Harmonic) -> str:
+        amplitude, phase = number(math.degrees(harmonic.amplitude), 2), math.degrees(harmonic.phase)
+        return f"{amplitude}° at {harmonic.per_rev}/rev (phase {phase:.0f}°)"
 
     kinds = (("active twist", twist), ("root pitch", pitch))
-    return " and ".join(f"{kind} of {_joined([words(one) for one in waves])}" for kind, waves in kinds if waves)
+    return " and ".join(f"{kind} of {_joined([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
 
 
 def title_words(design: Design) -> str:
@@ -88,15 +81,15 @@ def title_words(design: Design) -> str:
 
 
 def flight_words(design: Design, units: Units = SI) -> str:
-    """Speed, climb, mass and altitude in one line."""
+    """Speed, climb, rotor speed, mass and altitude in one line."""
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
+    beside = units.beside(condition)
     if (stand := stand_of(design)) is not None:
-        return f"{where} · {stand_words(stand)}"
+        return " · ".join((where, *beside, stand_words(stand)))
     mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
-    climb = units.climb_rate(condition.climb_speed)
-    return " · ".join(filter(None, (where, climb, mass, units.altitude.text(condition.altitude))))
+    return " · ".join((where, *beside, mass, units.altitude.text(condition.altitude)))
 
 
 def stand_words(stand: StandInputs) -> str:
@@ -140,15 +133,16 @@ def twist_name(inputs: Inputs) -> str:
     rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
     given = (("twist", inputs.twist_per_rev), ("pitch", inputs.pitch_per_rev))
     waves = "".join(
-        f", {one.per_rev}/rev {kind} {number(math.degrees(one.amplitude), 2)}°"
+        f", {harmonic.per_rev}/rev {kind} {number(math.degrees(harmonic.amplitude), 2)}°"
         for kind, harmonics in given
-        for one in harmonics
+        for harmonic in harmonics
     )
     if inputs.law == "builtin" and inputs.built_inner == inputs.built_outer == 0.0:
         return rotor + "As built" + waves
-    values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
-    places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
-    name = LAWS[inputs.law].title
+    law = LAWS[inputs.law]
+    values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in law.angles)
+    places = "/".join(f"{getattr(inputs, name):g}" for name in law.breaks)
+    name = law.title
     if values:
         name += f" {values}" + ("°" if inputs.law == "linear" else "")
     return rotor + name + (f" at {places}" if places else "") + waves
@@ -158,12 +152,16 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
     off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
-    off += ", blades bend" if inputs.bending else ""
-    off += ", dynamic stall" if inputs.dynamic_stall else ""
+    off += "".join(f", {QUANTITIES[name].short}" for name in OPTIONS if getattr(inputs, name))
+    beside = [units.said(row, getattr(inputs, row.input)) for row in BESIDE.values() if inputs.counts(row)]
+    speed = ", ".join(filter(None, (speed, *beside)))
+    off += "".join(
+        f", {QUANTITIES[name].title.lower()} {getattr(inputs, name)}"
+        for name in CHOSEN
+        if getattr(inputs, name) != "auto"
+    )
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
-    if inputs.climbs and inputs.climb_m_s:
-        speed += f", {units.climb_rate(inputs.climb_m_s)}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"

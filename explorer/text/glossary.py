@@ -6,7 +6,6 @@ The sentences are in `glossary.toml`; those of the quantities of a design come f
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 
 from rotor.design.quantities import BY_INPUT
@@ -18,9 +17,9 @@ class Term:
 
     sentence: str
     equations: tuple[str, ...] = ()
-    """Of the source document, as numbered in docs/theory.md."""
+    """Equations of the source document, as numbered in docs/theory.md."""
     section: int = 0
-    """Of docs/theory.md, where there is no equation; 0: neither, the entry is about the page."""
+    """Section of docs/theory.md, where there is no equation; 0: neither, the entry is about the page."""
 
     @property
     def text(self) -> str:
@@ -32,13 +31,13 @@ class Term:
 
 def _terms(entries: Mapping[str, str]) -> dict[str, Term]:
     """By name; names with one sentence stand together, and its source follows a bar."""
-    found: dict[str, Term] = {}
+    terms: dict[str, Term] = {}
     for names, text in entries.items():
         sentence, _, source = text.partition(" | ")
         section = int(source.removeprefix("section ")) if source.startswith("section ") else 0
         equations = tuple(source.split(", ")) if source and not section else ()
-        found |= dict.fromkeys(names.split(), Term(sentence, equations, section))
-    return found
+        terms |= dict.fromkeys(names.split(), Term(sentence, equations, section))
+    return terms
 
 
 _FILE = tomllib.loads((Path(__file__).parent / "glossary.toml").read_text(encoding="utf-8"))
@@ -53,5 +52,5 @@ def hint(name: str) -> str:
 
 
 def tip(name: str) -> str:
-    """The HTML attribute by which a read-out explains itself; KeyError for one without an entry."""
-    return f' title="{escape(READOUTS[name].text, quote=True)}"'
+    """What a read-out says when it is pointed at; KeyError for one without an entry."""
+    return READOUTS[name].text

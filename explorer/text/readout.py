@@ -4,8 +4,7 @@ Below it, what an actuator saves and costs in words: one place for card, rail an
 """
 
 import math
-from collections.abc import Callable
-from html import escape
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import Verdict
+from rotor.markup import Content, Markup, group, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
@@ -37,25 +37,29 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: str = "") -> str:
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: str = "") -> Markup:
     """Total power with its change, the bar of parts, and the table of parts; `band`: as `drag_band_words` says it."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
-    rows = "".join(_row(name, title, power, reference, units) for name, title in titles.items())
+    rows = [_row(name, title, power, reference, units) for name, title in titles.items()]
     ideal = ideal_induced(solution)
-    return (
-        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
-        f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
-        f"<span>vs. {escape(baseline_title(solution.design))}</span></div>"
-        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}'
-        f"{band_line(band)}</div>"
+    against = f"vs. {baseline_title(solution.design)}"
+    return tag(
+        "div.rx",
+        total_line(power, reference, units),
+        tag("div.rx-line.rx-dim", tag("span", "total power"), tag("span", against), title=tip("change")),
+        tag("div.rx-bar", bar(power, ideal)),
+        tag("table", rows),
+        ideal_line(solution, ideal, units),
+        band_line(band),
+        data_explorer="power",
     )
 
 
-def band_line(words: str) -> str:
+def band_line(words: str) -> Markup:
     """The band of the drag area below the table of powers; empty without words."""
-    return f'<div class="rx-dim" data-explorer="drag-band"{tip("drag_band")}>{escape(words)}</div>' if words else ""
+    return tag("div.rx-dim", words, data_explorer="drag-band", title=tip("drag_band")) if words else Markup()
 
 
 def open_drag_area(design: Design) -> tuple[float, float] | None:
@@ -74,13 +78,15 @@ def drag_band_words(design: Design, ends: tuple[Solution, Solution] | None, unit
     return f"Drag area {number(areas[0], 2)} to {number(areas[1], 2)} m²: {low} to {high} {units.power[0].symbol}"
 
 
-def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     """The total in both units of power, and its change."""
     large, small = units.power
-    return (
-        f'<div class="rx-line rx-base"><span class="rx-total" data-explorer="total-power"{tip("total_power")}>'
-        f'{large.text(power.total, fineness(power))}</span><span class="rx-dim">{small.text(power.total)}</span>'
-        f'<span class="rx-push"{tip("change")}>{change(power, reference)}</span></div>'
+    total = large.text(power.total, fineness(power))
+    return tag(
+        "div.rx-line.rx-base",
+        tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
+        tag("span.rx-dim", small.text(power.total)),
+        tag("span.rx-push", change(power, reference), title=tip("change")),
     )
 
 
@@ -95,44 +101,40 @@ def ideal_induced(solution: Solution) -> float | None:
     return factor * solution.ct * solution.controls.lambda0 * design.power_unit
 
 
-def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
+def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Markup:
     """κ and its ideal bound."""
-    kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
-    bound = f"ideal: {not_bounded(solution.design)}"
+    kappa = "κ = Pi/(CT·λ0) ", tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa")
+    bound: Content = f"ideal: {not_bounded(solution.design)}"
     if ideal is not None:
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
-        bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
-        if solution.design.hovering:
-            bound += " (momentum theory)"
-    return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
+        theory = " (momentum theory)" if solution.design.hovering else ""
+        power, factor = tag("b", units.watts(ideal)), f", κ {number(ideal / unit, 2)}{theory}"
+        bound = tag("i.rx-mark"), " ideal ", power, factor
+    return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 
 
-def change(power: PowerBudget, reference: PowerBudget | None) -> str:
+def change(power: PowerBudget, reference: PowerBudget | None) -> Markup:
     """Change of the total [%]: green for less, rust for more; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
-        return f'<span class="rx-dim">{BLANK}</span>'
+        return tag("span.rx-dim", BLANK)
     percent = 100.0 * (power.total / reference.total - 1.0)
-    return (
-        f'<span class="rx-change{direction(percent)}" data-explorer="change">{number(percent, 1, sign=True)} %</span>'
-    )
+    words = f"{number(percent, 1, sign=True)} %"
+    return tag("span.rx-change", words, class_=direction(percent), data_explorer="change")
 
 
 def direction(percent: float) -> str:
     """CSS class of a change: green for less, rust for more, none below 0.05 %."""
-    return "" if abs(percent) < 0.05 else " rx-less" if percent < 0.0 else " rx-more"
+    return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
 
 
-def bar(power: PowerBudget, ideal: float | None) -> str:
+def bar(power: PowerBudget, ideal: float | None) -> Markup:
     """The parts side by side, and a mark at the ideal induced power."""
     values = {name: getattr(power, name) for name in PARTS}
     parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
     total = max(sum(parts.values()), 1.0)
-    spans = "".join(
-        f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
-    )
-    if ideal is None:
-        return spans
-    return spans + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
+    spans = [tag("span", style=f"flex:{value / total:.5f};background:{PARTS[name]}") for name, value in parts.items()]
+    at = None if ideal is None else f"position:absolute;left:{100.0 * ideal / total:.2f}%"
+    return group(spans, tag("i.rx-mark", style=at) if at else None)
 
 
 def fineness(power: PowerBudget) -> int:
@@ -140,17 +142,23 @@ def fineness(power: PowerBudget) -> int:
     return 1 if power.total < 2e5 else 0
 
 
-def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
     apart = None if reference is None else value - getattr(reference, name)
-    return (
-        f"<tr{tip(_MEANT.get(title, name))}><td>"
-        f'<span class="rx-patch" style="background:{PARTS[name]}"></span>{title}</td>'
-        f'<td class="rx-num">{units.watts(value, fineness(power))}</td>'
-        f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
-        f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, fineness(power), sign=True)}</td></tr>'
+    return tag(
+        "tr",
+        tag("td", patch(PARTS[name]), title),
+        tag("td.rx-num", units.watts(value, fineness(power))),
+        tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:19%"),
+        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power), sign=True), style="width:25%"),
+        title=tip(_MEANT.get(title, name)),
     )
+
+
+def patch(colour: str) -> Markup:
+    """A square of the colour, before the name of what is drawn in it."""
+    return tag("span.rx-patch", style=f"background:{colour}")
 
 
 _TRIM: dict[str, tuple[Callable[[Solution], float | None], int, str]] = {
@@ -175,7 +183,7 @@ _TRIM: dict[str, tuple[Callable[[Solution], float | None], int, str]] = {
 """Value, digits and unit of a trim quantity, by its name in the glossary."""
 
 
-def trim_panel(solution: Solution) -> str:
+def trim_panel(solution: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas, in two columns."""
     flapping = [math.degrees(angle) for angle in (solution.controls.flap_1c, solution.controls.flap_1s)]
     titles = {
@@ -199,53 +207,42 @@ def trim_panel(solution: Solution) -> str:
         if key == "flapping_1":
             return f"{number(flapping[0], 1)}, {number(flapping[1], 1)}°"
         read, digits, unit = _TRIM[key]
-        found = read(solution)
-        if found is None:
+        quantity = read(solution)
+        if quantity is None:
             return "rigid" if key == "elastic_tip" else BLANK
-        return f"{number(found, digits)}{unit}"
+        return f"{number(quantity, digits)}{unit}"
 
-    cells = "".join(
-        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span>'
-        f'<span class="rx-num">{value(key)}</span></div>'
+    cells = [
+        tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value(key)), title=tip(key))
         for key, name in titles.items()
-    )
-    return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
+    ]
+    return tag("div.rx.rx-grid", cells, data_explorer="trim")
 
 
-def explanation(text: str) -> str:
+def explanation(text: str) -> Markup:
     """The line below a menu, in a box of constant height."""
-    return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
+    return tag("div.rx.rx-dim.rx-small.rx-explain", text)
 
 
-def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...], entry: str = "") -> str:
-    """A chart's title with the key of its lines: name, colour, and whether the line is dashed. `entry`: its tooltip."""
-    entries = "".join(f"<span>{dash(colour, *dashed)}{escape(name)}</span>" for name, colour, *dashed in key)
-    return (
-        f'<div class="rx rx-line rx-heading"{tip(entry) if entry else ""}><span>{escape(title)}</span>{entries}</div>'
-    )
-
-
-def dash(colour: str, dashed: bool = False) -> str:
+def dash(colour: str, dashed: bool = False) -> Markup:
     if dashed:
-        return f'<span class="rx-dash rx-dashed" style="color:{colour}"></span>'
-    return f'<span class="rx-dash" style="background:{colour}"></span>'
+        return tag("span.rx-dash.rx-dashed", style=f"color:{colour}")
+    return tag("span.rx-dash", style=f"background:{colour}")
 
 
-def faded(html: str) -> str:
-    """The same text, greyed: out of date."""
-    return f'<div class="rx-faded">{html}</div>'
+def faded(html: Markup) -> Markup:
+    """Markup that is out of date, greyed."""
+    return tag("div.rx-faded", html)
 
 
-def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> str:
+def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> Markup:
     """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
 
     Where A has no trim it shows dashes. `band`: of B, as `drag_band_words` says it.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
-    against = (
-        f"vs. {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim at this condition"
-    )
+    against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
     ideal = ideal_induced(solution)
     rows = [
         _compared_row(title, power, reference, lambda p, n=name: getattr(p, n), units, name)
@@ -254,16 +251,24 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     rows.append(_compared_row("Total", power, reference, lambda p: p.total, units))
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
-    table = f'<table class="rx-ab" data-explorer="ab">{head}{"".join(rows)}</table>'
-    return (
-        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
-        f'<div class="rx-line rx-dim"{tip("change")}><span>total power of {_name("B")}</span>'
-        f"<span>{against}</span></div>"
-        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}{band_line(band)}</div>"
+    return tag(
+        "div.rx",
+        total_line(power, reference, units),
+        tag(
+            "div.rx-line.rx-dim",
+            tag("span", "total power of ", _name("B")),
+            tag("span", "vs. " if reference else None, _name("A"), against),
+            title=tip("change"),
+        ),
+        _bars(power, reference, ideal),
+        tag("table.rx-ab", head, rows, data_explorer="ab"),
+        ideal_line(solution, ideal, units),
+        band_line(band),
+        data_explorer="power",
     )
 
 
-def compared_trim_panel(solution: Solution, pinned: Solution) -> str:
+def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas of A and B, in two columns."""
     titles = {
         "collective": "θ0 [°]",
@@ -281,31 +286,29 @@ def compared_trim_panel(solution: Solution, pinned: Solution) -> str:
         "elastic_tip": "φ tip [°]",
         "pitch_link": "link [kN]",
     }
-    head = f'<div class="rx-four rx-dim rx-small"><span></span><span>{_name("A")}</span><span>{_name("B")}</span></div>'
+    head = tag("div.rx-four.rx-dim.rx-small", tag("span"), tag("span", _name("A")), tag("span", _name("B")))
     cells = [head, head]
     for key, short in titles.items():
         read, digits, _ = _TRIM[key]
         a, b = number(read(pinned) if pinned.converged else None, digits), number(read(solution), digits)
-        cells.append(
-            f'<div class="rx-four"{tip(key)}><span class="rx-dim">{short}</span><span>{a}</span><span>{b}</span></div>'
-        )
-    return f'<div class="rx rx-grid" data-explorer="trim">{"".join(cells)}</div>'
+        cells.append(tag("div.rx-four", tag("span.rx-dim", short), tag("span", a), tag("span", b), title=tip(key)))
+    return tag("div.rx.rx-grid", cells, data_explorer="trim")
 
 
-def _name(letter: str) -> str:
+def _name(letter: str) -> Markup:
     """A or B with the mark of its lines in the charts."""
-    return f"{dash(PINNED, dashed=True) if letter == 'A' else dash(THIS)}<b>{letter}</b>"
+    return dash(PINNED, dashed=True) + tag("b", letter) if letter == "A" else dash(THIS) + tag("b", letter)
 
 
-def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> str:
+def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> Markup:
     """A above B; the length of a bar is the total power."""
     longest = max(power.total, reference.total if reference else 0.0, 1.0)
-    lines = []
-    for letter, one, mark in (("A", reference, None), ("B", power, ideal)):
-        length = 100.0 * max(one.total, 0.0) / longest if one else 0.0
-        filled = f'<div class="rx-bar" style="width:{length:.2f}%">{bar(one, mark) if one else ""}</div>'
-        lines.append(f'<span class="rx-dim">{letter}</span><div>{filled}</div>')
-    return f'<div class="rx-bars">{"".join(lines)}</div>'
+    lines: list[Content] = []
+    for letter, budget, mark in (("A", reference, None), ("B", power, ideal)):
+        length = 100.0 * max(budget.total, 0.0) / longest if budget else 0.0
+        filled = tag("div.rx-bar", bar(budget, mark) if budget else None, style=f"width:{length:.2f}%")
+        lines += [tag("span.rx-dim", letter), tag("div", filled)]
+    return tag("div.rx-bars", lines)
 
 
 def _compared_row(
@@ -315,7 +318,7 @@ def _compared_row(
     read: Callable[[PowerBudget], float],
     units: Units,
     part: str = "",
-) -> str:
+) -> Markup:
     unit = units.power[0]
     b = unit.of(read(power))
     a = None if reference is None else unit.of(read(reference))
@@ -324,16 +327,15 @@ def _compared_row(
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
     fine = fineness(power)
     if part:
-        patch = f'<span class="rx-patch" style="background:{PARTS[part]}"></span>'
-        return _cells(patch + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
+        titled = patch(PARTS[part]) + title
+        return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     kind = "" if percent is None else direction(percent)
-    coloured = (f'<span class="{kind.strip()}">{text}</span>' for text in changes)
+    coloured = (tag("span", text, class_=kind) for text in changes)
     return _cells(title, (number(a, fine), number(b, fine), *coloured), "rx-sum", tip("total_power"))
 
 
-def _cells(title: str, values: tuple[str, ...], kind: str = "", tooltip: str = "") -> str:
-    cells = "".join(f'<td class="rx-num">{value}</td>' for value in values)
-    return f'<tr class="{kind}"{tooltip}><td>{title}</td>{cells}</tr>'
+def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:
+    return tag("tr", tag("td", title), [tag("td.rx-num", value) for value in values], class_=kind, title=tooltip)
 
 
 def signed(power: float, units: Units) -> str:
@@ -353,7 +355,7 @@ def fuel_used(verdict: Verdict) -> float | None:
 
 
 def fuel_words(verdict: Verdict) -> str:
-    """That in words."""
+    """Fuel used beyond that without the actuator, in words."""
     used = fuel_used(verdict)
     return "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour"
 

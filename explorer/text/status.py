@@ -2,10 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
-from html import escape
-from itertools import groupby
 
 from explorer.model.stand import airload_cases, as_measured, flight_powers
 from explorer.model.units import number
@@ -15,14 +12,15 @@ from explorer.text.readout import open_drag_area
 from rotor import Solution
 from rotor.aero.problem import grid_of
 from rotor.compiled import compiling
+from rotor.markup import Content, Markup, tag
 from rotor.units import typographic
-from rotor.validation import MeasuredSet, SensitivityRow, TrustRow, sensitivity_rows, sets_of, trust_rows
+from rotor.validation import MeasuredSet, TrustRow, sets_of, trust_rows
 from rotor.validation.airloads import PITCH_LINK, REPORTS
 from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.trust import KINDS
 
 
-def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:
+def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> Markup:
     """A box of constant height: convergence, caveats, and the models used.
 
     `pinned`: A, whose caveats are added where two designs are compared.
@@ -31,27 +29,24 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         problem = solution.message
     if problem is not None:
         # In full, even if it is a line longer than the box: the numbers below are out of date anyway.
-        sentence = f"{escape(problem.rstrip('.'))}. Greyed: last converged solution."
-        return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
+        sentence = f"{problem.rstrip('.')}. Greyed: last converged solution."
+        return _status("problem", tag("div.rx-sentence", sentence))
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
-    caveats = "".join(
-        f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
-        for sentence in cautions(solution, pinned)
-    )
-    detail = f"Force residual < {tiny(solution.residual)} <i>W</i>, {solution.passes} iterations."
-    text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
-    measured = f'<div class="rx-small" data-explorer="measurement">{escape(validated(solution).sentence)}</div>'
-    return _status("converged", text + caveats + measured + provenance(solution))
+    caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
+    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {solution.passes} iterations."
+    text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
+    measured = tag("div.rx-small", validated(solution).sentence, data_explorer="measurement")
+    return _status("converged", text, caveats, measured, provenance(solution))
 
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     """Caveats of a solution; with A pinned, those of both, and the other differences between the two."""
-    own = _own_cautions(solution)
+    sentences = _own_cautions(solution)
     if pinned is None:
-        return own
+        return sentences
     if not pinned.converged:
-        return [f"A: {pinned.message}", *own]
+        return [f"A: {pinned.message}", *sentences]
     other = _own_cautions(pinned)
     a, b = pinned.design, solution.design
     apart = []
@@ -61,21 +56,21 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
         apart.append("A and B use different models: the difference is not due to the blade alone.")
     return [
         *apart,
-        *(sentence for sentence in own if sentence in other),
-        *(f"A: {sentence}" for sentence in other if sentence not in own),
-        *(f"B: {sentence}" for sentence in own if sentence not in other),
+        *(sentence for sentence in sentences if sentence in other),
+        *(f"A: {sentence}" for sentence in other if sentence not in sentences),
+        *(f"B: {sentence}" for sentence in sentences if sentence not in other),
     ]
 
 
 def _own_cautions(solution: Solution) -> list[str]:
     """The caveats of one solution, and the drag area where its sources leave it open."""
-    found = [typographic(caveat.sentence) for caveat in solution.caveats]
+    sentences = [typographic(caveat.sentence) for caveat in solution.caveats]
     areas = open_drag_area(solution.design)
     if areas is None:
-        return found
+        return sentences
     used = solution.design.fuselage.drag_area
     return [
-        *found,
+        *sentences,
         f"Power in forward flight is indicative: the sources allow drag areas of {number(areas[0], 2)} to "
         f"{number(areas[1], 2)} m²; here it is {number(used, 2)} m².",
     ]
@@ -87,18 +82,17 @@ def tiny(value: float) -> str:
     return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
-def provenance(solution: Solution) -> str:
+def provenance(solution: Solution) -> Markup:
     """The models used, and the kind of result."""
     design = solution.design
     took = solution.elapsed
     time = f"{number(1e3 * took, 1)} ms" if took < 1.0 else f"{number(took, 1)} s"
     sections = dict.fromkeys(section_title(span.section) for span in design.rotor.blade.spans)
-    return (
-        f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
-        f"{escape(inflow_words(design))}, {escape(' / '.join(sections))}, {physics_words(design)}, "
-        f"{' × '.join(map(str, grid_of(design)))} grid, {time}. "
-        "Indicative: a model, not a measurement.</div>"
+    words = (
+        f": {inflow_words(design)}, {' / '.join(sections)}, {physics_words(design)}, "
+        f"{' × '.join(map(str, grid_of(design)))} grid, {time}. Indicative: a model, not a measurement."
     )
+    return tag("div.rx-small.rx-dim", "Preset ", tag("i", design.preset), words, data_explorer="provenance")
 
 
 def section_title(section: str) -> str:
@@ -121,44 +115,28 @@ def section_title(section: str) -> str:
     return titles.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
 
 
-def _status(kind: str, text: str) -> str:
-    return f'<div class="rx-status rx-{kind}" data-explorer="status" data-kind="{kind}"{tip("status")}>{text}</div>'
+def _status(kind: str, *content: Content) -> Markup:
+    attributes = {"data_explorer": "status", "data_kind": kind, "title": tip("status")}
+    return tag(f"div.rx-status.rx-{kind}", *content, **attributes)
 
 
-def trust_page() -> str:
-    """Comparisons by kind, then the sensitivity of optimum and saving to the models."""
-    parts = [
-        '<div class="rx rx-small rx-trust" data-explorer="trust">',
-        '<div class="rx-dim">Hover over a row to see the test it is verified by. Computed by '
-        "<i>make trust</i>; docs/validation.md leads to a page with charts for each set.</div>",
+def trust_page() -> Markup:
+    """Comparisons by kind."""
+    verified = "Hover over a row to see the test it is verified by. Computed by ", tag("i", "make trust")
+    parts: list[Content] = [
+        tag("div.rx-dim", verified, "; docs/validation.md leads to a page with charts for each set.")
     ]
     for kind, title in KINDS.items():
-        rows = "".join(_trust_row(row) for row in trust_rows() if row.kind == kind)
-        parts.append(f"<h4>{escape(title)}</h4>{rows}")
-    parts.append("<h4>Best linear twist and its saving vs. −16°, by model choice</h4>")
-    speeds = dict.fromkeys(row.mu for row in sensitivity_rows())
-    parts.append(_cells("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds))
-    parts.extend(_change(change, list(rows)) for change, rows in groupby(sensitivity_rows(), lambda row: row.change))
-    return "".join([*parts, "</div>"])
+        parts.append(tag("h4", title))
+        parts.extend(_trust_row(row) for row in trust_rows() if row.kind == kind)
+    return tag("div.rx.rx-small.rx-trust", parts, data_explorer="trust")
 
 
-def _trust_row(row: TrustRow) -> str:
-    hint = escape(". ".join(part.rstrip(".") for part in (row.remark, row.test) if part), quote=True)
-    return (
-        f'<div class="rx-trust-row" title="{hint}"><span>{escape(typographic(row.what))} '
-        f'<span class="rx-dim">{escape(typographic(row.against))}</span></span>'
-        f"<b>{escape(typographic(row.shown))}</b></div>"
-    )
-
-
-def _change(change: str, rows: list[SensitivityRow]) -> str:
-    found = _cells(f"{number(row.optimum_deg, 1)}°, {number(row.saving_percent, 1)} %" for row in rows)
-    return f'<div class="rx-trust-change">{escape(change)}{found}</div>'
-
-
-def _cells(texts: Iterable[str]) -> str:
-    """Side by side, one per speed."""
-    return f'<div class="rx-dim rx-trust-speeds">{"".join(f"<span>{text}</span>" for text in texts)}</div>'
+def _trust_row(row: TrustRow) -> Markup:
+    hint = ". ".join(part.rstrip(".") for part in (row.remark, row.test) if part)
+    against = tag("span.rx-dim", typographic(row.against))
+    compared = tag("span", typographic(row.what), " ", against)
+    return tag("div.rx-trust-row", compared, tag("b", typographic(row.shown)), title=hint)
 
 
 _DIGITISED = "uh60a-hover"
@@ -181,7 +159,7 @@ def validated(solution: Solution) -> ValidationRecord:
     sets = sets_of(design.aircraft.key)
     kind = "hover" if design.hovering else "forward"
     where = "in hover" if design.hovering else "in forward flight"
-    alike = [one for one in sets if one.kind == kind]
+    alike = [record for record in sets if record.kind == kind]
     if not alike and (flown := _flown(solution)) is not None:
         return flown
     if not alike:
@@ -218,8 +196,8 @@ def _flown(solution: Solution) -> ValidationRecord | None:
     airloads = "" if not cases else f" The probe shows its measured {what}."
     if powers and not design.hovering and design.condition.stand is None:
         report = POWER_REPORTS[key]
-        count = f"{len(powers)} flights at µ {powers[0].mu:g} to {max(one.mu for one in powers):g}"
-        here = next((one for one in powers if one.same_flight(design)), None)
+        count = f"{len(powers)} flights at µ {powers[0].mu:g} to {max(power.mu for power in powers):g}"
+        here = next((power for power in powers if power.same_flight(design)), None)
         if here is None or blade:
             return ValidationRecord("measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}")
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
@@ -238,10 +216,10 @@ def nearest(sets: list[MeasuredSet], solution: Solution) -> MeasuredSet:
     stand = solution.design.condition.stand
     trim = solution.design.models.trim
 
-    def apart(one: MeasuredSet) -> tuple[bool, float, bool]:
-        tilts = [point["shaft_tilt_deg"] for point in one.points] if "shaft_tilt_deg" in one.given else [0.0]
+    def apart(measured: MeasuredSet) -> tuple[bool, float, bool]:
+        tilts = [point["shaft_tilt_deg"] for point in measured.points] if "shaft_tilt_deg" in measured.given else [0.0]
         tilt = math.degrees(solution.controls.shaft_tilt if stand is None else stand.tilt)
-        return one.trim != trim, min(abs(tilt - other) for other in tilts), one.indicative
+        return measured.trim != trim, min(abs(tilt - other) for other in tilts), measured.indicative
 
     return min(sets, key=apart)
 
@@ -252,8 +230,8 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     if climb:
         return f"rate of climb {climb:g} m/s, compared in level flight"
     points = [point for point in measured.points if measured.is_judged(point)] or list(measured.points)
-    found = {"mu": solution.design.condition.advance_ratio, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma}
-    for name, value in found.items():
+    place = {"mu": solution.design.condition.advance_ratio, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma}
+    for name, value in place.items():
         if name not in measured.given:
             continue
         values = [point[name] for point in points]

@@ -15,6 +15,7 @@ from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.arrays import Array, Booleans
+from rotor.design.quantities import BESIDE, CHOSEN, OPTIONS, QUANTITIES
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
@@ -70,11 +71,13 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.preset != b.preset:
         return f"Preset {b.preset} instead of {a.preset}"
     causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
+    automatic = [] if causes else _automatic_causes(before, after)
     if a.pitch_per_rev != b.pitch_per_rev:
-        orders = " and ".join(f"{one.per_rev}/rev" for one in b.pitch_per_rev)
+        orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in b.pitch_per_rev)
         causes.append(
             f"{'other ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
         )
+    causes += automatic
     if (a.twist, a.active_twist) != (b.twist, b.active_twist):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
@@ -87,7 +90,7 @@ def _cause(before: Solution, after: Solution) -> str:
 
 
 def _rotor_causes(a: Design, b: Design) -> list[str]:
-    if a.rotor == b.rotor:
+    if a.rotor.at_speed(100.0) == b.rotor.at_speed(100.0):
         return []
     if a.rotor.blade.spans != b.rotor.blade.spans:
         return ["other blade sections"]
@@ -100,20 +103,30 @@ def _model_causes(a: Design, b: Design) -> list[str]:
         for name, switch in SWITCHES.items()
         if getattr(a.models, name) != getattr(b.models, name)
     ]
-    if a.models.bending != b.models.bending:
-        causes.append("with blade bending" if b.models.bending else "without blade bending")
-    if a.models.dynamic_stall != b.models.dynamic_stall:
-        causes.append("with dynamic stall" if b.models.dynamic_stall else "without dynamic stall")
+    for row in (QUANTITIES[name] for name in OPTIONS):
+        if row.of(a) != row.of(b):
+            causes.append(f"{'with' if row.of(b) else 'without'} {row.title.lower()}")
+    for row in (QUANTITIES[name] for name in CHOSEN):
+        if row.of(a) != row.of(b):
+            causes.append(f"{row.title.lower()} {row.of(b)}")
     if a.models.inflow != b.models.inflow:
         causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
     if a.models.hover_inflow != b.models.hover_inflow:
-        new, old = (INFLOW_MENUS["hover_inflow"][one.models.hover_inflow].lower() for one in (b, a))
+        new, old = (INFLOW_MENUS["hover_inflow"][design.models.hover_inflow].lower() for design in (b, a))
         causes.append(f"{new} instead of {old} in hover")
     if a.models.low_speed != b.models.low_speed:
         causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} passage to hover at low speed")
     if a.models.loss_on != b.models.loss_on:
         causes.append(f"tip and root loss on the {b.models.loss_on}")
     return causes
+
+
+def _automatic_causes(before: Solution, after: Solution) -> list[str]:
+    """Models that came or went by themselves, while what was asked of them stayed."""
+    if before.redone != after.redone:
+        return [f"{'with' if after.redone else 'without'} dynamic stall"]
+    steady = before.disk.apparent is None, after.disk.apparent is None
+    return [f"{'without' if steady[1] else 'with'} unsteady flow"] if steady[0] != steady[1] else []
 
 
 def _flight_causes(a: Design, b: Design) -> list[str]:
@@ -126,8 +139,10 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         began = "flight instead of a test" if new.stand is None else "the rotor alone, on a test stand"
         causes.append(began if old.stand is None or new.stand is None else "another test")
         return causes
-    if old.climb_speed != new.climb_speed:
-        causes.append(SI.climb_rate(new.climb_speed) or "level flight")
+    for row in BESIDE.values():
+        before, now = (row.of(design) for design in (a, b))
+        if before != now:
+            causes.append(SI.said(row, now) or row.plain)
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
         causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")
@@ -172,7 +187,7 @@ def _stall(before: Solution, after: Solution) -> str:
 
 
 def _divergence(before: Solution, after: Solution) -> str:
-    a, b = (_divergent(one) for one in (before, after))
+    a, b = (_divergent(solution) for solution in (before, after))
     area = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
     if not area:
         return ""

@@ -11,45 +11,60 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from rotor.markup import Markup, group, tag
+
 _FOLDER = Path(__file__).parent
 STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "big.css")
-"""Of the page; those that come later outweigh those before."""
+"""Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
     "viser.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js",
-    "plan.js", "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js", "wipe.js", "story.js", "lecture.js",
+    "plan.js", "ride.js", "rubber.js", "flight.js", "dial.js", "landscape.js", "spoken.js", "wipe.js", "story.js",
+    "lecture.js",
 )  # fmt: skip
-"""Of the page, in the order in which they run: `viser.js` before viser's client, and `frame.js` defines `RX`."""
+"""Scripts of the page in the order in which they run: `viser.js` before viser's client; `frame.js` defines `RX`."""
+
+_INSIDE = "data: blob:"  # viser's viewer evaluates text.
+_POLICY = (
+    f"default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' {_INSIDE}; worker-src {_INSIDE}; "
+    f"style-src 'unsafe-inline'; img-src {_INSIDE}; font-src data:; connect-src {_INSIDE}; base-uri 'none'; "
+    "form-action 'none'"
+)
 
 
 @cache
-def text(name: str) -> str:
+def text(name: str) -> Markup:
     """The content of one file of this folder."""
-    return (_FOLDER / name).read_text(encoding="utf-8")
+    return Markup((_FOLDER / name).read_text(encoding="utf-8"))
 
 
-def fill(name: str, values: Mapping[str, str]) -> str:
-    """An HTML file with `{{key}}` replaced, in one pass; KeyError for a key without a value."""
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: values[match[1]], text(name))
+def fill(name: str, values: Mapping[str, str]) -> Markup:
+    """An HTML file with `{{key}}` replaced, in one pass, text escaped; KeyError for a key without a value."""
+    return Markup(re.sub(r"\{\{(\w+)\}\}", lambda match: group(values[match[1]]), text(name)))
 
 
-def json_block(name: str, data: Any) -> str:
+def policy() -> Markup:
+    """For the head of a file that is passed on: what is in it may run and be shown, nothing is asked of any host."""
+    return tag("meta", http_equiv="Content-Security-Policy", content=_POLICY)
+
+
+def json_block(name: str, data: Any) -> Markup:
     """Data for a script, in an element of this id: no `<` in it, so that nothing ends the element."""
     content = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    return f'<script id="{name}" type="application/json">{content}</script>'
+    return tag("script", Markup(content), id=name, type="application/json")
 
 
-def styles(*names: str) -> str:
+def styles(*names: str) -> Markup:
     """Style elements, one a file."""
-    return "".join(f"<style>{text(name)}</style>" for name in names)
+    return group(tag("style", text(name)) for name in names)
 
 
-def scripts(*names: str) -> str:
+def scripts(*names: str) -> Markup:
     """Script elements, one a file."""
-    return "".join(f"<script>{text(name)}</script>" for name in names)
+    return group(tag("script", text(name)) for name in names)
 
 
 @cache
-def frame() -> str:
+def frame() -> Markup:
     """Style sheets, skeleton and scripts of the page, to stand at the beginning of its body."""
     body = fill("frame.html", {"column": text("column.html"), "stage": text("wipe.html")})
-    return f"{styles(*STYLES)}{body}{scripts(*SCRIPTS)}"
+    return group(styles(*STYLES), body, scripts(*SCRIPTS))

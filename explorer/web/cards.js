@@ -10,8 +10,9 @@
       + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
     const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
-    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span></div>
-      <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div></div>
+    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band || now.doubt)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span> <small data-explorer="within">${text(now.within)}</small></div>
+      <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>
+      <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(now.doubt)}">${now.sure ? `${text(now.change_within)} %: ${text(now.sure)}` : ''}</div></div>
       <div class="rxf-rule"></div>
       ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)} <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2'))}</div></div>`}
@@ -61,10 +62,8 @@
     if (menu.value !== now.field) menu.value = now.field;
     menu.disabled = now.held;
     part('unit').textContent = now.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
-    const ticks = now.ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`).join('');
     part('scale').className = now.faded ? 'rxf-faded' : '';
-    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: values beyond the range"><i style="background:${now.colours[0]};visibility:${now.beyond[0] ? 'visible' : 'hidden'}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)};visibility:${now.beyond[1] ? 'visible' : 'hidden'}"></i></div>
-      <div class="rxf-ticks rxf-num">${ticks}</div>`;
+    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: values beyond the range"><i style="background:${now.colours[0]};visibility:${now.beyond[0] ? 'visible' : 'hidden'}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)};visibility:${now.beyond[1] ? 'visible' : 'hidden'}"></i></div>${Charts.bar(now.ticks)}`;
     const fit = card.querySelector('.rxf-fit');
     fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
     fit.textContent = now.fitted ? 'Reset' : 'Fit';

@@ -4,6 +4,11 @@ window.Charts = (() => {
   const text = value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]);
   const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
   const digits = value => (value < 0 ? '−' : '') + Math.abs(value).toLocaleString('en', {maximumFractionDigits: Math.abs(value) < 10 ? 3 : 1, useGrouping: false});
+  // With so many decimals and a true minus sign; what rounds to zero has no sign.
+  const fixed = (value, decimals = 0) => (value < 0 && Math.abs(value) >= .5 * 10 ** -decimals ? '−' : '') + Math.abs(value).toFixed(decimals);
+  const signed = (value, decimals = 1) => (value >= .5 * 10 ** -decimals ? '+' : '') + fixed(value, decimals);
+  // Of a colour bar.
+  const bar = ticks => `<div class="rxf-ticks rxf-num">${ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`).join('')}</div>`;
 
   // Where values lie in a drawing, and the values of a place.
   function frame(one, width, height, {left, right = 8, top = 8, bottom = 17} = {}) {
@@ -21,9 +26,12 @@ window.Charts = (() => {
   const long = one => (one.x.label ?? '').length > 5, ends = one => one.x.ends;
   function axes(one, place) {
     const {X, left, right, base} = place, last = one.x.ticks.length - 1, low = base + 15;
-    const columns = one.x.ticks.map(([v, word], k) => `<text x="${X(v).toFixed(1)}" y="${low}" text-anchor="${ends(one) && !k ? 'start' : ends(one) && k === last ? 'end' : 'middle'}">${text(word)}</text>`);
+    const columns = one.x.ticks.map(([v, word], k) => {
+      const wide = k === last && X(v) + 3.5 * word.length > right + 8;
+      return `<text x="${(wide ? right + 8 : X(v)).toFixed(1)}" y="${low}" text-anchor="${ends(one) && !k ? 'start' : wide || (k === last && ends(one)) ? 'end' : 'middle'}">${text(word)}</text>`;
+    });
     const name = long(one) ? `<text x="${(left + right) / 2}" y="${low + (ends(one) ? 0 : 15)}" text-anchor="middle" data-axis>${text(one.x.label)}</text>`
-      : `<text x="${left - 6}" y="${low}" text-anchor="end" data-axis>${text(one.x.label)}</text>`;
+      : `<text x="${left - 9}" y="${low}" text-anchor="end" data-axis>${text(one.x.label)}</text>`;
     return rows(one, place) + columns.join('') + name;
   }
   const edge = (xs, ys, {X, Y}) => xs.map((x, k) => `${X(x).toFixed(1)} ${Y(ys[k]).toFixed(1)}`);
@@ -43,25 +51,28 @@ window.Charts = (() => {
       const known = x.map((_, k) => k).filter(k => low[k] !== null && high[k] !== null), of = list => known.map(k => list[k]);
       return known.length ? `<path d="M${[...edge(of(x), of(low), place), ...edge(of(x), of(high), place).reverse()].join('L')}Z" fill="${colour}" opacity=".17" data-band/>` : '';
     },
-    points({x, y, colour, mark = 'dot', size = 4, words = [], press = [], faint = [], scatter = []}, {X, Y, low, high}) {
+    points({x, y, colour, mark = 'dot', size = 4, words = [], action, press = [], names = [], beside, faint = [], scatter = []}, {X, Y, low, high, left, right}) {
       return x.map((at, k) => {
         if (y[k] === null) return '';
         const cx = X(at).toFixed(1), cy = (low === undefined || mark === 'ring' ? Y(y[k]) : clamp(Y(y[k]), low, high)).toFixed(1), said = words[k] ?? '';
-        const dot = mark === 'ring' ? `<circle cx="${cx}" cy="${cy}" r="${size}" fill="var(--rx-paper)" stroke="${colour}" stroke-width="1.2"/>`
+        const dx = cx - left < 60 ? ['start', -size] : right - cx < 60 ? ['end', size] : ['middle', 0], up = beside === 'upward';
+        const name = names[k] ? `<text ${up ? `transform="translate(${+cx + 4} ${cy - size - 4}) rotate(-90)"` : `x="${+cx + dx[1]}" y="${+cy + (beside === 'below' ? size + 12 : -size - 4)}" text-anchor="${dx[0]}"`} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
+        const dot = !size ? '' : mark === 'ring' ? `<circle cx="${cx}" cy="${cy}" r="${size}" fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"/>`
           : `<circle cx="${cx}" cy="${cy}" r="${size}" fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}/>`;
-        if (!said) return dot;
-        const pressed = press[k] ? `role="button" tabindex="0" data-do="flown" data-value="${text(press[k])}" aria-label="${text(said)}"` : '';
-        const bar = scatter[k] ? `<path d="M${cx} ${Y(y[k] + scatter[k]).toFixed(1)}V${Y(y[k] - scatter[k]).toFixed(1)}" stroke="${colour}" stroke-width="1.2" opacity=".55"/>` : '';
-        return `<g ${mark === 'ring' ? 'data-mark' : ''} ${pressed} ${faint[k] ? 'opacity=".5"' : ''}><title>${text(said)}${press[k] ? ' Press to fly there.' : ''}</title>${press[k] ? `<circle cx="${cx}" cy="${cy}" r="7" fill="transparent"/>` : ''}${bar}${dot}</g>`;
+        if (!said) return `<g pointer-events="none">${dot}${name}</g>`;
+        const pressed = press[k] ? `role="button" tabindex="0" data-do="${action}" data-value="${text(press[k])}" aria-label="${text(said)}"` : '';
+        const bars = scatter[k] ? `<path d="M${cx} ${Y(y[k] + scatter[k]).toFixed(1)}V${Y(y[k] - scatter[k]).toFixed(1)}" stroke="${colour}" stroke-width="${size / 2}" opacity=".55"/>` : '';
+        return `<g ${mark === 'ring' ? 'data-mark' : ''} ${pressed} ${faint[k] ? 'opacity=".5"' : ''}><title>${text(said)}</title>${press[k] ? `<circle cx="${cx}" cy="${cy}" r="7" fill="transparent"/>` : ''}${bars}${dot}${name}</g>`;
       }).join('');
     },
   };
   // A line at a value, or an area where there is nothing to draw, and why.
-  function rule({at, to = null, along, label, colour, dashes}, {X, Y, left, right, top, base}) {
+  function rule({at, to = null, along, label, colour, dashes = ''}, {X, Y, left, right, top, base}) {
     if (to !== null) return `<rect x="${X(at).toFixed(1)}" y="${top}" width="${(X(to) - X(at)).toFixed(1)}" height="${base - top}" fill="var(--rx-field)" data-gap/>
       <text x="${X((at + to) / 2).toFixed(1)}" y="${((top + base) / 2 + 4).toFixed(1)}" text-anchor="middle">${text(label)}</text>`;
     const path = along === 'x' ? `M${X(at).toFixed(1)} ${top}V${base}` : `M${left} ${Y(at).toFixed(1)}H${right}`;
-    return `<path d="${path}" stroke="${colour}" stroke-width="1.2" stroke-dasharray="${dashes}"/>`;
+    const name = label && along === 'x' ? `<text transform="translate(${(X(at) - 4).toFixed(1)} ${base - 3}) rotate(-90)" style="fill:${colour}" data-name>${text(label)}</text>` : '';
+    return `<path d="${path}" stroke="${colour}" stroke-width="1.2" stroke-dasharray="${dashes}"/>${name}`;
   }
   let clips = 0;
   // Everything within the axes; dots that lie beyond them stand at their edge.
@@ -71,17 +82,27 @@ window.Charts = (() => {
     return `<clipPath id="${clip}"><rect x="${left}" y="${top - 1}" width="${right - left + 2}" height="${base - top + 2}"/></clipPath>
       ${(one.rules ?? []).map(r => rule(r, place)).join('')}<g clip-path="url(#${clip})">${drawn}</g>${dots.map(s => DRAWN.points(s, {...place, low: top, high: base})).join('')}`;
   }
-  const swatch = ({kind, colour, dashes}) => `<i style="${kind === 'points' ? `width:8px;height:8px;border-radius:50%;background:${colour}` : `border-top:${kind === 'band' ? 8 : 3}px ${dashes ? 'dashed' : 'solid'} ${colour};${kind === 'band' ? 'opacity:.3' : ''}`}"></i>`;
+  const swatch = ({kind, colour, dashes, mark}) => `<i style="${kind === 'points' ? `width:8px;height:8px;border-radius:50%;${mark === 'ring' ? `border:1.5px solid ${colour}` : `background:${colour}`}` : `border-top:${kind === 'band' ? 8 : 3}px ${dashes ? 'dashed' : 'solid'} ${colour};${kind === 'band' ? 'opacity:.3' : ''}`}"></i>`;
   const low = words => text(words).replace(/\b([CU])_(\w)/g, '$1<sub>$2</sub>');
   // A whole chart into an element: heading with the key of its lines, and the drawing with what the pointer reads on it.
   function fill(element, one, {height, width = element.clientWidth} = {}) {
-    const high = height + (long(one) && !ends(one) ? 14 : 0), place = frame(one, width, high, long(one) && !ends(one) ? {bottom: 31} : {});
+    const high = height + (long(one) && !ends(one) ? 17 : 0), place = frame(one, width, high, long(one) && !ends(one) ? {bottom: 34} : {});
     const key = one.series.filter(s => s.label).map(s => `<span class="rxf-legend-line">${swatch(s)}${text(s.label)}</span>`).join('');
+    const focus = element.contains(document.activeElement) && document.activeElement.dataset.value;
     if (one.note) element.title = one.note; else element.removeAttribute('title');
     element.innerHTML = `<div class="rxf-head"><b>${low(one.title)}</b><span class="rxf-dim">${low(one.y.label)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}" data-value>${text(one.value)}</span></div>
-      <svg viewBox="0 0 ${width} ${high}" role="img" aria-label="${text(`${one.title}, ${one.y.label ?? ''}. ${one.value ?? ''} ${one.note ?? ''}`)}">${axes(one, place)}${inside(one, place)}<path data-hair/></svg>`;
+      <svg viewBox="0 0 ${width} ${high}" role="img" aria-label="${text(`${one.title}, ${one.y.label ?? ''}. ${one.value ?? ''} ${one.note ?? ''}`)}">${axes(one, place)}${inside(one, place)}<path data-hair pointer-events="none"/></svg>`;
     element.drawn = {one, place};
+    if (focus) element.querySelector(`[data-do][data-value="${CSS.escape(focus)}"]`)?.focus({preventScroll: true});
   }
+  // A point with a press is a button, by keys as by the pointer.
+  document.addEventListener('keydown', event => {
+    const point = event.target instanceof Element && event.target.closest('svg [role=button][data-do]');
+    if (!point || (event.key !== 'Enter' && event.key !== ' ')) return;
+    event.preventDefault();
+    event.stopPropagation();
+    point.dispatchEvent(new MouseEvent('click', {bubbles: true}));
+  }, true);
   // The pointer over a chart: a hair, and the values of its lines there in place of its number.
   let read = null;
   function rest() {
@@ -122,5 +143,5 @@ window.Charts = (() => {
       paint(place);
     }
   }
-  return {text, clamp, frame, rows, axes, inside, fill, find};
+  return {text, clamp, fixed, signed, bar, frame, rows, axes, inside, fill, find};
 })();

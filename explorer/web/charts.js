@@ -2,13 +2,42 @@
 (() => {
   const {text, part} = RX;
   // Where a chart is so narrow that its heading would be cut.
-  const SHORT = {starts: 'Starts', power: 'Power', vibration: 'Vibration', alpha: 'α', worth: 'Pitch'};
+  const SHORT = {starts: 'Starts', power: 'Power', vibration: 'Vibration', alpha: 'α'};
   function chart(element, one) {
     const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260), {y} = one;
     element.toggleAttribute('data-faded', Boolean(one.faded));
     const short = {...one, title: SHORT[one.name] || one.title, y: {...y, label: y.label.replace(/ over designs tried|^both /, '')}};
     Charts.fill(element, tight ? short : one, {width, height: Math.max(element.clientHeight - 38, 40)});
+    const {place} = element.drawn, power = one.speeds && one.series.at(-1).y[0];
+    if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend', `<circle cx="${place.X(one.speeds.mu)}" cy="${place.Y(power)}" r="11" data-speed><title>Drag: speed. Double click: the fastest trim</title></circle>`);
+    say();
   }
+  // Speed is dragged by the dot of power over µ, up to the first wall ahead.
+  let flown = null, asked = 0, speed = null;
+  const say = () => { if (flown?.met) flown.element.querySelector('[data-value]').textContent = flown.met; };
+  const fly = () => { if (speed !== null) { RX.send('speed', speed); asked = performance.now(); speed = null; } };
+  addEventListener('pointerdown', event => {
+    const element = event.button === 0 && event.target instanceof Element && event.target.closest('[data-speed]')?.closest('.rxf-chart');
+    if (!element) return;
+    const {mu, fastest} = element.drawn.one.speeds;
+    flown = {element, most: mu > fastest + .005 ? element.drawn.one.x.range[1] : fastest};
+    event.preventDefault();
+    RX.send('hold', true);
+  });
+  addEventListener('pointermove', event => {
+    if (!flown) return;
+    const {place, one} = flown.element.drawn, box = flown.element.querySelector('svg').getBoundingClientRect();
+    speed = Charts.clamp(place.atX((event.clientX - box.left) * place.width / box.width), 0, flown.most);
+    flown.met = speed < flown.most ? '' : `limit: ${one.rules.find(wall => Math.abs(wall.at - speed) < .006)?.label ?? 'slider'}`;
+    say();
+    setTimeout(fly, Math.max(0, 50 - (performance.now() - asked)));
+  });
+  for (const end of ['pointerup', 'pointercancel'])
+    addEventListener(end, () => { if (flown) { fly(); flown = null; setTimeout(() => RX.send('hold', false), 80); } });
+  document.addEventListener('dblclick', event => {
+    const element = event.target instanceof Element && event.target.closest('[data-speed]')?.closest('.rxf-chart');
+    if (element) RX.send('speed', element.drawn.one.speeds.fastest);
+  });
   RX.paint('strip', all => {
     const strip = part('strip');
     while (strip.children.length > all.length) strip.lastChild.remove();

@@ -1,8 +1,7 @@
 // The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, and the front of both beside it.
 (() => {
   const {text, part} = RX, page = document.documentElement, DEGREE = Math.PI / 180;
-  const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
-  const signed = (v, digits) => (Math.abs(v) < .5 * 10 ** -digits ? '' : v < 0 ? '−' : '+') + Math.abs(v).toFixed(digits);
+  const {signed} = Charts;
   let chosen = 3, held = null, pressed = null, sent = 0, waiting = null, frame = 0;
 
   // Power and index [%] from those without n/rev twist, of cosines and sines [°].
@@ -47,6 +46,14 @@
       if (Math.hypot(a, b) > dial.reach) continue;
       [p, v].forEach((value, k) => { if (!least[k] || value < least[k].value) least[k] = {value, a, b}; });
     }
+    // What the least of each would change with every inflow model, against this harmonic at rest.
+    least.forEach((one, k) => {
+      one.over = [matrix, ...matrix.inflows].map(wake => {
+        const [there, still] = [[one.a, one.b], [0, 0]].map(([a, b]) => { x[2 * at] = a; x[2 * at + 1] = b; return foresee(wake, x)[k]; });
+        return there - still;
+      });
+      one.agreed = Math.max(...one.over) < 0;
+    });
     return field = {key, matrix, power, index, least};
   }
   // Segments of a line of one value on the grid, in cells.
@@ -88,17 +95,19 @@
         const free = places.map(([x, y]) => [edge + step * x, edge + step * y]).filter(([x, y]) => Math.hypot(x - middle, y - middle) < radius - 16 && Math.hypot(x - dx, y - dy) > 30 && found.least.every(one => Math.hypot(x - middle - scale * one.a, y - middle + scale * one.b) > 26) && words.every(w => Math.hypot(x - w[0], y - w[1]) > 34));
         if (free.length) words.push([...free[free.length >> 1], level]);
       }
-      inside += '</g>' + words.map(([x, y, level]) => `<text x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle" class="rxd-level">${level > 0 ? '+' : level < 0 ? '−' : ''}${Math.abs(level)} %</text>`).join('');
+      inside += '</g>' + words.map(([x, y, level]) => `<text x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle" class="rxd-level">${signed(level, 0)} %</text>`).join('');
       const [power, index] = found.least;
       for (const [one, mark, name] of [[power, 'P', 'least power'], [index, 'V', 'least vibration']]) {
         const x = middle + scale * one.a, y = middle - scale * one.b;
-        inside += `<g><title>${name} on this dial, foreseen: ${Math.hypot(one.a, one.b).toFixed(1)}° at ${((Math.atan2(one.b, one.a) / DEGREE + 360) % 360).toFixed(0)}°</title><circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)" stroke-width="1.3"/><text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:700">${mark}</text></g>`;
+        const band = `${signed(Math.min(...one.over), 1)} to ${signed(Math.max(...one.over), 1)} % over inflow models`;
+        const where = `${Math.hypot(one.a, one.b).toFixed(1)}° at ${((Math.atan2(one.b, one.a) / DEGREE + 360) % 360).toFixed(0)}°`;
+        const said = one.agreed ? `${name} on this dial, foreseen: ${where}, ${band}` : `No phase is best: models disagree, ${band} where this one has ${name}`;
+        inside += `<g data-agreed="${one.agreed}"><title>${said}</title><circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)" stroke-width="1.3" ${one.agreed ? '' : 'stroke-dasharray="2 2" opacity=".75"'}/><text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:700">${one.agreed ? mark : mark + '?'}</text></g>`;
       }
     }
-    const rings = [];
-    for (let r = dial.reach > 4 ? Math.ceil(dial.reach / 4) : .5; r <= dial.reach + 1e-9; r += dial.reach > 4 ? Math.ceil(dial.reach / 4) : .5) rings.push(r);
-    const grid = rings.map(r => `<circle cx="${middle}" cy="${middle}" r="${(scale * r).toFixed(1)}" fill="none" stroke="var(--rx-ink)" stroke-opacity="${r > dial.reach - 1e-6 ? .5 : .17}"/>`).join('')
-      + rings.filter((_, k) => k % 2 === 1).map(r => `<text x="${(middle + scale * r * .707 + 2).toFixed(1)}" y="${(middle + scale * r * .707 + (r > dial.reach - 1e-6 ? 13 : 4)).toFixed(1)}" class="rxd-level">${r}°</text>`).join('')
+    const {rings} = dial;
+    const grid = rings.map(([r]) => `<circle cx="${middle}" cy="${middle}" r="${(scale * r).toFixed(1)}" fill="none" stroke="var(--rx-ink)" stroke-opacity="${r > dial.reach - 1e-6 ? .5 : .17}"/>`).join('')
+      + rings.filter((_, k) => k % 2 === 1).map(([r, word]) => `<text x="${(middle + scale * r * .707 + 2).toFixed(1)}" y="${(middle + scale * r * .707 + (r > dial.reach - 1e-6 ? 13 : 4)).toFixed(1)}" class="rxd-level">${word}°</text>`).join('')
       + [0, 45, 90, 135].map(angle => { const [x, y] = at(dial.reach, angle), [u, v] = at(dial.reach, angle + 180); return `<path d="M${x.toFixed(1)} ${y.toFixed(1)}L${u.toFixed(1)} ${v.toFixed(1)}" stroke="var(--rx-ink)" stroke-opacity=".13"/>`; }).join('')
       + [[0, 'start', 3, 4], [90, 'middle', 0, -5], [180, 'end', -3, 4], [270, 'middle', 0, 14]].map(([angle, anchor, dx, dy]) => { const [x, y] = at(dial.reach, angle); return `<text x="${x + dx}" y="${y + dy}" text-anchor="${anchor}">${angle}°</text>`; }).join('');
     const [x, y] = at(a, p), label = `${chosen}/rev: ${a.toFixed(2)}° at phase ${p.toFixed(0)}°`;
@@ -124,39 +133,14 @@
     pen.drawImage(one, 0, 0, canvas.width, canvas.height);
   }
 
-  function frontSvg(width, height) {
-    const {dial_front: front, dial_matrix: matrix, dial_published: all = []} = RX.state, dots = front?.dots ?? [];
-    const paired = all.filter(one => one.power !== null), alone = all.filter(one => one.power === null), strip = 17 * alone.length + 10;
-    const left = 42, right = width - strip - 6, top = 22, base = height - 36;
-    const seen = matrix ? foresee(matrix, vector()) : null;
-    const powers = [...dots.map(one => one.power), ...paired.map(one => one.power), 0], x0 = Math.floor(Math.min(-2, ...powers) - .3), x1 = Math.ceil(Math.max(2, ...powers) + .6), y0 = -100, y1 = 40;
-    const X = v => left + (clamp(v, x0, x1) - x0) / (x1 - x0) * (right - left), Y = v => top + (y1 - clamp(v, y0, y1)) / (y1 - y0) * (base - top);
-    let out = '';
-    for (const v of [-100, -75, -50, -25, 0, 25]) out += `<path d="M${left} ${Y(v).toFixed(1)}H${width - 4}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${left - 5}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${v > 0 ? '+' : v < 0 ? '−' : ''}${Math.abs(v)}</text>`;
-    for (let v = Math.ceil(x0 / 2) * 2; v <= x1; v += 2) out += `<path d="M${X(v).toFixed(1)} ${top}V${base}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${X(v).toFixed(1)}" y="${base + 14}" text-anchor="middle">${v > 0 ? '+' : v < 0 ? '−' : ''}${Math.abs(v)}</text>`;
-    out += `<text x="2" y="12">vibration change [%]</text><text x="${(left + right) / 2}" y="${height - 6}" text-anchor="middle">power change [%]</text>`;
-    if (alone.length) out += `<path d="M${right + 5} ${top}V${base}" stroke="var(--rx-faint)"/><text x="${width - 4}" y="${base + 14}" text-anchor="end">vibration</text><text x="${width - 4}" y="${height - 6}" text-anchor="end">alone</text>`;
-    const tint = one => one.kind === 'computed' ? 'var(--rx-paper)' : 'var(--rx-dim)';
-    alone.forEach((one, k) => {
-      const x = right + 17 + 17 * k, [low, high] = one.vibration;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${x - 8}" y="${Y(high) - 46}" width="16" height="${Y(low) - Y(high) + 54}" fill="transparent"/>${low < high ? `<path d="M${x} ${Y(low).toFixed(1)}V${Y(high).toFixed(1)}" stroke="var(--rx-dim)" stroke-width="5" stroke-linecap="round"/>` : `<rect x="${x - 4}" y="${(Y(low) - 4).toFixed(1)}" width="8" height="8" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.4"/>`}
-        <text transform="translate(${x + 4} ${(Y(high) - 9).toFixed(1)}) rotate(-90)">${text(one.name)}</text></g>`;
-    });
-    paired.forEach((one, k) => {
-      const x = X(one.power), y = Y(one.vibration[0]), before = x > right - 96;
-      out += `<g data-published><title>${text(one.words)}</title><rect x="${(x - 4.5).toFixed(1)}" y="${(y - 4.5).toFixed(1)}" width="9" height="9" fill="${tint(one)}" stroke="var(--rx-dim)" stroke-width="1.5"/>${width < 360 ? '' : `<text x="${(x + (before ? 5 : -5)).toFixed(1)}" y="${(y + (k % 2 ? 18 : -9)).toFixed(1)}" text-anchor="${before ? 'end' : 'start'}" class="rxd-level">${text(one.name)}</text>`}</g>`;
-    });
-    if (dots.length) {
-      out += `<path d="M${dots.map(one => `${X(one.power).toFixed(1)} ${Y(one.index).toFixed(1)}`).join('L')}" fill="none" stroke="var(--rx-accent)" stroke-width="1.4" opacity=".6"/>`;
-      dots.forEach((one, k) => {
-        const x = X(one.power).toFixed(1), y = Y(one.index).toFixed(1);
-        out += `<g role="button" tabindex="0" data-do="dial_front" data-value="${k}" data-front aria-label="${text(one.words)}"><title>${text(one.words)}. Press to apply it.</title>${one.wakes ? `<path d="M${x} ${Y(one.wakes[0]).toFixed(1)}V${Y(one.wakes[1]).toFixed(1)}" stroke="var(--rx-accent)" stroke-width="4" opacity=".22"/>` : ''}<circle cx="${x}" cy="${y}" r="11" fill="transparent"/><circle cx="${x}" cy="${y}" r="5" fill="var(--rx-accent)" stroke="var(--rx-paper)" stroke-width="1.6"/></g>`;
-      });
-    } else if (front?.words) out += `<text x="${(left + right) / 2}" y="${Y(12)}" text-anchor="middle">${text(front.words.length > 40 ? '' : front.words)}</text>`;
-    if (seen) out += `<circle cx="${X(seen[0]).toFixed(1)}" cy="${Y(seen[1]).toFixed(1)}" r="6.5" fill="var(--rx-blade)" stroke="var(--rx-paper)" stroke-width="2" pointer-events="none" data-seen><title>this twist</title></circle>`;
-    return `<svg width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="group" aria-label="Power and vibration, from the same blade without n/rev twist">${out}</svg>`;
+  // The front with this twist on it.
+  function front(place, width, height) {
+    const {dial_front: chart, dial_matrix: matrix} = RX.state, seen = matrix && foresee(matrix, vector());
+    if (!chart) return;
+    const now = seen ? [{kind: 'points', label: 'this twist', x: [seen[0]], y: [seen[1]], colour: 'var(--rx-blade)', size: 6.5}] : [];
+    const series = chart.series.map(one => width < 360 && one.beside === 'below' ? {...one, names: []} : one);  // They would lie on each other.
+    Charts.fill(place, {...chart, value: chart.words.length > 40 ? '' : chart.words, series: [...series, ...now]}, {width, height});
   }
-  const KEY = '<div class="rxd-key"><span><i style="background:var(--rx-blade);border-radius:50%"></i>this twist</span><span title="Least power for each vibration, by 2/rev and 3/rev of at most 1°; bars: over wakes"><i style="background:var(--rx-accent);border-radius:50%"></i>best, press to apply</span><span title="Other rotors and other measures of vibration"><i style="background:var(--rx-dim)"></i>published, measured</span><span title="Other rotors and other measures of vibration"><i style="border:1.5px solid var(--rx-dim)"></i>computed</span></div>';
 
   function readout() {
     const {dial, dial_matrix: matrix} = RX.state, [a, p] = wave(chosen), head = `<b>${chosen}/rev</b> ${a.toFixed(2)}° <span class="rxf-dim">at phase ${p.toFixed(0)}°</span>`;
@@ -175,13 +159,13 @@
     if (place.stamp === stamp && place.matrix === matrix && place.childElementCount) return;
     place.stamp = stamp;
     place.matrix = matrix;
-    const focus = place.contains(document.activeElement) ? document.activeElement : null, again = focus?.matches('[data-dot]') ? '[data-dot]' : focus?.dataset.harmonic ? `[data-harmonic="${focus.dataset.harmonic}"]` : focus?.matches('[data-front]') ? `[data-front][data-value="${focus.dataset.value}"]` : null;
+    const focus = place.contains(document.activeElement) ? document.activeElement : null, again = focus?.matches('[data-dot]') ? '[data-dot]' : focus?.dataset.harmonic ? `[data-harmonic="${focus.dataset.harmonic}"]` : null;
     const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 780) : Math.min(width, 300), wide = large ? width - size - 44 : width, high = large ? size + 20 : 228;
     if (!place.firstElementChild || place.dataset.size !== `${size} ${wide}`) {
       place.dataset.size = `${size} ${wide}`;
       place.shaded = null;  // Its canvas is another.
       place.innerHTML = `<div class="rxd-side"><div class="rxd-row"></div><div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div><div class="rxd-read" data-explorer="dial-read"></div></div>
-        <div class="rxd-side"><div class="rxd-why"></div><div class="rxd-front" style="height:${high}px"></div>${KEY}${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
+        <div class="rxd-side"><div class="rxd-why"></div><div class="rxd-front"></div>${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
     }
     place.querySelector('.rxd-row').innerHTML = dial.harmonics.map(small).join('');
     const canvas = place.querySelector('canvas');
@@ -190,7 +174,7 @@
     place.querySelector('.rxd-round > div').innerHTML = dialSvg(size);
     place.querySelector('.rxd-read').innerHTML = readout();
     place.querySelector('.rxd-why').innerHTML = dial.words ? `<p>${text(dial.words)}</p>${dial.action ? `<button data-do="dial_bend">${text(dial.action)}</button>` : ''}` : '';
-    place.querySelector('.rxd-front').innerHTML = frontSvg(wide, high);
+    front(place.querySelector('.rxd-front'), wide, high);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
   function draw() {
@@ -202,7 +186,7 @@
     if (pressed && Math.abs(a - pressed.amplitude) < .006 && (!a || Math.abs(p - pressed.phase) < .6)) pressed = null;
     draw();
   });
-  for (const name of ['dial_matrix', 'dial_front', 'dial_published']) RX.paint(name, draw);
+  for (const name of ['dial_matrix', 'dial_front']) RX.paint(name, draw);
   new ResizeObserver(draw).observe(document.querySelector('.rxf-stage'));
   new MutationObserver(() => { for (const place of document.querySelectorAll('[data-dial]')) if (!place.childElementCount) draw(); }).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 
@@ -245,7 +229,6 @@
     });
   document.addEventListener('keydown', event => {
     const near = event.target instanceof Element && event.target;
-    if (near && near.matches('[data-front]') && (event.key === 'Enter' || event.key === ' ')) { event.preventDefault(); event.stopPropagation(); near.dispatchEvent(new MouseEvent('click', {bubbles: true})); return; }
     if (event.key === 'Escape' && page.dataset.enlarged) { event.stopPropagation(); enlarge(false); return; }
     const dot = near && near.closest('[data-dot]'), many = event.shiftKey ? 5 : 1;
     const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], PageUp: [.25, 0], PageDown: [-.25, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
@@ -253,7 +236,7 @@
     event.preventDefault();
     event.stopPropagation();
     const [a, p] = wave(chosen);
-    pressed = {n: chosen, amplitude: clamp(Math.round(100 * (a + many * step[0])) / 100, 0, RX.state.dial.reach), phase: (p + many * step[1] + 360) % 360, at: performance.now()};
+    pressed = {n: chosen, amplitude: Charts.clamp(Math.round(100 * (a + many * step[0])) / 100, 0, RX.state.dial.reach), phase: (p + many * step[1] + 360) % 360, at: performance.now()};
     tell(chosen, [pressed.amplitude, pressed.phase]);
     setTimeout(draw, 950);
     draw();

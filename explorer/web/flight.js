@@ -2,9 +2,7 @@
 (() => {
   const {text, part} = RX, page = document.documentElement;
   const card = part('fly'), earns = part('earns'), WHOLE = 14000, SEND = 70;  // [ms] of a played flight, and between two messages.
-  const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
-  const degrees = (value, digits = 2) => `${Math.abs(value) < 0.5 * 10 ** -digits ? '' : value < 0 ? '−' : '+'}${Math.abs(value).toFixed(digits)}°`;
-  const LEFT = 46, RIGHT = 16;
+  const {clamp} = Charts, degrees = value => Charts.signed(value, 2) + '°';
   let at = 0, own = 0, sent = 0, waiting = 0, playing = 0, before = 0, moved = -Infinity;
 
   const last = () => RX.state.flight.legs.length - 1;
@@ -93,32 +91,9 @@
   function draw(now) {
     const svg = card.querySelector('svg'), width = card.clientWidth - 28, height = svg.clientHeight;
     if (width < 120 || height < 30) return;
-    const [y0, y1] = now.range, X = x => LEFT + x / last() * (width - LEFT - RIGHT), Y = y => 8 + (y1 - y) / (y1 - y0) * (height - 16);
-    scale = {X, Y, width, height};
-    let inside = now.ticks.map(v => `<path d="M${LEFT} ${Y(v).toFixed(1)}H${width - RIGHT}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${LEFT - 7}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${degrees(v, Math.abs(v % 1) > .01 ? 1 : 0)}</text>`).join('');
-    if (now.wanted) {
-      const step = last() / (now.wanted.length - 1), cuts = [];
-      now.net.forEach((net, k) => {
-        if (k && (net > 0) !== (now.net[k - 1] > 0)) cuts.push((k - 1 + now.net[k - 1] / (now.net[k - 1] - net)) * step);
-        cuts.push(k * step);
-      });
-      for (let k = 1; k < cuts.length; k++) {
-        const gains = between(now.net, (cuts[k - 1] + cuts[k]) / 2) > 0;
-        inside += `<rect x="${X(cuts[k - 1]).toFixed(1)}" width="${(X(cuts[k]) - X(cuts[k - 1]) + .3).toFixed(1)}" y="${Y(now.reach[1]).toFixed(1)}" height="${(Y(now.reach[0]) - Y(now.reach[1])).toFixed(1)}" class="rxf-fly-band" ${gains ? 'data-gains' : ''}/>`;
-      }
-      const held = now.wanted.map(y => clamp(y, ...now.reach)), line = values => values.map((y, k) => `${X(k * step).toFixed(1)} ${Y(y).toFixed(1)}`);
-      inside += `<path d="M${[...line(now.wanted), ...line(held).reverse()].join('L')}Z" class="rxf-fly-gap"/><path d="M${line(now.reached).join('L')}" class="rxf-fly-reached"/><path d="M${line(now.wanted).join('L')}" class="rxf-fly-wanted"/>`;
-      const gaps = now.wanted.map((y, k) => Math.abs(y - held[k])), worst = gaps.indexOf(Math.max(...gaps));
-      const end = now.wanted.length - 1, above = now.wanted[end] > now.reached[end];
-      inside += `<text x="${width - RIGHT - 4}" y="${Y(now.wanted[end]) + (above ? -7 : 17)}" text-anchor="end" class="rxf-fly-name" data-wanted>wanted</text><text x="${width - RIGHT - 4}" y="${Y(now.reached[end]) + (above ? 17 : -7)}" text-anchor="end" class="rxf-fly-name" data-reached>reached</text>`;
-      if (Y(now.reach[0]) - Y(now.reach[1]) > 18) inside += `<text x="${LEFT + 6}" y="${Y(now.reach[1]) + 14}" class="rxf-fly-name">within reach</text>`;
-      if (gaps[worst] > 0.15) {
-        const y = Y((now.wanted[worst] + held[worst]) / 2), x = X(worst * step);
-        inside += `<text x="${clamp(x, LEFT + 8, width - RIGHT - 8)}" y="${y + 4}" text-anchor="${worst === end ? 'end' : worst ? 'middle' : 'start'}" class="rxf-fly-short">short by ${gaps[worst].toFixed(1)}°</text>`;
-      }
-    }
+    scale = Charts.frame(now.chart, width, height, {left: 46, right: 16, bottom: 8});
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    svg.innerHTML = `${inside}<g data-marker></g>`;
+    svg.innerHTML = `${Charts.rows(now.chart, scale)}${Charts.inside(now.chart, scale)}<g data-marker></g>`;
   }
 
   function mark() {
@@ -129,11 +104,11 @@
     const {X, Y, height} = scale, x = X(at), near = now.legs[Math.round(at)];
     card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', k === Math.round(at)));
     let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
-    if (now.wanted) {
-      const wanted = between(now.wanted, at), reached = between(now.reached, at), net = between(now.net, at);
+    if (now.net) {
+      const [wanted, reached] = ['wanted', 'reached'].map(name => between(now.chart.series.find(one => one.label === name).y, at)), net = between(now.net, at);
       inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(reached)}" r="6.5" class="rxf-fly-dot"/>`;
       said = degrees(reached);
-      words = `of ${degrees(wanted)} wanted${now.kind === 'ready' ? ` · net ${net < 0 ? '−' : '+'}${Math.abs(net).toFixed(1)} ${now.unit} here` : ' · computing…'}`;
+      words = `of ${degrees(wanted)} wanted${now.kind === 'ready' ? ` · net ${Charts.signed(net)} ${now.unit} here` : ' · computing…'}`;
       slider.ariaValueText = `${near[0]}: ${said} ${words}`;
     } else slider.ariaValueText = near[0];
     const group = card.querySelector('[data-marker]');

@@ -11,7 +11,7 @@
   const page = document.documentElement, root = document.getElementById('rx');
   const part = name => root.querySelector(`[data-part=${name}]`);
   const state = {}, painters = {}, later = new Set();
-  let bridge = null, serial = 0, frame = 0;
+  let bridge = null, serial = 0, frame = 0, sessions = 0;
 
   const RX = window.RX = {
     state, icon, part,
@@ -30,7 +30,9 @@
       });
     },
     // From Python: the text widget that takes our messages; later, parts of the state.
-    begin(uuid) { bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); page.removeAttribute('data-big'); },
+    begin(uuid) { RX.forget(); bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); page.removeAttribute('data-big'); },
+    // The session has gone: nothing is sent until another begins.
+    forget() { bridge = null; sessions++; delete state.power; },
     set(parts) { for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); } },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
     send(name, value = null) {
@@ -45,8 +47,11 @@
       for (let asked = -1; asked !== serial;) {
         await drawn();  // A slider that is moved changes in the next frame; nothing is kept back for longer than 120 ms then.
         await new Promise(done => setTimeout(done, 150));
+        while (bridge === null) await drawn();
+        const session = sessions;
         RX.send('idle', [asked = serial + 1, wholly]);
-        while (state.idle !== asked) await drawn();
+        while (state.idle !== asked && session === sessions) await drawn();
+        if (session !== sessions) asked = -1;
         await drawn();
         await drawn();
       }
@@ -82,7 +87,7 @@
   document.addEventListener('pointerup', event => {
     const was = pressed, now = control(event.target);
     pressed = null;
-    if (was?.control && now && !was.target.isConnected && same(was.control, now)) now.click();
+    if (was?.control && now && !was.target.isConnected && same(was.control, now)) now.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   }, true);
   // A link to be passed on, not followed.
   document.addEventListener('click', event => {
@@ -220,16 +225,21 @@
     telling = setTimeout(() => {
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
-      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
-      const high = wide.filter(box => box.top <= stage.top + stage.height / 3), low = [...wide.filter(box => !high.includes(box)), seen('.rxs-wipe > span')].filter(Boolean), notice = seen('.rxf-notice');
+      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width).concat(seen('.rxs-wipe > span') ?? []);
+      const high = wide.filter(box => box.top <= stage.top + stage.height / 3), low = wide.filter(box => !high.includes(box)), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
       const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;
       RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
-    }, 120);
+    }, page.classList.contains('rx-veiled') ? 0 : 120);  // Below the veil at once, so that the camera stands when it lifts.
   }
   RX.also('vibration', tellCover);
   for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  // The card of power grows with its words: what stands below it follows.
+  new ResizeObserver(() => {
+    const card = root.querySelector('.rxf-power');
+    if (card.offsetHeight) root.style.setProperty('--rx-power', card.offsetTop + card.offsetHeight + 'px');
+  }).observe(root.querySelector('.rxf-power'));
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.

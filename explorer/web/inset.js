@@ -7,10 +7,7 @@
     return `rgb(${STOPS[k].map((v, j) => Math.round(v + f * (STOPS[k + 1][j] - v)))})`;
   };
   RX.along = along;
-  const signed = value => {
-    const digits = Math.abs(value).toFixed(1);  // What rounds to zero has no sign.
-    return (digits === '0.0' ? '' : value < 0 ? '−' : '+') + digits + '°';
-  };
+  const signed = value => Charts.signed(value) + '°';
 
   RX.paint('inset', now => {
     const card = part('inset');
@@ -45,15 +42,15 @@
     const sparse = width < 560;
     now.cuts.forEach((cut, k) => {
       if (sparse && k % 2 === 1 && k < now.cuts.length - 1) return;
-      const o = at(cut.r), shade = along(share(cut.r)), shape = (angle, kind, datum) => `<path d="M${cut.outline.map(p => turned(o, angle, p, datum)).join('L')}Z" ${kind}/>`;
+      const o = at(cut.r), shade = along(share(cut.r)), shape = (angle, kind, datum) => `<path d="M${cut.outline.map(p => turned(o, angle, p, datum)).join('L')}Z" ${kind}>${changed(cut) ? `<title>${signed(cut.theta - cut.ghost)} from ${text(now.ghost_name)}</title>` : ''}</path>`;
       if (changed(cut)) inside += shape(cut.ghost, 'class="rxf-ghost-cut"', now.ghost_datum);
       inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${cut.r}"`);
-      if (width < (changed(cut) ? 900 : 700) && k === now.cuts.length - 2) return;  // Its numbers would meet those of the tip.
+      if (k < now.cuts.length - 1 && (k % 2 || k === now.cuts.length - 2)) return;  // Every other section has numbers, none beside the tip's.
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
-        <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-ink);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;
+        <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${cut.r.toFixed(2)}</text>`;
     });
     // What the two rows of numbers are.
-    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">${now.cuts.some(changed) ? 'Δ · ' : ''}r/R</text>`;
+    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">r/R</text>`;
     const spoken = now.cuts.map(cut => `${signed(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b><button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${now.times}${now.times > 1 ? ', as in the scene' : ''}</button>
       <div class="rxf-key"><span title="${text(now.name_hint)}"><i></i>${text(now.name)}</span>${now.ghost ? `<span title="${text(now.ghost_hint)}"><i data-ghost></i>${text(now.ghost_name)}</span>` : ''}<span>root ← r/R → tip</span></div></div>

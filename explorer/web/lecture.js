@@ -17,7 +17,7 @@
     place.hidden = !step;
     if (begins || !step) {
       RX.openRail(!step && innerWidth <= 700);  // Full-bleed, until the controls are asked for.
-      if (begins) story.rewind(); else { story.stop(); RX.part('figures').hidden = true; }
+      if (!step) story.end();
       window.dispatchEvent(new Event('resize'));
     }
     if (step) { story.show(step); name(); }

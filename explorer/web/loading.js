@@ -5,10 +5,11 @@
   const asked = new URLSearchParams(location.search).has('darkMode');
   const sign = '[data-explorer=status], [data-explorer=lobby]';
   const unanswered = '[data-explorer=status][data-kind=waiting]';
-  let begun = 0, calm = 0, last = '', down = false, held = 0, shown = null;
+  let begun = 0, calm = 0, last = '', down = false, held = 0, shown = null, stale = false;
 
   function lay() {
     begun = performance.now(); calm = 0; last = '';
+    veil.querySelector('output').replaceChildren();
     veil.classList.toggle('rx-dark', page.dataset.mantineColorScheme === 'dark' || asked
       || (!page.dataset.mantineColorScheme && matchMedia('(prefers-color-scheme: dark)').matches));
     veil.classList.remove('rx-lifting');
@@ -30,16 +31,29 @@
     if (page.classList.contains('rx-veiled')) setTimeout(ask, ASK);
   }
 
-  // At rest: there is an answer, and the picture has kept its place for some frames.
+  // The design of the address is solved while the page's parts arrive: its power stands here before the picture does.
+  async function foretell(tries) {
+    const reply = await fetch(`first-answer${location.search}`).catch(() => null);
+    const [power, ...lines] = reply?.ok ? (await reply.text()).trim().split('\n') : [''];
+    if (power) {
+      const number = document.createElement('b');
+      number.textContent = power;
+      veil.querySelector('output').replaceChildren(number, ...lines.map(line => Object.assign(document.createElement('span'), {textContent: line})));
+    } else if (tries && page.classList.contains('rx-veiled')) setTimeout(foretell, 120, tries - 1);
+  }
+
+  // At rest: there is an answer, and the picture has kept its place, and the camera its, for some frames.
   function look() {
-    const canvas = document.querySelector(sign) && document.querySelector('canvas');
-    const place = canvas ? JSON.stringify(canvas.getBoundingClientRect()) : '';
+    // What was shown before the connection was lost is no answer: its buttons would speak to a session that has gone.
+    const canvas = !stale && document.querySelector(sign) && document.querySelector('canvas');
+    const place = canvas ? JSON.stringify([canvas.getBoundingClientRect(), window.__viserMutable?.camera?.matrixWorld.elements]) : '';
     calm = place && place === last ? calm + 1 : 0;
     last = place;
-    const now = performance.now(), answered = document.querySelector(sign) && !document.querySelector(unanswered);
+    if (window.RX?.state.power || document.querySelector('[data-explorer=lobby]')) stale = false;
+    const now = performance.now(), answered = !stale && document.querySelector(sign) && !document.querySelector(unanswered);
     if (!answered && now < held) { begun = now; calm = 0; }
     const took = now - begun;
-    if (calm >= 3 || took > ENOUGH) return lift();
+    if (!stale && (calm >= 3 || took > ENOUGH)) return lift();
     if (took > SLOW) words.textContent = 'This takes longer than it should: the server is busy, or cannot be reached. '
       + 'The page goes on trying.';
     requestAnimationFrame(look);
@@ -99,7 +113,8 @@
       hold(true);
       setTimeout(() => say(down), BRIEF);
     }
-    if (open) { say(false); if (was) lay(); }
+    if (open) { say(false); if (was) { RX.forget(); stale = true; lay(); } }
   });
   lay();
+  foretell(40);
 })();

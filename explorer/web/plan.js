@@ -6,7 +6,7 @@
   const COLOURS = {stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)'};
   const DASHES = {negative_stall: '7 3', drag_divergence: '3 4'};
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'c_l', 2, ''], ['margin', 'To stall', 1, '°']];
-  const fixed = (value, digits, unit = '') => (value.toFixed(digits).replace('-', '−').replace(/^−(0(\.0*)?)$/, '$1')) + unit;
+  const fixed = (value, digits, unit = '') => Charts.fixed(value, digits) + unit;
   let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
 
   const unpack = ({low, step, data}) => {
@@ -142,7 +142,7 @@
     if (reversed(r, psi)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${field}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.map(([name, title, digits, unit]) => `<dt>${title}</dt><dd class="${name === 'margin' && value.margin < 0 ? 'rxf-bad' : ''}">${fixed(value[name], digits, unit)}</dd>`).join('') + field;
   };
-  const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
+  const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-ride-at="${pin}" title="One slow turn with this section">Ride</button><button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
   // Beside its point, away from the hub where there is room. A card's size is asked for once: to ask between two writes
   // costs a layout.
   const sizes = {};
@@ -174,21 +174,19 @@
   // α around the circle, with the stall angles there, and the shares of the regions beside it.
   function drawAround() {
     if (!tables.alpha || !around.childElementCount) return;
-    const [chart, shares] = around.children, {width, height} = layout.chart, left = 34, base = height - 17, right = width - 8;
-    const at360 = table => Array.from({length: 121}, (_, k) => reversed(circle, 3 * k) ? null : at(table, circle, 3 * k));
-    const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), before = tables.before && at360(tables.before);
-    const all = [...alpha, ...(before ?? [])].filter(v => v !== null), top = Math.max(16, ...all.map(v => Math.min(v, 30))), least = Math.min(-2, ...all.map(v => Math.max(v, -20)));
-    const X = psi => left + psi / 360 * (right - left), Y = v => 6 + (top - Math.max(least, Math.min(top, v))) / (top - least) * (base - 6);
-    const curve = (values, style) => { let d = '', open = false; values.forEach((v, k) => { if (v === null || v > top || v < least) open = false; else { d += `${open ? 'L' : 'M'}${X(3 * k).toFixed(1)} ${Y(v).toFixed(1)}`; open = true; } }); return `<path d="${d}" fill="none" ${style}/>`; };
-    const ticks = []; for (let v = Math.ceil(least / 5) * 5; v <= top; v += 5) ticks.push(v);
-    const grid = ticks.map(v => `<path d="M${left} ${Y(v).toFixed(1)}H${right}" stroke="var(${v ? '--rx-grid' : '--rx-faint'})"/><text x="${left - 6}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${fixed(v, 0)}°</text>`).join('')
-      + [0, 90, 180, 270, 360].map(psi => `<text x="${X(psi).toFixed(1)}" y="${height - 2}" text-anchor="${psi === 360 ? 'end' : psi ? 'middle' : 'start'}">ψ ${psi}°</text>`).join('');
-    const here = pointer && !reversed(circle, pointer.psi) ? `<path d="M${X(pointer.psi).toFixed(1)} 6V${base}" stroke="var(--rx-faint)"/><circle cx="${X(pointer.psi).toFixed(1)}" cy="${Y(at(tables.alpha, circle, pointer.psi)).toFixed(1)}" r="4" fill="var(--rx-blade)" stroke="var(--rx-paper)" stroke-width="1.5"/>` : '';
-    const margins = alpha.map((v, k) => v === null ? Infinity : Math.min(upper[k] - v, v - lower[k])), margin = Math.min(...margins);
-    const least_words = Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow';
-    chart.innerHTML = `<div class="rxf-head"><b>Angle of attack over azimuth</b><span class="rxf-dim">° at ${circle.toFixed(2)} R, the circle under the pointer</span><span class="rxf-num ${margin < 0 ? 'rxf-bad' : ''}">${least_words}</span></div>
-      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Angle of attack over azimuth at ${circle.toFixed(2)} R: ${least_words}">${grid}${curve(upper, 'stroke="var(--rx-stall)" stroke-width="1.3" stroke-dasharray="3 3"')}${curve(lower, 'stroke="var(--rx-stall)" stroke-width="1.3" stroke-dasharray="3 3"')}
-      ${before ? curve(before, 'stroke="var(--rx-pinned)" stroke-width="1.7" stroke-dasharray="6 3"') : ''}${curve(alpha, 'stroke="var(--rx-blade)" stroke-width="2.1"')}${here}</svg>`;
+    const [chart, shares] = around.children, {width, height} = layout.chart, x = Array.from({length: 121}, (_, k) => 3 * k);
+    const at360 = table => x.map(psi => reversed(circle, psi) ? null : at(table, circle, psi));
+    const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), line = (y, colour, thick, dashes) => ({kind: 'line', x, y, colour, width: thick, dashes});
+    const margins = alpha.map((v, k) => v === null ? Infinity : Math.min(upper[k] - v, v - lower[k])), margin = Math.min(...margins), here = pointer && !reversed(circle, pointer.psi);
+    Charts.fill(chart, {
+      ...RX.state.plan.around, y: {...RX.state.plan.around.y, label: `° at ${circle.toFixed(2)} R, the circle under the pointer`},
+      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow', kind: margin < 0 ? 'bad' : '',
+      rules: here ? [{at: pointer.psi, along: 'x', colour: 'var(--rx-faint)'}] : [],
+      series: [
+        line(upper, 'var(--rx-stall)', 1.3, '3 3'), line(lower, 'var(--rx-stall)', 1.3, '3 3'), ...(tables.before ? [line(at360(tables.before), 'var(--rx-pinned)', 1.7, '6 3')] : []),
+        line(alpha, 'var(--rx-blade)', 2.1), ...(here ? [{kind: 'points', x: [pointer.psi], y: [at(tables.alpha, circle, pointer.psi)], colour: 'var(--rx-blade)'}] : []),
+      ],
+    }, {width, height});
     const regions = RX.state.plan.regions.filter(one => one.lines.length);
     shares.innerHTML = `<div class="rxf-head"><b>Regions</b><span class="rxf-dim">share of disk area · of thrust</span></div>` + (regions.map(one => `<div class="rxf-share rxf-num"><i style="background:${COLOURS[one.name]}"></i><span>${text(one.title)}</span><span>${text(one.words.replace(/ (area|thrust)/g, ''))}</span></div>`).join('') || '<p class="rxf-dim">None is marked.</p>');
   }
@@ -212,12 +210,13 @@
   place.addEventListener('pointerdown', event => { pressed = [event.clientX, event.clientY]; });
   place.addEventListener('click', event => {
     const unpin = event.target instanceof Element && event.target.closest('[data-unpin]');
-    if (unpin) pins.splice(Number(unpin.dataset.unpin), 1);
+    const ride = event.target instanceof Element && event.target.closest('[data-ride-at]');
+    if (ride) { const {r, psi} = pins[Number(ride.dataset.rideAt)]; RX.send('ride', [r, psi]); }
+    else if (unpin) pins.splice(Number(unpin.dataset.unpin), 1);
     else {
       const found = layout && RX.state.plan && find(event);
       if (!found || !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 5) return;
       pins = [...pins, found].slice(-4);
-      RX.send('probe_at', [found.r, found.psi]);
     }
     cursor();
     drawPins();

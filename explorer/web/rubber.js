@@ -5,7 +5,7 @@
   const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75;
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const lerp = (a, b, t) => a + (b - a) * t, ease = t => t * t * (3 - 2 * t), clamp = (v, low, high) => Math.min(Math.max(v, low), Math.max(low, high));
-  const signed = (v, digits = 1) => (Math.abs(v) < .5 * 10 ** -digits ? '' : v < 0 ? '−' : '+') + Math.abs(v).toFixed(digits) + '°';
+  const signed = v => Charts.signed(v) + '°';
   let held = null, shown = 0, towards = 0, before = 0, running = false, pointer = {x: 0, y: 0, down: false}, sent = 0, waiting = null;
 
   for (const [name, down] of [['pointerdown', true], ['pointermove', null], ['pointerup', false], ['pointercancel', false]])
@@ -78,8 +78,11 @@
     const drawn = x > -.35 * reach ? y / reach / DEGREE : Math.atan2(y, -x) / DEGREE;
     return drawn / TIMES;
   }
+  // The blade stops where the first of its sliders ends.
+  const within = wanted => clamp(wanted, held.ends[0][0], held.ends[1][0]);
+  const end = one => one.ends.find(([limit]) => Math.abs(limit - one.wanted) < .06);
   function turn() {
-    held.wanted = clamp(held.start + angleOf() - held.press_angle, held.start - 25, held.start + 25);
+    held.wanted = within(held.start + angleOf() - held.press_angle);
     tell();
     if (!running) draw();
   }
@@ -156,7 +159,7 @@
       inside += `<path d="${arc(one.first - reach, one.first + reach, 1.05)}" fill="none" stroke="var(--rx-faint)"/><path d="${ticks}" stroke="var(--rx-faint)"/>
         <path d="${arc(one.first, one.wanted, 1.05)}" fill="none" stroke="var(--rx-accent)" stroke-width="4"/>`
         + (best ? `<path d="${ray(best.theta, .99, 1.13)}" stroke="var(--rx-good)" stroke-width="${best.held ? 6 : 4}" stroke-linecap="round"/>` + words(best.theta, 1.16, best.held ? 'least power' : `best ${signed(best.theta - one.first)}`, 'var(--rx-good)') : '')
-        + (best && Math.abs(best.theta - one.wanted) < 1 ? '' : words(one.wanted, 1.16, signed(one.wanted - one.first), 'var(--rx-accent)'));
+        + (best && Math.abs(best.theta - one.wanted) < 1 ? '' : words(one.wanted, 1.16, `${signed(one.wanted - one.first)}${end(one) ? `, limit of ${end(one)[1]}` : ''}`, 'var(--rx-accent)'));
       if (layout.wide) inside += numbers(layout, cuts, share, point, reference);
     }
     const svg = place.querySelector('svg');
@@ -192,7 +195,7 @@
     if (event.key === 'Escape') release(true);
     else if (event.key === 'Enter') release();
     else if (event.key === 'ArrowUp' || event.key === 'ArrowDown') {
-      held.wanted = clamp(held.wanted + (event.key === 'ArrowUp' ? 1 : -1) * (event.shiftKey ? 1 : .1), held.first - 25, held.first + 25);
+      held.wanted = within(held.wanted + (event.key === 'ArrowUp' ? 1 : -1) * (event.shiftKey ? 1 : .1));
       tell();
       draw();
       RX.say(`${held.titles[held.at]} ${signed(held.wanted - held.first)}`);

@@ -173,7 +173,6 @@ window.makeStory = (column, figures, report) => {
       show();
       if (other) go(first ? 'instant' : 'smooth');
     },
-    stop: halt,
-    rewind() { now = null; },
+    end() { halt(); now = null; figures.hidden = true; },
   };
 };

@@ -36,8 +36,7 @@
     });
     part('field').textContent = step.scale.title;
     part('unit').textContent = step.scale.unit;
-    part('scale').innerHTML = `<div class="rxf-grad"><i style="background:${step.scale.colours[0]}"></i><i style="background:linear-gradient(90deg,${step.scale.colours.join()})"></i><i style="background:${step.scale.colours.at(-1)}"></i></div>
-      <div class="rxf-ticks rxf-num">${step.scale.ticks.map(([at, word]) => `<span style="left:${at}%">${word}</span>`).join('')}</div>`;
+    part('scale').innerHTML = `<div class="rxf-grad"><i style="background:${step.scale.colours[0]}"></i><i style="background:linear-gradient(90deg,${step.scale.colours.join()})"></i><i style="background:${step.scale.colours.at(-1)}"></i></div>${Charts.bar(step.scale.ticks)}`;
     rotorWipe.name(`A: ${step.a}`, `B: ${step.b}`);
     if (!page.hasAttribute('data-ready') || shown === now()) return;
     shown = now();

@@ -1,5 +1,5 @@
 // What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py
-// or test_reconnect.py, and a proposal to its authors in docs/upstream.
+// or test_reconnect.py, and a proposal to its authors in docs/developers/upstream.
 (() => {
   // In a narrow window the client would leave its docks for a sheet of its own; ours are drawers by style sheet.
   const media = window.matchMedia.bind(window);

@@ -59,8 +59,8 @@ class UpdatePool:
         return number
 
     def _run(self) -> None:
-        while (found := self._next()) is not None:
-            worker, is_step = found
+        while (following := self._next()) is not None:
+            worker, is_step = following
             worker.run()
             with self.change:
                 if is_step:

@@ -28,8 +28,8 @@ _LOOK = 2.0
 """[s] between the checks of an idle thread whether its process still runs."""
 _POLL = 0.2
 """[s] between the questions whether a result is still awaited: each takes a turn of the interpreter from the frames."""
-_START = 60.0
-"""[s] a new process may take to import and compile."""
+_START = 300.0
+"""[s] a new process may take to import and compile, on a busy machine."""
 
 
 class Task(Protocol):
@@ -128,7 +128,7 @@ class Pool:
                 job.tell(JobFailed("The page is closing."))
                 return job
             self._waiting.append(job)
-            self._waiting.sort(key=lambda one: (one.urgency, one.number))
+            self._waiting.sort(key=lambda job: (job.urgency, job.number))
             if self._idle < len(self._waiting):
                 self._add_worker()
             self._change.notify_all()
@@ -136,7 +136,7 @@ class Pool:
         return job
 
     def result(
-        self, task: Task, superseded: Callable[[], bool], urgency: int, found: Callable[[Any], None] = lambda _: None
+        self, task: Task, superseded: Callable[[], bool], urgency: int, tell: Callable[[Any], None] = lambda _: None
     ) -> JobEnded | JobFailed | None:
         """Waits for the end of a task; None when superseded first: it leaves the queue, or runs on to its end.
 
@@ -147,7 +147,7 @@ class Pool:
         def on_event(event: JobEvent) -> None:
             if isinstance(event, JobEnded | JobFailed):
                 if isinstance(event, JobEnded) and event.result is not None:
-                    found(event.result)
+                    tell(event.result)
                 ends.append(event)
                 over.set()
 
@@ -265,6 +265,7 @@ class WorkerThread(threading.Thread):
             self._drop()
         process.call(warm)
         if process.receive(_START) is None:
+            self._drop()  # Its answer would be taken for that of the next job.
             raise EOFError
         return process
 
@@ -274,8 +275,17 @@ class WorkerThread(threading.Thread):
             job.tell(JobEnded(None, stopped=True))
             return
         job.tell(JobStarted())
-        begun, asked, late = time.monotonic(), None, False
+        begun = time.monotonic()
         process.stream(job.task.run)
+        try:
+            self._hear(job, process, begun)
+        except Exception:  # The page could not be told: the process is still at this job.
+            self._drop()
+            raise
+
+    def _hear(self, job: Job, process: WorkerProcess, begun: float) -> None:
+        """Pass on what a process says of a job, until it ends."""
+        asked, late = None, False
         while True:
             now = time.monotonic()
             if now - begun > job.limit and asked is None:

@@ -31,13 +31,6 @@ def warm() -> None:
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
 
 
-def compile_all() -> None:
-    """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
-    warm()
-    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
-    power_gradient(solve(make_design(mu=0.2, bending=True)))
-
-
 @dataclass
 class BaselineCache:
     """The last baseline solution of a session, reused while its design stays the same."""
@@ -116,9 +109,9 @@ class MapTask:
                         continue
                     if stop():
                         return False
-                    made = measure(self.objective, self.at(column / finest, row / finest), near, gradient=False)
-                    known[row, column] = made.power
-                    near = made.solutions if made.power is not None else ()
+                    point = measure(self.objective, self.at(column / finest, row / finest), near, gradient=False)
+                    known[row, column] = point.power
+                    near = point.solutions if point.power is not None else ()
             places = range(0, finest + 1, stride)
             tell(MapLevel(tuple(tuple(known[row, column] for column in places) for row in places)))
         return True
@@ -178,11 +171,11 @@ class ScheduleTask:
 def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
     """The mean of the best moving blades, weighted by hours: the start of the search for a fixed one."""
     shares = Objective(plan.quantity, plan.conditions).shares
-    found = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
-    total = sum(share for share, _ in found)
-    if not found:
+    optima = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
+    total = sum(share for share, _ in optima)
+    if not optima:
         return ()
-    return (tuple(sum(share * best.parameters[k] for share, best in found) / total
+    return (tuple(sum(share * best.parameters[k] for share, best in optima) / total
                   for k in range(len(plan.concepts[0].parameters))),)  # fmt: skip
 
 

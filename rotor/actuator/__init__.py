@@ -20,19 +20,23 @@ from rotor.actuator.catalogue import (
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
 from rotor.actuator.harmonic import DynamicTwist, phase_sweep
 from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
 from rotor.actuator.section import Host, Placement, default_placement
+from rotor.actuator.stopped import Failure, failure, one_blade
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
     "Actuator",
     "ActuatorFlight",
+    "ActuatorStability",
     "BreakEven",
     "ConditionPair",
     "DynamicTwist",
     "Engines",
     "ExtensionTwist",
+    "Failure",
     "FlightLeg",
     "FlightMoment",
     "Host",
@@ -43,14 +47,17 @@ __all__ = (
     "Programme",
     "TorqueTube",
     "Verdict",
+    "actuator_stability",
     "actuators",
     "break_even",
     "default_placement",
     "engines_of",
+    "failure",
     "find_actuator",
     "fly",
     "install",
     "judge",
+    "one_blade",
     "pay_sentence",
     "phase_sweep",
     "programmes",

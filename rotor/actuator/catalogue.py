@@ -21,8 +21,8 @@ _UNITS = re.compile(r"_(gpa|kg_m3|mm|m|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
 
 
 STEPS = ("numerical studies", "small-scale tests", "full-scale wind tunnel", "demonstrator", "production")
-"""Of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, Aerospace 13(3) 297,
-2026."""
+"""Steps of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems,
+Aerospace 13(3) 297, 2026."""
 
 
 @dataclass(frozen=True)
@@ -99,11 +99,11 @@ class TorqueTube:
     torque: float
     """[N m] per tube, blocking."""
     free_rotation: float
-    """Of the unloaded tube [rad], where its torque has fallen to nothing."""
+    """Rotation of the unloaded tube [rad], where its torque has fallen to nothing."""
     link_stiffness: float
     """GJ of the passive tube that carries the torque along the segment [N m²]."""
     link_mass: float
-    """Of that tube [kg/m]."""
+    """Mass of the tube that links actuator and blade [kg/m]."""
     mass: float
     """Package near the hub [kg] per tube."""
     move_power: float

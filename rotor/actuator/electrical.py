@@ -35,7 +35,7 @@ class Drive:
     """Drive power of the actuators of all blades."""
 
     capacitance: float
-    """Of one blade [F]; 0 for a tube."""
+    """Capacitance of one blade's actuators [F]; 0 for a tube."""
     hold_power: float
     """[W], all blades: only leakage for a ply."""
     slew_power: float

@@ -49,7 +49,7 @@ class HostBlade:
     """The best fixed linear twist of a blade of another stiffness, without an actuator on it."""
 
     pair: ConditionPair
-    """As given: its design has the stiffness of the aircraft's blade."""
+    """The conditions as given: the design has the stiffness of the aircraft's blade."""
     concept: Concept
     rate: float
     """Linear twist [rad per radius]."""
@@ -63,7 +63,7 @@ class HostBlade:
 
 def host_blade(base: Baseline, host: Host) -> HostBlade:
     """Find it; `base` is of the linear concept. Raises RuntimeError where it does not trim."""
-    pair, found = base.pair, base.fixed
+    pair, fixed = base.pair, base.fixed
     design = pair.design
     if design.elastic:
         low, high = (end * design.rotor.radius for end in default_placement().span)
@@ -71,15 +71,15 @@ def host_blade(base: Baseline, host: Host) -> HostBlade:
         structure = stiffer_blade(uh60a_torsion(design.rotor.radius), host.stiffness, nothing)
         blade = replace(design.rotor.blade, structure=structure)
         softer = replace(pair, design=replace(design, rotor=replace(design.rotor, blade=blade)))
-        found = best_fixed(softer, base.concept, [base.fixed.values], alone=True)
-    (rate,) = found.values
+        fixed = best_fixed(softer, base.concept, [base.fixed.values], alone=True)
+    (rate,) = fixed.values
     curvatures: list[float] = []
-    for at_rest in found.solutions:
+    for at_rest in fixed.solutions:
         turned = (base.concept.apply(at_rest.design, [rate + step]) for step in (-STEP, STEP))
         low, high = (_gradient(solve(design, at_rest)) for design in turned)
         linear = base.concept.slopes([rate], low.r)
         curvatures.append(float((high.along(linear) - low.along(linear))[0]) / (2.0 * STEP))
-    return HostBlade(pair, base.concept, rate, found.solutions, tuple(curvatures), base.fixed.power)
+    return HostBlade(pair, base.concept, rate, fixed.solutions, tuple(curvatures), base.fixed.power)
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class Estimate:
     gross: float
     """Saving of its twist."""
     stiffness_cost: float
-    """Of the stiffness and inertia that the blade has with the actuator on it, at rest."""
+    """Saving lost to the stiffness and inertia that the blade has with the actuator on it, at rest."""
     mass_cost: float
     drive_cost: float
 
@@ -107,14 +107,14 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
     Raises RuntimeError with one sentence where the build does not trim.
     """
     pair = blade.pair
-    made = [blade.concept.apply(installed.on(design), [blade.rate]) for design in pair.designs()]
-    rest = [solve(design, start).require() for design, start in zip(made, blade.solutions, strict=True)]
-    before = [_gradient(one) for one in rest]
+    designs = [blade.concept.apply(installed.on(design), [blade.rate]) for design in pair.designs()]
+    rest = [solve(design, start).require() for design, start in zip(designs, blade.solutions, strict=True)]
+    before = [_gradient(solution) for solution in rest]
     r = before[1].r
     linear = blade.concept.slopes([blade.rate], r)[0]
-    offset = pair.mean(float(linear @ one.by_element) for one in before)
+    offset = pair.mean(float(linear @ gradient.by_element) for gradient in before)
     stiffness = pair.mean(blade.curvatures)
-    at_rest = pair.mean(one.power.total for one in rest)
+    at_rest = pair.mean(solution.power.total for solution in rest)
     swing, gross = 0.0, 0.0
     shape: Array = derating * law_shapes(installed, pair.design)[0]
     phi: Array = np.interp(r, STATIONS, shape)
@@ -123,19 +123,19 @@ def estimate(installed: InstalledActuator, blade: HostBlade, *, derating: float 
         slope = float(phi @ before[1].by_element)
         trial = -math.copysign(min(1.0, STEP / tip), slope)
         for _ in range(2):  # Once to find the swing, once with second derivatives over just that swing.
-            driven = replace(made[1], twist=twisted(made[1].twist, trial * shape))
+            driven = replace(designs[1], twist=twisted(designs[1].twist, trial * shape))
             change = _gradient(solve(driven, rest[1])).by_element - before[1].by_element
-            cross, own = float(linear @ change) / trial, float(phi @ change) / trial
-            swing, gross = _best_swing(slope, cross, own, offset, stiffness, pair.share)
+            cross, square = float(linear @ change) / trial, float(phi @ change) / trial
+            swing, gross = _best_swing(slope, cross, square, offset, stiffness, pair.share)
             if abs(swing) < NOTHING:
                 break
             trial = swing
-    loaded = [solve(with_actuator_mass(one.design, installed), one).require() for one in rest]
+    loaded = [solve(with_actuator_mass(solution.design, installed), solution).require() for solution in rest]
     return Estimate(
         swing=swing,
         gross=gross,
         stiffness_cost=at_rest - 0.5 * offset**2 / stiffness - blade.fixed_power,
-        mass_cost=pair.mean(one.power.total for one in loaded) - at_rest,
+        mass_cost=pair.mean(solution.power.total for solution in loaded) - at_rest,
         drive_cost=drive(installed, (swing,)).hold_power,
     )
 
@@ -145,14 +145,14 @@ def _gradient(solution: Solution) -> PitchGradient:
 
 
 def _best_swing(
-    slope: float, cross: float, own: float, offset: float, stiffness: float, share: float
+    slope: float, cross: float, square: float, offset: float, stiffness: float, share: float
 ) -> tuple[float, float]:
     """The swing of least power with the jig twist that suits it, and what it saves.
 
     With δ(v) = −(A + s₂ c v)/H the saving is −s₂ (b − c A/H) v − ½ (s₂ d − (s₂ c)²/H) v².
     """
     first = share * (slope - cross * offset / stiffness)
-    second = share * own - (share * cross) ** 2 / stiffness
+    second = share * square - (share * cross) ** 2 / stiffness
     inside = [min(max(-first / second, -1.0), 1.0)] if second > 0.0 else []
     saved, swing = max((-first * v - 0.5 * second * v**2, v) for v in (-1.0, 0.0, 1.0, *inside))
     return swing, saved

@@ -71,9 +71,9 @@ class ActuatorFlight:
 
     legs: tuple[FlightLeg, ...]
     wanted: Array
-    """Of least power on each leg by the same blade and actuator, were its range without end."""
+    """Twist of least power on each leg by the same blade and actuator, were its range without end."""
     reached: Array
-    """Of least power within its range."""
+    """Twist of least power on each leg within the actuator's range."""
     reach: tuple[float, float]
     """Both ends of the range."""
     swings: tuple[tuple[float, ...], ...]
@@ -89,7 +89,7 @@ class ActuatorFlight:
     power_with: Array
     """Driven, with the actuator's stiffness, mass and drive."""
     reference_power: Array
-    """Of the blade that the verdict counts from: one of the first two."""
+    """Power of the blade that the verdict counts from: one of the first two."""
     fuel_saving: Array | None
     """[kg/s]; None where the engines have no source."""
     designs: tuple[Design, ...]
@@ -167,14 +167,14 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         powers["with"].append(heavy.power.total + verdict.drive.hold_power)
         swings.append(reached.swings[0])
         designs.append(driven)
-    made = {name: np.array(values) for name, values in powers.items()}
-    counted = made["built" if verdict.against == "as-built" else "fixed"]
+    power_of = {name: np.array(values) for name, values in powers.items()}
+    counted = power_of["built" if verdict.against == "as-built" else "fixed"]
     ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     volts = (np.array(swings) - undriven) / per_unit
     engines = engines_of(pair.design.aircraft)
     saved = None
     if engines is not None:
-        pairs = zip(counted, made["with"], strict=True)
+        pairs = zip(counted, power_of["with"], strict=True)
         saved = np.array([engines.flow(before) - engines.flow(after) for before, after in pairs])
     return ActuatorFlight(
         legs=tuple(legs),
@@ -182,11 +182,11 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),
         swings=tuple(swings),
-        voltages=tuple(tuple(one) if verdict.voltages else () for one in volts.tolist()),
-        power_fixed=made["fixed"],
-        power_built=made["built"],
-        power_ideal=made["ideal"],
-        power_with=made["with"],
+        voltages=tuple(tuple(voltages) if verdict.voltages else () for voltages in volts.tolist()),
+        power_fixed=power_of["fixed"],
+        power_built=power_of["built"],
+        power_ideal=power_of["ideal"],
+        power_with=power_of["with"],
         reference_power=counted,
         fuel_saving=saved,
         designs=tuple(designs),

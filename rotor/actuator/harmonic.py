@@ -22,7 +22,7 @@ from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.dynamics.torsion import twist_under_moment
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import in_flow_of, solve_alike
 
 SHAPE_STATIONS = 41
 PHASES = 12
@@ -40,7 +40,7 @@ class DynamicTwist:
     """At the tip [rad], half of peak to peak, with the dynamic response of the blade in vacuum; at rest for an elastic
     trim, which finds the response."""
     static: float
-    """The same without it."""
+    """Static amplitude, without the resonance in torsion."""
     stations: tuple[float, ...]
     shape: tuple[float, ...]
     """Over the tip's."""
@@ -110,7 +110,7 @@ class PhaseSweep:
     best: Solution
     """The least power found, amplitude and phase by the installed bowl."""
     drive_loss: float
-    """Of all blades [W]."""
+    """Loss in the drives of all blades [W]."""
     net_power: float | None
     """Power of `best` with the actuator's mass and losses [W]; None where it does not trim."""
 
@@ -146,27 +146,32 @@ def phase_sweep(
     """Sweep the phase at full amplitude, then try the minimum of a quadratic in amplitude and phase.
 
     The voltage swings about the middle of its range, so no steady change is left; the twist law is that of the middle.
-    `reference`: the blade without the actuator that savings count from, `design` unless given.
+    `reference`: the blade without the actuator that savings count from, `design` unless given. All are trimmed with the
+    models of the driven blade: pitch at n/rev makes the flow unsteady, which moves power by itself.
     Raises RuntimeError when a design does not trim without active twist.
     """
-    made = dynamic_twist(installed, per_rev, derated=derated, elastic=design.elastic)
-    plain = replace(design, active_twist=None)
-    still = solve(reference or plain).require()
-    off = solve(installed.on(plain)).require()
+    twist = dynamic_twist(installed, per_rev, derated=derated, elastic=design.elastic)
+    plain = in_flow_of(with_harmonic(design, twist, 1.0, 0.0), replace(design, active_twist=None))
+
+    def alike(given: Design, start: Solution | None = None) -> Solution:
+        return solve_alike(replace(given, models=plain.models), start, like=plain)
+
+    still = alike(reference or plain).require()
+    off = alike(installed.on(plain)).require()
 
     def trimmed(share: float, phases: Sequence[float]) -> list[tuple[float, float, Solution]]:
-        trims = [(share, phase, solve(with_harmonic(design, made, share, phase), off)) for phase in phases]
+        trims = [(share, phase, alike(with_harmonic(design, twist, share, phase), off)) for phase in phases]
         return [trim for trim in trims if trim[-1].converged]
 
-    around = trimmed(1.0, [2.0 * math.pi * k / PHASES for k in range(PHASES)]) if made.amplitude else []
+    around = trimmed(1.0, [2.0 * math.pi * k / PHASES for k in range(PHASES)]) if twist.amplitude else []
     phases = np.array([phase for _, phase, _ in around])
     changes = np.array([trim.power.total - off.power.total for *_, trim in around])
-    bowl = [one for amplitude, phase in _bowl(phases, changes) for one in trimmed(amplitude, [phase])]
-    share, _, best = min([(0.0, 0.0, off), *around, *bowl], key=lambda one: one[-1].power.total)
+    bowl = [trial for amplitude, phase in _bowl(phases, changes) for trial in trimmed(amplitude, [phase])]
+    share, _, best = min([(0.0, 0.0, off), *around, *bowl], key=lambda trial: trial[-1].power.total)
     loss = installed.masses.blades * harmonic_loss(installed, per_rev, share, installed.beam.angular_speed)
-    heavy = solve(with_actuator_mass(best.design, installed))
+    heavy = alike(with_actuator_mass(best.design, installed))
     return PhaseSweep(
-        dynamic=made,
+        dynamic=twist,
         share=share,
         phases=phases,
         power=changes,
@@ -183,14 +188,14 @@ def _pitching(solution: Solution) -> float:
     return solution.elastic.control_power if solution.elastic is not None else 0.0
 
 
-def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:
+def with_harmonic(design: Design, twist: DynamicTwist, share: float, phase: float) -> Design:
     """The design with a share of the actuator's amplitude at a phase [rad], on the blade that the plies stiffen."""
-    if design.elastic and made.installed is not None:
-        harmonic = Harmonic(made.per_rev, share * made.at_rest, phase)
-        active = ActiveTwist((harmonic,), made.stations, made.rest_shape)
-        return made.installed.on(replace(design, active_twist=active))
-    harmonic = Harmonic(made.per_rev, share * made.amplitude, phase)
-    return replace(design, active_twist=ActiveTwist((harmonic,), made.stations, made.shape))
+    if design.elastic and twist.installed is not None:
+        harmonic = Harmonic(twist.per_rev, share * twist.at_rest, phase)
+        active = ActiveTwist((harmonic,), twist.stations, twist.rest_shape)
+        return twist.installed.on(replace(design, active_twist=active))
+    harmonic = Harmonic(twist.per_rev, share * twist.amplitude, phase)
+    return replace(design, active_twist=ActiveTwist((harmonic,), twist.stations, twist.shape))
 
 
 def tip_response(solution: Solution, per_rev: int) -> tuple[float, float]:

@@ -66,16 +66,21 @@ def mass_breakdown(
     if isinstance(actuator, ExtensionTwist):
         return MassBreakdown(0.0, 0.0, 0.0, 0.0, blades)
     if isinstance(actuator, PiezoPly):
-        own = actuator.material.density * actuator.thickness * placement.plies * skin_area
-        nose = balance_mass((1.0 + wiring) * own, 0.5 * sum(placement.chord))
-        return MassBreakdown(own, wiring * own, nose, electronics * own * blades, blades)
+        plies = actuator.material.density * actuator.thickness * placement.plies * skin_area
+        nose = balance_mass((1.0 + wiring) * plies, 0.5 * sum(placement.chord))
+        return MassBreakdown(plies, wiring * plies, nose, electronics * plies * blades, blades)
     packages = placement.plies * actuator.mass * len(placement.segments)
-    own = packages + placement.plies * actuator.link_mass * length
-    return MassBreakdown(own, wiring * packages, 0.0, electronics * packages * blades, blades)
+    plies = packages + placement.plies * actuator.link_mass * length
+    return MassBreakdown(plies, wiring * packages, 0.0, electronics * packages * blades, blades)
 
 
-def addition(masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float) -> Addition:
-    """Mass per length, torsional inertia about the balance axis, and stiffness added over the active span."""
+def addition(
+    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, sheets: bool = True
+) -> Addition:  # fmt: skip
+    """Mass per length, its moments about the balance axis, and stiffness added over the active span.
+
+    sheets: over the chord of the placement; a tube lies on the axis.
+    """
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
@@ -83,7 +88,8 @@ def addition(masses: MassBreakdown, placement: Placement, structure: BendingStru
     plies, weight = (masses.actuator + masses.wiring) / (high - low), masses.balance / (high - low)
     arm = 0.5 * (front + rear) - axis
     spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
-    return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness)
+    moment = (plies * arm - weight * (axis - nose)) * structure.chord if sheets else 0.0
+    return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness, moment)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +106,7 @@ class InstalledActuator:
     twist_rate: float
     """θ'_a of the section, not rotating [rad/m]."""
     segment_areas: tuple[float, ...]
-    """Of one layer on one blade, both skins, by segment [m²]."""
+    """Areas of one layer on one blade, both skins, by segment [m²]."""
     masses: MassBreakdown
     added: Addition
     beam: TorsionBeam
@@ -109,7 +115,7 @@ class InstalledActuator:
     shapes: Array
     """Twist of each segment alone [rad], zero at the pitch bearing, (segments, nodes)."""
     rest_shapes: Array
-    """The same of the blade at rest: what is added to the twist of an elastic blade, whose trim finds the rest."""
+    """Twist of each segment on the blade at rest: what is added to an elastic blade, whose trim finds the rest."""
     blade: BladeStructure
     """The blade in torsion with the actuator's stiffness, inertia and mass."""
     frequency: float
@@ -117,7 +123,7 @@ class InstalledActuator:
 
     @property
     def skin_area(self) -> float:
-        """Of one layer on one blade, both skins [m²]."""
+        """Area of one layer on one blade, both skins [m²]."""
         return math.fsum(self.segment_areas)
 
     @property
@@ -172,7 +178,7 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
         section = active_section(spec, actuator, placement)
         stiffness = torsional_stiffness(section)
         moment = stiffness * induced_twist_rate(section)
-    added = addition(masses, placement, structure, stiffness - spec.stiffness)
+    added = addition(masses, placement, structure, stiffness - spec.stiffness, sheets=isinstance(actuator, PiezoPly))
     beam, still = (
         torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
     )
@@ -181,8 +187,8 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
         shapes = rest_shapes = _along_the_blade(actuator, beam)
     else:
         units, rest_units = (
-            np.stack([_segment_shape(one, structure, span, 1.0) for span in placement.segments])
-            for one in (beam, still)
+            np.stack([_segment_shape(body, structure, span, 1.0) for span in placement.segments])
+            for body in (beam, still)
         )
         if isinstance(actuator, TorqueTube):
             pairs = zip(units[:, -1], lengths, strict=True)
@@ -223,6 +229,17 @@ def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
     shape = x - x**3 / 3.0
     shape = shape - shape[0]
     return (actuator.attainable * shape / shape[-1])[None, :]
+
+
+def without_nose_weight(installed: InstalledActuator) -> InstalledActuator:
+    """An actuator whose plies nothing balances about the pitch axis: the centre of gravity lies aft."""
+    radius = float(installed.beam.r[-1])
+    masses = replace(installed.masses, balance=0.0)
+    sheets = isinstance(installed.actuator, PiezoPly)
+    structure, placement = uh60a_structure(radius), installed.placement
+    added = addition(masses, placement, structure, installed.added.stiffness, sheets=sheets)
+    blade = stiffer_blade(uh60a_torsion(radius), installed.host.stiffness, added)
+    return replace(installed, masses=masses, added=added, blade=blade)
 
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
@@ -273,7 +290,7 @@ def segment_voltages(
     if not isinstance(actuator, PiezoPly):
         return ()
     low = actuator.voltage_range[0]
-    found: list[tuple[float, float]] = []
+    voltages: list[tuple[float, float]] = []
     for first, second in zip(*swings, strict=True):
         a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
         if installed.host.kind == "new":
@@ -281,5 +298,5 @@ def segment_voltages(
             a, b = a + offset, b + offset
         elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
             a, b = -a, -b  # Fibres laid in the other direction.
-        found.append((a, b))
-    return tuple(found)
+        voltages.append((a, b))
+    return tuple(voltages)

@@ -1,4 +1,5 @@
-"""Limits of a real blade: each a value, a bound and a sentence; and the flight loads that strain its fibres.
+"""Limits of a real blade: each a value, a bound and a sentence; the flight loads that strain its fibres; its stability
+without the actuator and with it.
 
 Flap bending and fibre strain are those of the elastic blade in trimmed flight, quasi-steady:
 
@@ -10,15 +11,18 @@ with tension stiffness.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.installation import InstalledActuator, with_actuator_mass, without_nose_weight
 from rotor.arrays import Array
+from rotor.design.design import Design
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure
 from rotor.dynamics.torsion import added_pull
 from rotor.trim.solution import Solution
+from rotor.trim.stability import Air, Stability, margins, stability
 
 ELEMENTS = 60
 BENDING = np.array([[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]])
@@ -79,12 +83,12 @@ def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, lo
 
 def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = None) -> Array:
     """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first."""
-    found: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
-    return np.stack(found)
+    columns: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
+    return np.stack(columns)
 
 
 HALF_THICKNESS = 0.0475
-"""Of the SC1095, in chords: how far a skin is from the middle."""
+"""Half the thickness of the SC1095, in chords: how far a skin is from the middle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,9 +136,9 @@ def fibre_strain(installed: InstalledActuator, solution: Solution | None = None,
 
 
 SECTION_THICKNESS = 0.095
-"""Of the SC1095, in chords."""
+"""Thickness of the SC1095, in chords."""
 WEB_HEIGHT = 0.0907
-"""Of the spar's web at 0.40 c, in chords."""
+"""Height of the SC1095 spar's web at 0.40 c, in chords."""
 UNREACHABLE = 100.0
 """Multiple of the voltage range above which no voltage is printed (a sheet that hardly shears)."""
 
@@ -160,18 +164,18 @@ def limits(
     `swings`: required twist of each segment over its range, may exceed 1. `solution`: the flight condition for flap
     bending.
     """
-    found: list[Limit] = []
+    exceeded: list[Limit] = []
     if isinstance(installed.actuator, PiezoPly):
-        found += _electrical(installed.actuator, swings)
-        found.append(_strain(installed, installed.actuator, solution))
-        found.append(_surface(installed, installed.actuator))
+        exceeded += _electrical(installed.actuator, swings)
+        exceeded.append(_strain(installed, installed.actuator, solution))
+        exceeded.append(_surface(installed, installed.actuator))
     elif isinstance(installed.actuator, TorqueTube):
-        found += _tube(installed, installed.actuator, swings)
+        exceeded += _tube(installed, installed.actuator, swings)
     else:
-        found.append(_rotor_speed(installed.actuator))
+        exceeded.append(_rotor_speed(installed.actuator))
     if not isinstance(installed.actuator, ExtensionTwist):
-        found += [_temperature(installed), _mass(installed)]
-    return (*found, *_torsion(installed))
+        exceeded += [_temperature(installed), _mass(installed)]
+    return (*exceeded, *_torsion(installed), *_flutter(solution))
 
 
 def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
@@ -294,6 +298,63 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
         ),
         Limit(
             "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev flutter and control loads need a study.",
+            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev control loads grow.",
         ),
     ]  # fmt: skip
+
+
+def _flutter(solution: Solution | None) -> list[Limit]:
+    """Margins of the blade with its actuator in flight, with the air's mean slopes around the azimuth."""
+    if solution is None or solution.elastic is None:
+        return []
+    found = margins(solution)
+    bound = float(structure_data()["limits"]["flutter_stiffness"])
+    return [
+        Limit(
+            "flutter", found.instability_stiffness <= bound, 100.0 * found.instability_stiffness, 100.0 * bound,
+            "% of stiffness", found.sentence,
+        ),
+    ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ActuatorStability:
+    """One design, each blade trimmed with its own stiffness, inertia and mass."""
+
+    without: Stability
+    fitted: Stability
+    unbalanced: Stability | None
+    """With the plies but without their nose weight; None where they have none."""
+
+    @property
+    def cases(self) -> dict[str, Stability]:
+        """By name."""
+        named = {"without": self.without, "with": self.fitted}
+        return named if self.unbalanced is None else named | {"without nose weight": self.unbalanced}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The record of each, by name."""
+        return {name: case.to_dict() for name, case in self.cases.items()}
+
+    def table(self) -> str:
+        """Frequency and damping of each mode, side by side, and the margins."""
+        lines = [f"{'mode':<11}" + "".join(f"{name:>22}" for name in self.cases)]
+        for mode in self.without.modes:
+            beside = (case.mode(mode.name) for case in self.cases.values())
+            cells = (f"{own.frequency:11.3f}/rev{100.0 * own.damping_ratio:6.1f}%" for own in beside)
+            lines.append(f"{mode.name:<11}" + "".join(cells))
+        lines += [f"{name}: {case.margins.sentence}" for name, case in self.cases.items() if case.margins is not None]
+        return "\n".join(lines)
+
+
+def actuator_stability(
+    installed: InstalledActuator, design: Design, *, air: Air = "quasi-steady", offset: float = 0.0
+) -> ActuatorStability:  # fmt: skip
+    """The blade of a design without the actuator and with it. Errors and arguments as of `rotor.stability`."""
+    cases = [installed]
+    if installed.masses.balance > 0.0:
+        cases.append(without_nose_weight(installed))
+    without, fitted, *rest = (
+        stability(one, air=air, offset=offset) for one in (design, *(with_actuator_mass(design, c) for c in cases))
+    )
+    return ActuatorStability(without, fitted, rest[0] if rest else None)

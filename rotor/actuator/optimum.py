@@ -58,7 +58,7 @@ class ConditionPair:
         return 1.0 - self.share, self.share
 
     def mean(self, values: Iterable[float]) -> float:
-        """Of a value at either condition, by shares of time."""
+        """Mean of a value at either condition, by shares of time."""
         return sum(share * value for share, value in zip(self.shares, values, strict=True))
 
     def designs(self, base: Design | None = None) -> tuple[Design, Design]:
@@ -143,12 +143,12 @@ def _search(
             first = nearest(concept, designs[0].twist)
             flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
             jigs += [first, flatter]
-    found = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
-    if not found:
+    optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
+    if not optima:
         raise RuntimeError(
             "No twist of this concept trims at these flight conditions: reduce the mass or the advance ratio."
         )
-    return min(found, key=lambda reached: reached.power)
+    return min(optima, key=lambda reached: reached.power)
 
 
 class _Task:
@@ -185,10 +185,10 @@ class _Task:
         unit = first[0]
 
         def scaled(x: Array) -> tuple[float, Array]:
-            made = self._power(x)
-            if made is None:  # Penalty: worse than the start, with a gradient back to it.
+            power = self._power(x)
+            if power is None:  # Penalty: worse than the start, with a gradient back to it.
                 return 1.0 + float(np.sum((x - x0) ** 2)), 2.0 * (x - x0)
-            return made[0] / unit, made[1] / unit
+            return power[0] / unit, power[1] / unit
 
         bounds = [(0.0, float(f)) for f in free]
         options = {"maxiter": 60, "ftol": 1e-9}
@@ -199,14 +199,14 @@ class _Task:
             x, final = x0, self._power(x0)
         assert final is not None
         values, each = self._split(x)
-        swings = tuple(tuple(one) for one in each.tolist()) if self.segments else ()
-        return TwistOptimum(tuple(values), swings, tuple(one for one in self.trims if one is not None), final[0])
+        swings = tuple(tuple(row) for row in each.tolist()) if self.segments else ()
+        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0])
 
     def _split(self, x: Array) -> tuple[list[float], Array]:
         """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
         values, swings = self.low + self.span * x, len(self.designs) * self.segments
-        own = len(values) - swings
-        return values[:own].tolist(), values[own:].reshape(len(self.designs), self.segments)
+        jigs = len(values) - swings
+        return values[:jigs].tolist(), values[jigs:].reshape(len(self.designs), self.segments)
 
     def _power(self, x: Array) -> tuple[float, Array] | None:
         """Mean power and its gradient by x; None when a condition does not trim."""
@@ -214,10 +214,10 @@ class _Task:
         power, slope = 0.0, np.zeros_like(x)
         by_jig, by_swings = slope[: len(jig)], slope[len(jig) :].reshape(swings.shape)
         for k, (design, share) in enumerate(zip(self.designs, self.shares, strict=True)):
-            made = self.concept.apply(design, jig) if self.concept else design
+            flown = self.concept.apply(design, jig) if self.concept else design
             if np.any(swings[k]):
-                made = replace(made, twist=twisted(made.twist, swings[k] @ self.shapes))
-            solution = solve(made, self.trims[k])
+                flown = replace(flown, twist=twisted(flown.twist, swings[k] @ self.shapes))
+            solution = solve(flown, self.trims[k])
             if not solution.converged:
                 return None
             self.trims[k] = solution
@@ -314,4 +314,4 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
     first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
     better = best_fixed(pair, concept, [fixed.values, first.values, second.values])
-    return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda found: found.power))
+    return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

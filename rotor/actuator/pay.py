@@ -35,7 +35,7 @@ from rotor.trim.solve import solve
 from rotor.units import GRAVITY
 
 POINTS = 9
-"""Of the break-even line, zero included."""
+"""Points of the break-even line, zero included."""
 ENOUGH = 0.9
 """Share of the ideal saving that a requirement asks for: the last tenth takes twist without end."""
 WORTH = 1e-4
@@ -49,7 +49,7 @@ class Requirement:
     twist: float
     """Range of the tip relative to the root [rad]."""
     mass: float
-    """Of all blades and their electronics [kg]."""
+    """Mass of the actuators on all blades and their electronics [kg]."""
     drive: float
     """Held all the time [W]."""
 
@@ -74,7 +74,7 @@ class BreakEven:
 
     @property
     def ideal_saving(self) -> float:
-        """Of unlimited twist [W]."""
+        """Saving of a twist without limits [W]."""
         return float(self.gross[-1])
 
     @property
@@ -146,18 +146,22 @@ class _Flown:
 
     def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
         """With a mass on all blades together [kg]."""
-        made = [self.base.concept.apply(one, [rate]) for one, rate in zip(self.pair.designs(), rates, strict=True)]
-        trims = tuple(solve(with_mass(one, mass), near).require() for one, near in zip(made, self.trims, strict=True))
+        designs = [
+            self.base.concept.apply(design, [rate]) for design, rate in zip(self.pair.designs(), rates, strict=True)
+        ]
+        trims = tuple(
+            solve(with_mass(design, mass), near).require() for design, near in zip(designs, self.trims, strict=True)
+        )
         self.trims = trims
         return self.pair.mean(trim.power.total for trim in trims)
 
     def best(self, swing: float, between: tuple[float, float]) -> tuple[float, float]:
         """The rate at the first condition of least power, and that power."""
         low, high = min(between) - 0.01, max(between) + 0.01
-        found = minimize_scalar(
+        search = minimize_scalar(
             lambda rate: self.power((rate, rate + swing)), bounds=(low, high), method="bounded", options={"xatol": 1e-5}
         )
-        return float(found.x), float(found.fun)
+        return float(search.x), float(search.fun)
 
     def mass(self, rate: float, swing: float, target: float, start: float) -> float:
         """The mass with which that twist takes the target power [kg], by secants."""
@@ -180,10 +184,10 @@ def with_mass(design: Design, mass: float) -> Design:
     if not mass:
         return design
     low, high = (end * design.rotor.radius for end in default_placement().span)
-    made = heavier(design, mass / design.rotor.blades, (low, high), mass)
+    loaded = heavier(design, mass / design.rotor.blades, (low, high), mass)
     stand = design.condition.stand
     if stand is None:
-        return made
+        return loaded
     weight = GRAVITY * mass
     if stand.thrust is not None:
         more = replace(stand, thrust=stand.thrust + weight)
@@ -192,7 +196,7 @@ def with_mass(design: Design, mass: float) -> Design:
         more = replace(stand, ct_over_sigma=stand.ct_over_sigma + loading)
     else:
         raise ValueError("the collective is given, so the rotor carries no weight: give the stand a thrust")
-    return replace(made, condition=replace(made.condition, stand=more))
+    return replace(loaded, condition=replace(loaded.condition, stand=more))
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,8 +214,8 @@ class Candidate:
         Net savings alone would rank by mass, as the lightest build loses least. What a softer blade saves by itself is
         not credited: that needs no actuator.
         """
-        one = self.estimate
-        return one.gross / max(one.mass_cost + one.drive_cost + max(one.stiffness_cost, 0.0), 1e-9)
+        estimate = self.estimate
+        return estimate.gross / max(estimate.mass_cost + estimate.drive_cost + max(estimate.stiffness_cost, 0.0), 1e-9)
 
     @property
     def pays(self) -> bool:
@@ -226,7 +230,7 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Of the aircraft [kg]."""
+        """Mass added to the aircraft [kg]."""
         return self.installed.masses.aircraft
 
 
@@ -236,9 +240,9 @@ class PaySearch:
 
     even: BreakEven
     candidates: tuple[Candidate, ...]
-    """Those that earn most of their cost first; empty where the blade's structure is not known."""
+    """Candidates that earn most of their cost first; empty where the blade's structure is not known."""
     verdicts: tuple[Verdict, ...]
-    """Of the first candidates, best net saving first."""
+    """Verdicts on the first candidates, best net saving first."""
     untrimmed: int = 0
     """Builds that are none of the candidates because they do not trim."""
 
@@ -260,7 +264,7 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
     if pair.design.aircraft.key != KNOWN_BLADE or not even.worthwhile:
         return PaySearch(even, (), ())
     base = baseline(pair, find_concept("linear"))
-    found: list[Candidate] = []
+    candidates: list[Candidate] = []
     untrimmed = 0
     for host in HOSTS:
         blade = host_blade(base, host)
@@ -268,23 +272,32 @@ def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = Fals
             if isinstance(actuator, ExtensionTwist):
                 continue  # It would need another rotor speed.
             try:
-                made = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
-                one = estimate(made, blade, derating=made.derating if derated else 1.0)
+                installed = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
+                estimated = estimate(installed, blade, derating=installed.derating if derated else 1.0)
             except ValueError:
                 continue  # The plies alone are stiffer than the blade.
             except RuntimeError:
                 untrimmed += 1
                 continue
-            found.append(Candidate(made, one))
-    found.sort(key=lambda one: -one.earned)
+            candidates.append(Candidate(installed, estimated))
+    candidates.sort(key=lambda candidate: -candidate.earned)
     firsts: dict[str, Candidate] = {}
-    for one in found:
-        firsts.setdefault(one.installed.actuator.id, one)
+    for estimated in candidates:
+        firsts.setdefault(estimated.installed.actuator.id, estimated)
     verdicts = [
-        judge(one.installed.actuator, pair, base.concept, one.installed.placement, one.installed.host, derated=derated)
-        for one in list(firsts.values())[:judged]
+        judge(
+            first.installed.actuator,
+            pair,
+            base.concept,
+            first.installed.placement,
+            first.installed.host,
+            derated=derated,
+        )
+        for first in list(firsts.values())[:judged]
     ]
-    return PaySearch(even, tuple(found), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)), untrimmed)
+    return PaySearch(
+        even, tuple(candidates), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)), untrimmed
+    )
 
 
 def search_sentence(search: PaySearch) -> str:
@@ -294,7 +307,7 @@ def search_sentence(search: PaySearch) -> str:
     best = search.candidates[0]
     twist = math.degrees(best.installed.attainable)
     what = f"{best.name}: {twist:.1f}° for {best.mass:.0f} kg"
-    count, paying = len(search.candidates), sum(one.pays for one in search.candidates)
+    count, paying = len(search.candidates), sum(candidate.pays for candidate in search.candidates)
     more = f" {search.untrimmed} more did not trim." if search.untrimmed else ""
     if paying:
         return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost.{more}"

@@ -123,8 +123,8 @@ def twist_comparison(verdict: Verdict, stations: int) -> tuple[Array, Array]:
     """
     r = np.linspace(verdict.baseline.pair.design.rotor.blade.root_cutout, 1.0, stations)
     first, second = (np.array(swings) for swings in verdict.optimum.swings)
-    made = verdict.derating * verdict.installed.change(second - first, r)
-    return verdict.baseline.change(r), made - made[0]
+    twist = verdict.derating * verdict.installed.change(second - first, r)
+    return verdict.baseline.change(r), twist - twist[0]
 
 
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:

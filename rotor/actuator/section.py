@@ -34,7 +34,7 @@ class Placement:
     plies: int = 2
     """Per skin; for a torque tube the number of tubes."""
     angle: float = math.pi / 4.0
-    """Of the fibres from the span [rad]."""
+    """Angle of the fibres from the span [rad]."""
     divisions: tuple[float, ...] = ()
     """r/R where one electrical segment ends and the next begins; each segment has a voltage of its own."""
 

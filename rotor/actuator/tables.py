@@ -80,7 +80,7 @@ def table_5_1() -> ActuatorTable:
                 mode, heat = f"rotor speed, {math.degrees(actuator.twist):.2f}°", NONE
             rows.append((actuator.id, mode, *[NONE] * 11, heat, ready, grade))
     steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
-    tests = "; ".join(f"{one.id} {one.provenance.tested}" for one in actuators().values())
+    tests = "; ".join(f"{actuator.id} {actuator.provenance.tested}" for actuator in actuators().values())
     notes = (
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
         f"Readiness: the step reached of {steps} (Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, "
@@ -160,7 +160,7 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
                 f"{math.degrees(needed.twist):.1f}", f"{needed.mass:.1f}", f"{needed.drive:.0f}",
                 f"{even.mass_allowed(needed.twist):.1f}",
             ]  # fmt: skip
-        mu = " and ".join(f"{one:g}" for one in pair.advance_ratios)
+        mu = " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios)
         apart = f"{math.degrees(abs(even.change)):.1f}"
         rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
     notes = (
@@ -179,15 +179,15 @@ def builds_table(builds: Sequence[Candidate]) -> ActuatorTable:
     )  # fmt: skip
     rows = [
         (
-            one.name,
-            f"{math.degrees(one.installed.attainable):.1f}",
-            f"{100.0 * abs(one.estimate.swing):.0f}",
-            f"{one.mass:.0f}",
-            kilowatts(one.estimate.gross), kilowatts(-one.estimate.stiffness_cost),
-            kilowatts(-one.estimate.mass_cost), kilowatts(-one.estimate.drive_cost), kilowatts(one.estimate.net),
-            f"{100.0 * one.earned:.0f}",
+            build.name,
+            f"{math.degrees(build.installed.attainable):.1f}",
+            f"{100.0 * abs(build.estimate.swing):.0f}",
+            f"{build.mass:.0f}",
+            kilowatts(build.estimate.gross), kilowatts(-build.estimate.stiffness_cost),
+            kilowatts(-build.estimate.mass_cost), kilowatts(-build.estimate.drive_cost), kilowatts(build.estimate.net),
+            f"{100.0 * build.earned:.0f}",
         )
-        for one in builds
+        for build in builds
     ]  # fmt: skip
     notes = (
         "Each build is trimmed, and its best twist found to second order: gross within a tenth of a full search on an "

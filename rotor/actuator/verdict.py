@@ -25,6 +25,8 @@ from rotor.actuator.section import Host, Placement, default_placement
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept
+from rotor.optimisation.doubt import mean_doubt
+from rotor.trim.doubt import Doubt, sureness
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -54,7 +56,7 @@ class Verdict:
     """The blade with the actuator's stiffness and inertia but no voltage: twist as built for a retrofit, else the best
     fixed jig twist. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
     reference_powers: tuple[float, float]
-    """Of the blade that savings are counted from, by condition [W]."""
+    """Powers of the blade that savings are counted from, by condition [W]."""
     bare_power: float
     """Mean of the blade at rest with the stiffness and inertia it has without the actuator [W]."""
     free_power: float
@@ -62,6 +64,8 @@ class Verdict:
     loaded_powers: tuple[float, float]
     """Driven, with the actuator's mass on board, by condition [W]; its drive is not in it."""
     drive: Drive
+    doubt: Doubt | None
+    """How sure the saving is, before the drive."""
     limits: tuple[Limit, ...]
     caveats: tuple[str, ...]
 
@@ -98,12 +102,12 @@ class Verdict:
 
     @property
     def attained(self) -> float:
-        """The same root to tip, the magnitudes of the segments added [rad]."""
+        """Twist reached from root to tip, the magnitudes of the segments added [rad]."""
         return float(np.abs(self.attained_segments).sum())
 
     @property
     def reference_power(self) -> float:
-        """Of the blade that savings are counted from [W]."""
+        """Power of the blade that savings are counted from [W]."""
         return self.baseline.pair.mean(self.reference_powers)
 
     @property
@@ -112,13 +116,18 @@ class Verdict:
         return self.baseline.pair.mean(self.loaded_powers) + self.drive.hold_power
 
     @property
+    def net_band(self) -> float | None:
+        """Band of `net_saving`, to both sides [W]; None where it is not known."""
+        return None if self.doubt is None else self.doubt.change_band
+
+    @property
     def gross_saving(self) -> float:
         """Saving of the twist that the actuator makes, before what it costs [W]; never above `ideal_saving`."""
         return self.reference_power - self.optimum.power + self.stiffness_cost
 
     @property
     def ideal_saving(self) -> float:
-        """The same of unlimited twist in flight: of the concept, or of the plies where their shape is better [W]."""
+        """Saving of unlimited twist in flight: of the concept, or of the plies where their shape is better [W]."""
         return self.reference_power - self.free_power + self.stiffness_cost
 
     @property
@@ -240,13 +249,13 @@ def judge(
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     share = installed.derating if derated else 1.0
-    resting, reference_powers = base.fixed, _totals(base.fixed.solutions)
+    resting, counted_from = base.fixed, list(base.fixed.solutions)
     if host.kind == "retrofit" or against == "as-built":
-        built = _totals([solve(design).require() for design in pair.designs()])
+        built = [solve(design).require() for design in pair.designs()]
         if host.kind == "retrofit":
-            resting = TwistOptimum((), (), (), pair.mean(built))
+            resting = TwistOptimum((), (), (), pair.mean(_totals(built)))
         if against == "as-built":
-            reference_powers = built
+            counted_from = built
     bare_power, free = resting.power, [best.power for best in base.best]
     if pair.design.elastic:
         resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[base.fixed.values])
@@ -266,11 +275,14 @@ def judge(
         required_segments=required,
         optimum=reached,
         resting=resting,
-        reference_powers=reference_powers,
+        reference_powers=_totals(counted_from),
         bare_power=bare_power,
-        free_power=pair.mean(min(best, own.power.total) for best, own in zip(free, reached.solutions, strict=True)),
+        free_power=pair.mean(
+            min(best, solution.power.total) for best, solution in zip(free, reached.solutions, strict=True)
+        ),
         loaded_powers=_totals(heavy),
         drive=drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
+        doubt=mean_doubt(pair.shares, heavy, counted_from),
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator), *fuel_caveats(aircraft)),
     )
@@ -293,9 +305,15 @@ def verdict_sentence(verdict: Verdict) -> str:
     text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
     if verdict.net_saving < SMALL:
         noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
-        return f"{text}: not with this {noun}."
+        return f"{text}: not with this {noun}{_sure(verdict)}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}: {kw(verdict.net_saving)} saved{but}."
+    return f"{text}: {kw(verdict.net_saving)} saved{_sure(verdict)}{but}."
+
+
+def _sure(verdict: Verdict) -> str:
+    """The band of the net saving, and whether its sign is known."""
+    band = verdict.net_band
+    return "" if band is None else f" (± {kw(band)}: {sureness(verdict.net_saving, band)})"
 
 
 def verdict_details(verdict: Verdict) -> str:
@@ -361,8 +379,8 @@ def layers_text(installed: InstalledActuator) -> str:
     """Number of plies, or of tubes side by side; "passive" for a laminate."""
     if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
-    one, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
-    return f"{installed.placement.plies} {one if installed.placement.plies == 1 else more}"
+    single, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
+    return f"{installed.placement.plies} {single if installed.placement.plies == 1 else more}"
 
 
 def flight(advance_ratio: float) -> str:

@@ -74,7 +74,7 @@ class BladeBending:
     damping: Array
     """d_kl, (modes, modes)."""
     load: Array
-    """Of weight and, on a precone, of tension, (modes,)."""
+    """Modal loads of weight and, on a precone, of tension, (modes,)."""
     in_plane: Array
     """∫ m V_k dr, and of a spring at the lag hinge K_l V_k'/e, for y0 = e ζ, (modes,)."""
     precone: float
@@ -106,32 +106,34 @@ def build_bending(
     hingeless, root, springs = blade.hingeless, _root(rotor), _springs(rotor)
     stations = np.linspace(root, radius, 33)
     pitch = reference + rotor.builtin_twist(stations / radius)
-    found = blade_bending_modes(
+    blade_modes = blade_bending_modes(
         structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, springs
     )
     force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
-    scale, first = _scale(found, radius)
+    scale, first = _scale(blade_modes, radius)
     lengths = np.array([1.0 / radius, 1.0, radius] * 2)[:, None, None] * scale[:, None]
     r = np.linspace(root, radius, _STATIONS)
-    along, shapes = found.at(r) * lengths, found.at(disk.r * radius) * lengths
+    along, shapes = blade_modes.at(r) * lengths, blade_modes.at(disk.r * radius) * lengths
     widths = np.full(_STATIONS, (radius - root) / (_STATIONS - 1))
     widths[[0, -1]] *= 0.5
     strips = structure.at(r, structure.mass_per_length) * widths * (radius * speed**2 / force)
-    frequency, precone = found.frequency / speed, blade.flap_rest
+    frequency, precone = blade_modes.frequency / speed, blade.flap_rest
     mass = scale**2 * (speed**2 / force / radius)
-    tension = np.interp(r, found.beam.r, found.beam.tension) * widths / (force * radius)
+    tension = np.interp(r, blade_modes.beam.r, blade_modes.beam.tension) * widths / (force * radius)
     load = -GRAVITY / (radius * speed**2) * (along[0] @ strips) - precone * (along[1] @ tension)
     load[first] += precone * mass[first] * frequency[first] ** 2
-    slope = found.nodal[:, 0, 3] * scale  # At the root, 0 where it is held.
-    lag, flap = (structure.at(disk.r * radius, own) for own in (structure.lag_stiffness, structure.flap_stiffness))
+    slope = blade_modes.nodal[:, 0, 3] * scale  # At the root, 0 where it is held.
+    lag, flap = (
+        structure.at(disk.r * radius, stiffness) for stiffness in (structure.lag_stiffness, structure.flap_stiffness)
+    )
     edges = element_edges(disk.dr) * radius
     outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
     bent = along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r))
     turned = 2.0 * (reference + rotor.builtin_twist(disk.r))
     return BladeBending(
-        modes=found,
+        modes=blade_modes,
         first=first,
-        lag=-1 if hingeless else int(np.argmin(found.flap_share[:2])),
+        lag=-1 if hingeless else int(np.argmin(blade_modes.flap_share[:2])),
         frequency=frequency,
         mass=mass,
         shapes=shapes,
@@ -172,7 +174,7 @@ def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     """
     sums = np.cumsum(strips[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips
     cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, len(edges) - 2)
-    return np.stack([np.bincount(cell, own * weights) for own in sums]) / np.bincount(cell, weights)
+    return np.stack([np.bincount(cell, row * weights) for row in sums]) / np.bincount(cell, weights)
 
 
 def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Array:
@@ -195,7 +197,7 @@ class BladeFrequencies:
 
 
 def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> BladeFrequencies | None:
-    """Of the blade at a twist and a collective [rad]; None where its stiffness in bending is not known."""
+    """Frequencies of the blade at a twist and a collective [rad]; None where its stiffness in bending is not known."""
     structure = rotor.blade.structure
     if structure is None or not structure.bends:
         return None
@@ -216,7 +218,7 @@ def can_bend(rotor: Rotor) -> bool:
 
 
 def _springs(rotor: Rotor) -> tuple[float, float]:
-    """Of the root of the bending blade in flap and lag [N m/rad]. That of a hingeless blade in flap is in its EI."""
+    """Root springs of a bending blade, flap and lag [N m/rad]. That of a hingeless blade in flap is in its EI."""
     blade, structure = rotor.blade, rotor.blade.structure
     assert structure is not None
     held = math.inf if blade.hingeless else 0.0

@@ -39,7 +39,7 @@ class BentData(NamedTuple):
     """Data of a section that bends."""
 
     section: Any
-    """Of the section within."""
+    """Data of the section within."""
     coupling: Array
     """b, (elements,)."""
     reference: Array
@@ -96,22 +96,22 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
 
 
 @_compile
-def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data: Any, out: Any) -> None:
-    """Partial derivatives of all forces by all channels; rows: those of the section, made: those here, by pair."""
+def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data: Any, out: Any) -> None:
+    """Partial derivatives of all forces by all channels; rows: those of the section, place: those here, by pair."""
     coupling, reference, share = data
     forces, channels = rows.shape
     full = np.zeros((forces, channels + 2, c.shape[2]))
     for i in range(c.shape[1]):
         t, p, r, w, v = c[UT, i], c[UP, i], c[UR, i], c[first, i], c[first + 1, i]
-        stiff, row = coupling[i], made[M, channels + 1] + 1
+        stiff, row = coupling[i], place[M, channels + 1] + 1
         for o in range(forces):
-            own = full[o]
+            by = full[o]
             for k in range(channels):
                 for j in range(len(t)):
-                    own[k, j] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
+                    by[k, j] = d[rows[o, k], i, j] if rows[o, k] >= 0 else 0.0
             for j in range(len(t)):
-                own[UT, j], own[UP, j], own[UR, j], own[channels, j], own[channels + 1, j] = _by_hub(
-                    own[UT, j], own[UP, j], own[UR, j], t[j], p[j], r[j], w[j], v[j]
+                by[UT, j], by[UP, j], by[UR, j], by[channels, j], by[channels + 1, j] = _by_hub(
+                    by[UT, j], by[UP, j], by[UR, j], t[j], p[j], r[j], w[j], v[j]
                 )
         for k in range(channels + 2):
             for j in range(len(t)):
@@ -147,8 +147,8 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, made: Any, data:
             out[row + 13, i, j] = stiff * cosine
         for o in range(forces):
             for k in range(channels + 2):
-                if made[o, k] >= 0:
-                    out[made[o, k], i] = full[o, k]
+                if place[o, k] >= 0:
+                    out[place[o, k], i] = full[o, k]
 
 
 class _BentSection:
@@ -156,58 +156,60 @@ class _BentSection:
 
     def __init__(self, inner: SectionInterface) -> None:
         self._inner, self._first, self._forces = inner, inner.channels, inner.forces
-        own = self._first + SW + 5, self._first + SV + 5
+        tilts = self._first + SW + 5, self._first + SV + 5
         kw, kv, b = (self._first + 5 + channel for channel in (KW, KV, B))
         known = set(inner.pairs)
         pairs = list[tuple[int, int]]()
         self._rows = np.full((inner.forces, inner.channels), -1, dtype=np.int64)
-        self._made = np.full((inner.forces, inner.channels + 2), -1, dtype=np.int64)
+        self._place = np.full((inner.forces, inner.channels + 2), -1, dtype=np.int64)
         for k, (force, channel) in enumerate(inner.pairs):
             self._rows[force, channel] = k
         turned = {channel for force, channel in known if force in (FX, FZ, FR)}
         for force in sorted(range(inner.forces), key=lambda o: o == M):  # M last: those of bending follow it.
             followed = turned if force in (FX, FZ, FR) else {channel for o, channel in known if o == force}
-            for channel in (*sorted(followed | {UT, UP, UR}), *own):
-                self._made[force, channel] = len(pairs)
+            for channel in (*sorted(followed | {UT, UP, UR}), *tilts):
+                self._place[force, channel] = len(pairs)
                 pairs.append((force, channel))
         last = {force: inner.forces + 5 + force for force in BENDING}
         pairs += [
-            (M, kw), (M, kv), (last[E], own[0]), (last[E], own[1]), (last[GW], own[0]), (last[GW], b),
-            (last[GV], own[1]), (last[GV], b), (last[MW], TH), (last[MW], kw), (last[MW], kv), (last[MV], TH),
+            (M, kw), (M, kv), (last[E], tilts[0]), (last[E], tilts[1]), (last[GW], tilts[0]), (last[GW], b),
+            (last[GV], tilts[1]), (last[GV], b), (last[MW], TH), (last[MW], kw), (last[MW], kv), (last[MV], TH),
             (last[MV], kw), (last[MV], kv),
         ]  # fmt: skip
         self.pairs = tuple(pairs)
 
     def __call__(self, c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        """As `section.section`, with the rows of `pairs`."""
+        """Forces, derivatives and flow as of `section.section`, with the rows of `pairs`."""
         first, forces = self._first, self._forces
         f, d, s = self._inner.section(turned(c, first), data.section, slopes, flow)
-        out, own = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
-        _turn_back(c, first, f, forces, own, out)
-        made = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
+        out, blade = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
+        _turn_back(c, first, f, forces, blade, out)
+        partials = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
         if slopes:
-            _slopes_back(c, first, f, d, self._rows, self._made, own, made)
-        return out, made, s
+            _slopes_back(c, first, f, d, self._rows, self._place, blade, partials)
+        return out, partials, s
 
     def memory(self, c: Array, data: BentData) -> Memory:
-        """That of the section within, its forces turned back and its channels turned."""
+        """The memory of the section within, its forces turned back and its channels turned."""
         assert self._inner.memory is not None
         first = self._first
-        own = self._inner.memory(turned(c, first), data.section)
+        memory = self._inner.memory(turned(c, first), data.section)
         t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
-        left = np.concatenate([own.left, np.zeros((5, *own.left.shape[1:]))])
-        left[FZ], left[FX], left[FR] = _back.py_func(own.left[FZ], own.left[FX], own.left[FR], w, v)
-        right = np.concatenate([own.right, np.zeros((len(own.right), 5, *t.shape))], axis=1)
-        by_air = (own.right[:, channel] for channel in (UT, UP, UR))
+        left = np.concatenate([memory.left, np.zeros((5, *memory.left.shape[1:]))])
+        left[FZ], left[FX], left[FR] = _back.py_func(memory.left[FZ], memory.left[FX], memory.left[FR], w, v)
+        right = np.concatenate([memory.right, np.zeros((len(memory.right), 5, *t.shape))], axis=1)
+        by_air = (memory.right[:, channel] for channel in (UT, UP, UR))
         right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
             *by_air, t, p, r, w, v
         )
-        return Memory(left, own.kernel, right)
+        return Memory(left, memory.kernel, right)
 
 
 @lru_cache(maxsize=8)
 def bent(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
-    made = _BentSection(inner)
-    memory = None if inner.memory is None else made.memory
-    return SectionInterface(made, made.pairs, inner.channels + 5, inner.forces + 5, inner.balanced, memory)
+    bent_section = _BentSection(inner)
+    memory = None if inner.memory is None else bent_section.memory
+    return SectionInterface(
+        bent_section, bent_section.pairs, inner.channels + 5, inner.forces + 5, inner.balanced, memory
+    )

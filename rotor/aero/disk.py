@@ -39,7 +39,7 @@ class Disk:
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Those of the circulation of a lifting line, `section_table.held_beyond_peak`; no sections where there is none."""
+    """Tables of a lifting line's circulation, `section_table.held_beyond_peak`; no sections where there is none."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array
@@ -181,8 +181,8 @@ def build_onset(rotor: Rotor, disk: Disk, only_mach: float | None = None) -> tup
     """
     names = tuple(dict.fromkeys(span.section for span in rotor.blade.spans))
     tables = [rotor.blade.installed(name).table for name in names]
-    own = [stall_onset(table if only_mach is None else table.held_at(only_mach)) for table in tables]
-    numbers = np.stack([each.numbers for each in own])[disk.section]  # (elements, 2, 8, nodes)
+    onsets = [stall_onset(table if only_mach is None else table.held_at(only_mach)) for table in tables]
+    numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]
-    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], np.stack([each.tables for each in own])
+    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], np.stack([each.tables for each in onsets])

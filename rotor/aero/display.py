@@ -10,14 +10,28 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotor.aero.bent_section import bent, turned
+from rotor.aero.bent_section import turned
 from rotor.aero.disk import Disk
 from rotor.aero.dynamic_stall import SEPARATION, VORTEX
 from rotor.aero.elements import BentState, BladeElements, TwistState, over_azimuths
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
-from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, stall_angles
-from rotor.aero.stalling_section import StallingData, added_to, stalling
+from rotor.aero.section import (
+    ALPHA,
+    CD,
+    CD_MACH,
+    CL,
+    FR,
+    FX,
+    FZ,
+    MACH,
+    M,
+    angles_of_attack,
+    stall_angles,
+    stall_margins,
+)
+from rotor.aero.stalling_section import StallingData, added_to
+from rotor.aero.unsteady_section import at_three_quarters
 from rotor.arrays import Array, read_only
 from rotor.engine.waves import wave_grid
 
@@ -41,10 +55,10 @@ def resampling(source: int, target: int) -> Array:
     """Fourier interpolation of evenly spaced periodic samples, (source, target); the samples themselves stay."""
     angle = 2.0 * np.pi * (np.arange(target) / target - np.arange(source)[:, None] / source)
     waves = np.arange(1, (source + 1) // 2)
-    made = 1.0 + 2.0 * np.cos(angle[..., None] * waves).sum(axis=-1)
+    kernel = 1.0 + 2.0 * np.cos(angle[..., None] * waves).sum(axis=-1)
     if source % 2 == 0:
-        made += np.cos(0.5 * source * angle)
-    return made / source
+        kernel += np.cos(0.5 * source * angle)
+    return kernel / source
 
 
 def as_asked(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeElements]:
@@ -67,9 +81,9 @@ def _all_round(problem: Problem, elements: BladeElements) -> BladeElements:
     def around(field: Array) -> Array:
         return over_azimuths(field[:, 0], azimuths)
 
-    made = {name: around(getattr(e, name)) for name in _OVER_DISK}
+    values = {name: around(getattr(e, name)) for name in _OVER_DISK}
     twist = torsion and replace(torsion, twist=around(torsion.twist), moment=around(torsion.moment))
-    return replace(e, **made, beta=np.full(azimuths, e.beta[0]), torsion=twist)
+    return replace(e, **values, beta=np.full(azimuths, e.beta[0]), torsion=twist)
 
 
 def _between(problem: Problem, elements: BladeElements) -> BladeElements:
@@ -77,7 +91,8 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
     matrix = resampling(len(e.beta), azimuths)
     fields = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate, e.induced)) @ matrix
-    f, s, bends = _sections(problem, e, fields[:6], matrix)
+    rates = None if e.rates is None else e.rates @ matrix
+    f, s, bends = _sections(problem, e, fields[:6] if rates is None else np.concatenate([fields[:6], rates]), matrix)
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
@@ -86,18 +101,17 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     return replace(
         e, theta=theta, u_t=u_t, u_p=u_p, u_r=u_r, loss=loss, rate=rate, beta=e.beta @ matrix, induced=induced,
         fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
-        torsion=twist, bent=bends,
+        torsion=twist, bent=bends, rates=rates,
     )  # fmt: skip
 
 
 def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
     """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
-    own = PLAIN if problem.stall is None else stalling(PLAIN)
-    if e.bent is None:
-        f, _, s = own.section(flow, problem.grid_data(1), False, True)
-        return f, s, None
-    bends = BentState(e.bent.channels @ matrix, e.bent.lift @ matrix)
-    f, _, s = bent(own).section(np.concatenate([flow, bends.channels]), problem.grid_data(1), False, True)
+    bends = None
+    if e.bent is not None:
+        bends = BentState(e.bent.channels @ matrix, e.bent.lift @ matrix)
+        flow = np.concatenate([flow, bends.channels])
+    f, _, s = problem.with_effects(PLAIN).section(flow, problem.grid_data(1), False, True)
     return f, s, bends
 
 
@@ -114,12 +128,13 @@ class Unsteady:
 
 
 def unsteady_part(problem: Problem, elements: BladeElements) -> Unsteady | None:
-    """Of the elements of a problem; None where sections are steady."""
+    """What unsteady sections show of the elements of a problem; None where sections are steady."""
     if problem.stall is None:
         return None
     e = elements
     c = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate))
     c = c if e.bent is None else turned(np.concatenate([c, e.bent.channels]), len(c))
+    c = at_three_quarters(c, problem.half_chord) if problem.unsteady else c
     added, states = added_to(c, StallingData(problem.section_data(), problem.stall))
     return Unsteady(states[SEPARATION], states[VORTEX], added[2])
 
@@ -151,6 +166,13 @@ def areas(
     thrust = float(lift.sum())
     reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
     return reversed_area, area, float(lift[stalled].sum()) / thrust if thrust else 0.0
+
+
+def stalled_area(problem: Problem, elements: BladeElements) -> float:
+    """Stalled part of πR², on the azimuths of the problem."""
+    disk, e = problem.disk, elements
+    margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
+    return areas(disk, e, margin, unsteady_part(problem, e))[1]
 
 
 @lru_cache(maxsize=16)

@@ -1,28 +1,25 @@
-"""Dynamic stall of a blade element: what its coefficients have beyond the static ones, periodic around the azimuth.
+"""Dynamic stall of a blade element: what its coefficients have beyond attached flow, periodic around the azimuth.
 
 After Leishman and Beddoes (J. AHS 34(3), 1989) and, for sections of any data, Hansen, Gaunaa and Madsen (Risø-R-1354,
-2004). x: angle from zero lift; s: travel in semi-chords b; q = b θ'/U; V: speed across the blade over ΩR.
+2004). x: angle from zero lift of the flow at three quarters of the chord (`rotor.aero.unsteady_section`); s: travel in
+semi-chords b.
 
-    x_E = x + q, where no vortex wake sheds lagged by Jones' function       angle at three quarters of the chord
-    C_nᴵ = π d(x + ½q)/ds                                                   apparent mass, by the middle of the chord
-    x_f = lag(x_E + C_nᴵ/C_nα, T_p)                                         pressure at the leading edge
+    x_f = lag(x, T_p)                                                       pressure at the leading edge
     f″ = lag(f(x_f), T_f),   m″ = lag(m(x_f), T_f)                          separation point, place of the force
     g(x_f)                                                                  0 below, 1 above the force of static stall
-    C_nᵛ: T_v dC_nᵛ/ds + C_nᵛ = T_v h d/ds [C_nα x_E (1 − K(f″))],   h = g(s) (1 − g(s − T_vl))
+    C_nᵛ: T_v dC_nᵛ/ds + C_nᵛ = T_v h d/ds [C_nα x (1 − K(f″))],   h = g(s) (1 − g(s − T_vl))
     τ = (1/T_vl) ∫ g over the last 2 T_vl                                   how far the vortex has travelled
 
-    C_n − static = C_nα [x_E K(f″) − x K(f)] + C_nᵛ + C_nᴵ
-    C_c − static = C_nα [x_E² √f″ − x² √f]                                  along the chord, forward
-    C_m − static = C_nα [x_E K(f″) m″ − x K(f) m] − 0.2 (1 − cos πτ) C_nᵛ − ¼ (C_nᴵ + ¼π dq/ds − π q)
+    C_n − static = C_nα x [K(f″) − K(f)] + C_nᵛ
+    C_c − static = C_nα x² [√f″ − √f]                                       along the chord, forward
+    C_m − static = C_nα x [K(f″) m″ − K(f) m] − 0.2 (1 − cos πτ) C_nᵛ
 
 so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`. Every stage is a linear lag whose
-coefficients the stages before it give: its periodic solution is exact after one turn, and so are its derivatives. The
-last term leaves out the pitch rate, whose moment `rotor.aero.section` has. Apparent mass and its moment are
-Theodorsen's (NACA Report 496, 1935).
+coefficients the stages before it give: its periodic solution is exact after one turn, and so are its derivatives.
 
 Choices of ours: g rises over ±4 % of x_f, where Leishman and Beddoes switch; T_f and T_v stay the same in all phases;
-one vortex leaves in each stall. Beyond 25° x fades out to 50°, and what is added with it: in deep stall and in reverse
-flow sections are static.
+one vortex leaves in each stall; what apparent mass adds to the pressure at the leading edge is left out. Beyond 25° x
+fades out to 50°, and what is added with it: in deep stall and in reverse flow sections are static.
 """
 
 import math
@@ -30,6 +27,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rotor.aero.lags import around, lag, lag_steps, spread
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
 from rotor.airfoil.stall_onset import (
     LAG_PRESSURE,
@@ -43,29 +41,25 @@ from rotor.airfoil.stall_onset import (
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 
-INPUTS = (ANGLE, MACH_NUMBER, PITCH_RATE) = tuple(range(3))
-"""x, M and q."""
+INPUTS = (ANGLE, MACH_NUMBER) = tuple(range(2))
+"""x and M."""
 ADDED = (ADDED_N, ADDED_C, ADDED_M) = tuple(range(3))
 """C_n, C_c and C_m less the static ones."""
 STATES = (SEPARATION, VORTEX, POSITION, ONSET_GATE) = tuple(range(4))
 """What is shown: f″, C_nᵛ, τ and g."""
 FULL, GONE = math.radians(25.0), math.radians(50.0)
 """Angles from zero lift up to which, and from which nothing of, the unsteady part counts."""
-SLOWEST = 0.1
-"""V below which apparent mass and pitch rate no longer grow."""
 _GATE = 0.04
 _ARM = 0.2
 _LEAST_FINE = 96
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel."""
-_JONES = ((0.165, 0.0455), (0.335, 0.3))
-"""Amplitudes and rates of the response to a step (R. T. Jones, NACA Report 681, 1940)."""
 _PI = math.pi
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 
 class StallData(NamedTuple):
-    """What dynamic stall needs beside x, M and q."""
+    """What dynamic stall needs beside x and M."""
 
     numbers: Array
     """`StallOnset.numbers` of every element, (elements, 8, Mach nodes); zero lift about the blade's reference line."""
@@ -76,8 +70,6 @@ class StallData(NamedTuple):
     half_chord: Array
     """b/R, (elements,)."""
     tip_mach: float
-    sheds: bool
-    """Whether a vortex wake sheds; if not, lift follows by Jones' function."""
 
 
 @_compile
@@ -89,74 +81,6 @@ def window(y: float) -> Any:
     if u >= 1.0:
         return 0.0, 0.0
     return 1.0 - u * u * (3.0 - 2.0 * u), -6.0 * u * (1.0 - u) / (GONE - FULL) * (1.0 if y > 0.0 else -1.0)
-
-
-@_compile
-def _spread(coarse: Any, steps: int, out: Any) -> None:
-    """Linear between azimuths, onto finer ones."""
-    n = len(coarse)
-    for k in range(len(out)):
-        c, w = k // steps, (k % steps) / steps
-        out[k] = (1.0 - w) * coarse[c] + w * coarse[(c + 1) % n]
-
-
-@_compile
-def _around(decay: Any, z: Any) -> None:
-    """z[k + 1] = decay[k] z[k] + given[k], periodic, where z holds what is given: (azimuths, columns), in place."""
-    n, columns = z.shape
-    value, rest = np.zeros(columns), 1.0
-    for k in range(n):  # First from zero: what is left of a start after one turn is known.
-        rest *= decay[k]
-        for j in range(columns):
-            value[j] = decay[k] * value[j] + z[k, j]
-    for j in range(columns):
-        value[j] /= 1.0 - rest
-    for k in range(n):
-        for j in range(columns):
-            given = z[k, j]
-            z[k, j] = value[j]
-            value[j] = decay[k] * value[j] + given
-
-
-@_compile
-def _lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> None:
-    """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step.
-
-    h: step over T; by_mach: its slope by the sum of the Mach numbers at its ends; d…: slopes by the seeds.
-    """
-    n, seeds = du.shape
-    rates = np.empty((n, 5))
-    for k in range(n):
-        e = math.exp(-h[k])
-        if h[k] > 1e-4:
-            phi = (1.0 - e) / h[k]
-            by = (e - phi) / h[k]
-        else:
-            phi, by = 1.0 - 0.5 * h[k], -0.5 + h[k] / 3.0
-        rates[k, 0], rates[k, 1], rates[k, 2] = e, phi - e, 1.0 - phi
-        rates[k, 3], rates[k, 4] = by + e, -by
-        z[k] = rates[k, 1] * u[k] + rates[k, 2] * u[(k + 1) % n]
-    decay = rates[:, 0]
-    _around(decay, z.reshape(n, 1))
-    for k in range(n if seeds else 0):
-        one = (k + 1) % n
-        a, b = rates[k, 1], rates[k, 2]
-        by = (-decay[k] * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[one]) * by_mach[k]
-        for j in range(seeds):
-            dz[k, j] = a * du[k, j] + b * du[one, j] + by * (dm[k, j] + dm[one, j])
-    _around(decay, dz)
-
-
-@_compile
-def _steps(row: Any, fine: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
-    """Steps over a lag time, and their slopes by the sum of the Mach numbers at their ends.
-
-    row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel over the sum.
-    """
-    n = len(mach)
-    for k in range(n):
-        h[k] = unit * (mach[k] + mach[(k + 1) % n]) / row[0, k]
-        by_mach[k] = (unit - h[k] * 0.5 * row[1, k]) / row[0, k]
 
 
 @_compile
@@ -177,15 +101,15 @@ def _kirchhoff(f: float) -> Any:
 
 
 @_compile
-def _combine(to: Any, a: float, one: Any, b: float, two: Any) -> None:
+def _combine(to: Any, a: float, first: Any, b: float, second: Any) -> None:
     for j in range(len(to)):
-        to[j] = a * one[j] + b * two[j]
+        to[j] = a * first[j] + b * second[j]
 
 
 @_compile
-def _add(to: Any, a: float, one: Any) -> None:
+def _add(to: Any, a: float, row: Any) -> None:
     for j in range(len(to)):
-        to[j] += a * one[j]
+        to[j] += a * row[j]
 
 
 @_compile
@@ -208,13 +132,13 @@ def _before(distance: Any, back: float, k: int) -> Any:
 
 
 @_compile
-def _along(one: int, tables: Any, section: Any, weight: float, cells: Any, places: Any, x: Any, found: Any) -> None:
+def _along(element: int, tables: Any, section: Any, weight: float, cells: Any, places: Any, x: Any, fm: Any) -> None:
     """f and m of one row, blended from the two sections of an element, with slopes; Mach cells are there."""
     places_along_alpha(x, 0.0, cells[0], places[0])
     for which in range(2):
         share = weight if which == 1 else 1.0
         if share > 0.0:
-            look_up(tables, section[one, which], cells, places, share, True, found)
+            look_up(tables, section[element, which], cells, places, share, True, fm)
 
 
 @_compile
@@ -228,57 +152,46 @@ def _over_mach(numbers: Any, first: int, end: int, cell: Any, places: Any, rows:
 
 
 @_compile
-def follow(one: int, x: Any, mach: Any, q: Any, data: Any, slopes: bool, added: Any, by: Any, shown: Any) -> None:
-    """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x, M and q, (azimuths,) each.
+def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, by: Any, shown: Any) -> None:
+    """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x and M, (azimuths,) each.
 
-    by: slopes by these at all azimuths, (3, azimuths, 3 azimuths), only where asked for, else without the last.
+    by: slopes by these at all azimuths, (3, azimuths, 2 azimuths), only where asked for, else without the last.
     """
     n = len(x)
     steps = max(1, -(-_LEAST_FINE // n))
-    fine, seeds = n * steps, 3 * n if slopes else 0
-    b, tip = data.half_chord[one], data.tip_mach
-    unit = math.pi / fine / (b * tip)  # Travel in a step over the sum of the Mach numbers at its ends.
-    every = np.zeros((5, fine, seeds))
-    dx, dm, de, dp, df = every[0], every[1], every[2], every[3], every[4]
-    xs, ms, es, ps = np.empty(fine), np.empty(fine), np.empty(fine), np.empty(fine)
-    _spread(x, steps, xs)
-    _spread(mach, steps, ms)
+    fine, seeds = n * steps, 2 * n if slopes else 0
+    unit = (
+        math.pi / fine / (data.half_chord[element] * data.tip_mach)
+    )  # Travel in a step over the Mach numbers at its ends.
+    every = np.zeros((3, fine, seeds))
+    dx, dm, df = every[0], every[1], every[2]
+    xs, ms = np.empty(fine), np.empty(fine)
+    spread(x, steps, xs)
+    spread(mach, steps, ms)
     _seed(n, steps, dx, dm)
-    cells, places, found = np.empty((2, fine), np.int32), np.empty((3, fine)), np.zeros((6, fine))
+    cells, places, fm = np.empty((2, fine), np.int32), np.empty((3, fine)), np.zeros((6, fine))
     rows = np.empty((8, 2, fine))
-    _numbers(data.numbers[one], ms, cells, places, rows)
-    mass, turning = np.empty(n), np.empty(n)
-    dmass, dturning = np.zeros((n, seeds)), np.zeros((n, seeds))
-    _apparent_mass(x, mach, q, b, tip, mass, turning, dmass, dturning)
-    _three_quarters(x, q, mass, steps, dx, dmass, es, ps, de, dp)
-    if not data.sheds:
-        _lift_deficiency(ms, dm, unit, es, de)
+    _numbers(data.numbers[element], ms, cells, places, rows)
+    h, by_mach = np.empty(fine), np.empty(fine)
+    lag_steps(rows[LAG_PRESSURE], fine, ms, unit, h, by_mach)
     xf, dxf = np.empty(fine), np.empty((fine, seeds))
-    _leading_edge(rows, ms, dm, unit, es, de, ps, dp, xf, dxf)
-    _along(one, data.tables, data.section, data.weight[one], cells, places, xf, found)
+    lag(xs, dx, h, by_mach, dm, xf, dxf)
+    _along(element, data.tables, data.section, data.weight[element], cells, places, xf, fm)
     f, dfs, m, dms = np.empty(fine), np.empty((fine, seeds)), np.empty(fine), np.empty((fine, seeds))
-    _separation(rows, ms, dm, unit, found, dxf, df, f, dfs, m, dms)
+    _separation(rows, ms, dm, unit, fm, dxf, df, f, dfs, m, dms)
     g, dg = np.empty(fine), dxf
     _onset(rows, xf, dxf, dm, g, dg)
     cv, tau = np.zeros(fine), np.zeros(fine)
     dcv, dtau = np.zeros((fine, seeds)), np.zeros((fine, seeds))
     if g.max() > 0.0:
-        _vortex(rows, ms, dm, es, de, f, dfs, g, dg, unit, cv, dcv, tau, dtau)
-    _along(one, data.tables, data.section, data.weight[one], cells, places, xs, found)
+        _vortex(rows, ms, dm, xs, dx, f, dfs, g, dg, unit, cv, dcv, tau, dtau)
+    _along(element, data.tables, data.section, data.weight[element], cells, places, xs, fm)
     added[:] = 0.0
     by[:] = 0.0
-    shown[:] = 0.0
-    _sum_up(rows, steps, found, xs, es, f, m, cv, tau, dx, dm, de, dfs, dms, dcv, dtau, added, by)
+    _sum_up(rows, steps, fm, xs, f, m, cv, tau, dx, dm, dfs, dms, dcv, dtau, added, by)
     for k in range(n):
-        added[ADDED_N, k] += mass[k]
-        added[ADDED_M, k] -= 0.25 * (mass[k] + 0.25 * turning[k] - _PI * q[k])
         at = k * steps
         shown[SEPARATION, k], shown[VORTEX, k], shown[POSITION, k], shown[ONSET_GATE, k] = f[at], cv[at], tau[at], g[at]
-        if seeds:
-            _add(by[ADDED_N, k], 1.0, dmass[k])
-            _add(by[ADDED_M, k], -0.25, dmass[k])
-            _add(by[ADDED_M, k], -0.0625, dturning[k])
-            by[ADDED_M, k, 2 * n + k] += 0.25 * _PI
 
 
 @_compile
@@ -312,107 +225,19 @@ def _numbers(numbers: Any, ms: Any, cells: Any, places: Any, rows: Any) -> None:
 
 
 @_compile
-def _apparent_mass(
-    x: Any, mach: Any, q: Any, b: float, tip: float, mass: Any, turning: Any, dmass: Any, dturning: Any
-) -> None:
-    """C_nᴵ and π dq/ds at the azimuths given, by differences of fourth order, and their slopes."""
-    n, seeds = dmass.shape
-    quarter = n / (2.0 * _PI) / 12.0
-    for k in range(n):
-        v = mach[k] / tip
-        slow = b * v / (v * v + SLOWEST * SLOWEST)
-        turning[k] = _PI * slow * quarter * (8.0 * (q[(k + 1) % n] - q[k - 1]) - q[(k + 2) % n] + q[k - 2])
-        rise = quarter * (8.0 * (x[(k + 1) % n] - x[k - 1]) - x[(k + 2) % n] + x[k - 2])
-        mass[k] = _PI * slow * rise + 0.5 * turning[k]
-    for k in range(n if seeds else 0):
-        v = mach[k] / tip
-        below = v * v + SLOWEST * SLOWEST
-        slow = b * v / below
-        for step, factor in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
-            at = (k + step) % n
-            dmass[k, at] += _PI * slow * quarter * factor
-            dmass[k, 2 * n + at] += 0.5 * _PI * slow * quarter * factor
-            dturning[k, 2 * n + at] += _PI * slow * quarter * factor
-        if v > 1e-12:
-            by_mach_number = b * (below - 2.0 * v * v) / (below * below) / tip / slow
-            dmass[k, n + k] += mass[k] * by_mach_number
-            dturning[k, n + k] += turning[k] * by_mach_number
-
-
-@_compile
-def _three_quarters(
-    x: Any, q: Any, mass: Any, steps: int, dx: Any, dmass: Any, es: Any, ps: Any, de: Any, dp: Any
-) -> None:
-    """x + q and C_nᴵ on the finer azimuths, and their slopes."""
-    n = len(x)
-    raw = np.empty(n)
-    for k in range(n):
-        raw[k] = x[k] + q[k]
-    _spread(raw, steps, es)
-    _spread(mass, steps, ps)
-    fine, seeds = dx.shape
-    for k in range(fine if seeds else 0):
-        c, w = k // steps, (k % steps) / steps
-        after = (c + 1) % n
-        de[k] = dx[k]
-        de[k, 2 * n + c] += 1.0 - w
-        de[k, 2 * n + after] += w
-        _combine(dp[k], 1.0 - w, dmass[c], w, dmass[after])
-
-
-@_compile
-def _lift_deficiency(ms: Any, dm: Any, unit: float, es: Any, de: Any) -> None:
-    """x_E in place of x + q: lagged by Jones' function."""
-    fine, seeds = dm.shape
-    h, by_mach = np.empty(fine), np.empty(fine)
-    lag = np.ones((2, fine))
-    lag[1] = 0.0
-    total, dtotal = np.zeros(fine), np.zeros((fine, seeds))
-    z, dz = np.empty(fine), np.empty((fine, seeds))
-    share = 1.0
-    for amplitude, rate in _JONES:
-        lag[0] = 1.0 / rate
-        _steps(lag, fine, ms, unit, h, by_mach)
-        _lag(es, de, h, by_mach, dm, z, dz)
-        share -= amplitude
-        for k in range(fine):
-            total[k] += amplitude * z[k]
-            _add(dtotal[k], amplitude, dz[k])
-    for k in range(fine):
-        es[k] = share * es[k] + total[k]
-        _combine(de[k], share, de[k], 1.0, dtotal[k])
-
-
-@_compile
-def _leading_edge(
-    rows: Any, ms: Any, dm: Any, unit: float, es: Any, de: Any, ps: Any, dp: Any, xf: Any, dxf: Any
-) -> None:
-    """x_f with its slopes; ps, C_nᴵ before, is x_E + C_nᴵ/C_nα after."""
-    fine = len(ms)
-    for k in range(fine):
-        slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
-        _combine(dp[k], 1.0 / slope, dp[k], 1.0, de[k])
-        _add(dp[k], -ps[k] * by_m / (slope * slope), dm[k])
-        ps[k] = es[k] + ps[k] / slope
-    h, by_mach = np.empty(fine), np.empty(fine)
-    _steps(rows[LAG_PRESSURE], fine, ms, unit, h, by_mach)
-    _lag(ps, dp, h, by_mach, dm, xf, dxf)
-
-
-@_compile
 def _separation(
-    rows: Any, ms: Any, dm: Any, unit: float, found: Any, dxf: Any, df: Any, f: Any, dfs: Any, m: Any, dms: Any
+    rows: Any, ms: Any, dm: Any, unit: float, fm: Any, dxf: Any, df: Any, f: Any, dfs: Any, m: Any, dms: Any
 ) -> None:
     """f″ and m″ with their slopes; df is overwritten."""
     fine = len(ms)
     h, by_mach = np.empty(fine), np.empty(fine)
-    _steps(rows[LAG_SEPARATION], fine, ms, unit, h, by_mach)
+    lag_steps(rows[LAG_SEPARATION], fine, ms, unit, h, by_mach)
     for k in range(fine):
-        _combine(df[k], found[1, k], dxf[k], found[2, k], dm[k])
-    _lag(found[0], df, h, by_mach, dm, f, dfs)
+        _combine(df[k], fm[1, k], dxf[k], fm[2, k], dm[k])
+    lag(fm[0], df, h, by_mach, dm, f, dfs)
     for k in range(fine):
-        _combine(df[k], found[4, k], dxf[k], found[5, k], dm[k])
-    _lag(found[3], df, h, by_mach, dm, m, dms)
+        _combine(df[k], fm[4, k], dxf[k], fm[5, k], dm[k])
+    lag(fm[3], df, h, by_mach, dm, m, dms)
 
 
 @_compile
@@ -426,10 +251,10 @@ def _onset(rows: Any, xf: Any, dxf: Any, dm: Any, g: Any, dg: Any) -> None:
 
 @_compile
 def _sum_up(
-    rows: Any, steps: int, found: Any, xs: Any, es: Any, f: Any, m: Any, cv: Any, tau: Any, dx: Any, dm: Any, de: Any,
-    dfs: Any, dms: Any, dcv: Any, dtau: Any, added: Any, by: Any,
+    rows: Any, steps: int, fm: Any, x: Any, f: Any, m: Any, cv: Any, tau: Any, dx: Any, dm: Any, dfs: Any, dms: Any,
+    dcv: Any, dtau: Any, added: Any, by: Any,
 ) -> None:  # fmt: skip
-    """What is added, but for apparent mass, brought back to the azimuths given."""
+    """What is added, brought back to the azimuths given."""
     fine, seeds = dx.shape
     n = fine // steps
     row = np.empty((3, seeds))
@@ -437,28 +262,26 @@ def _sum_up(
     for k in range(fine):
         slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
         now, by_now, root, by_root = _kirchhoff(f[k])
-        rest, by_rest, own, by_own = _kirchhoff(found[0, k])
-        xe, y, at, mm = es[k], xs[k], m[k], found[3, k]
+        rest, by_rest, rest_root, by_rest_root = _kirchhoff(fm[0, k])
+        y, at, mm = x[k], m[k], fm[3, k]
         arm = _ARM * (1.0 - math.cos(_PI * tau[k]))
-        value[0] = slope * (xe * now - y * rest) + cv[k]
-        value[1] = slope * (xe * xe * root - y * y * own)
-        value[2] = slope * (xe * now * at - y * rest * mm) - arm * cv[k]
+        force, along, turns = now - rest, root - rest_root, now * at - rest * mm
+        value[0] = slope * y * force + cv[k]
+        value[1] = slope * y * y * along
+        value[2] = slope * y * turns - arm * cv[k]
         if seeds:
             by_arm = _ARM * _PI * math.sin(_PI * tau[k])
             for j in range(seeds):
-                dxe, dy, dmach = de[k, j], dx[k, j], dm[k, j]
-                dnow, droot = by_now * dfs[k, j], by_root * dfs[k, j]
-                dfound = found[1, k] * dy + found[2, k] * dmach
-                dmm = found[4, k] * dy + found[5, k] * dmach
-                drest, down = by_rest * dfound, by_own * dfound
-                dn = dxe * now + xe * dnow
-                ds = dy * rest + y * drest
-                row[0, j] = slope * (dn - ds) + by_m * (xe * now - y * rest) * dmach + dcv[k, j]
-                row[1, j] = slope * (2.0 * xe * dxe * root + xe * xe * droot - 2.0 * y * dy * own - y * y * down)
-                row[1, j] += by_m * (xe * xe * root - y * y * own) * dmach
-                row[2, j] = slope * (dn * at + xe * now * dms[k, j] - ds * mm - y * rest * dmm)
-                row[2, j] += by_m * (xe * now * at - y * rest * mm) * dmach
-                row[2, j] -= arm * dcv[k, j] + by_arm * cv[k] * dtau[k, j]
+                dy, dmach = dx[k, j], dm[k, j]
+                dstatic = fm[1, k] * dy + fm[2, k] * dmach
+                dmm = fm[4, k] * dy + fm[5, k] * dmach
+                by_both = slope * dy + by_m * y * dmach  # Of C_nα x.
+                dnow, drest = by_now * dfs[k, j], by_rest * dstatic
+                row[0, j] = by_both * force + slope * y * (dnow - drest) + dcv[k, j]
+                row[1, j] = (by_both + slope * dy) * y * along
+                row[1, j] += slope * y * y * (by_root * dfs[k, j] - by_rest_root * dstatic)
+                row[2, j] = by_both * turns - arm * dcv[k, j] - by_arm * cv[k] * dtau[k, j]
+                row[2, j] += slope * y * (dnow * at + now * dms[k, j] - drest * mm - rest * dmm)
         c, w = k // steps, (k % steps) / steps
         after = (c + 1) % n
         for o in range(3):
@@ -479,13 +302,13 @@ def _vortex(
     s, ds = np.zeros(n + 1), np.zeros((n + 1, seeds))
     total, dtotal = np.zeros(n + 1), np.zeros((n + 1, seeds))  # ∫ g ds
     for k in range(n):
-        one = (k + 1) % n
-        step, mean = unit * (ms[k] + ms[one]), 0.5 * (g[k] + g[one])
+        after = (k + 1) % n
+        step, mean = unit * (ms[k] + ms[after]), 0.5 * (g[k] + g[after])
         s[k + 1], total[k + 1] = s[k] + step, total[k] + mean * step
         for j in range(seeds):
-            by_step = unit * (dm[k, j] + dm[one, j])
+            by_step = unit * (dm[k, j] + dm[after, j])
             ds[k + 1, j] = ds[k, j] + by_step
-            dtotal[k + 1, j] = dtotal[k, j] + mean * by_step + 0.5 * step * (dg[k, j] + dg[one, j])
+            dtotal[k + 1, j] = dtotal[k, j] + mean * by_step + 0.5 * step * (dg[k, j] + dg[after, j])
     feed, dfeed = np.empty(n), np.empty((n, seeds))  # C_nα x_E (1 − K)
     h, dh = np.empty(n), np.empty((n, seeds))
     for k in range(n):
@@ -516,17 +339,19 @@ def _vortex(
             whole -= dwide * inside + wide * dinside + (g[low] + v * rise) * by_v
             dtau[k, j] = (whole - tau[k] * by_time * dm[k, j]) / time
     steps, by_mach = np.empty(n), np.empty(n)
-    _steps(rows[LAG_VORTEX], n, ms, unit, steps, by_mach)
+    lag_steps(rows[LAG_VORTEX], n, ms, unit, steps, by_mach)
     decay = np.exp(-steps)
     for k in range(n):
-        one = (k + 1) % n
-        cv[k] = math.sqrt(decay[k]) * 0.5 * (h[k] + h[one]) * (feed[one] - feed[k])
-    _around(decay, cv.reshape(n, 1))
+        after = (k + 1) % n
+        cv[k] = math.sqrt(decay[k]) * 0.5 * (h[k] + h[after]) * (feed[after] - feed[k])
+    around(decay, cv.reshape(n, 1))
     for k in range(n if seeds else 0):
-        one = (k + 1) % n
-        root, mean, grown = math.sqrt(decay[k]), 0.5 * (h[k] + h[one]), feed[one] - feed[k]
+        after = (k + 1) % n
+        root, mean, grown = math.sqrt(decay[k]), 0.5 * (h[k] + h[after]), feed[after] - feed[k]
         by = -(decay[k] * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
         for j in range(seeds):
-            by_mean = 0.5 * (dh[k, j] + dh[one, j])
-            dcv[k, j] = root * (by_mean * grown + mean * (dfeed[one, j] - dfeed[k, j])) + by * (dm[k, j] + dm[one, j])
-    _around(decay, dcv)
+            by_mean = 0.5 * (dh[k, j] + dh[after, j])
+            dcv[k, j] = root * (by_mean * grown + mean * (dfeed[after, j] - dfeed[k, j])) + by * (
+                dm[k, j] + dm[after, j]
+            )
+    around(decay, dcv)

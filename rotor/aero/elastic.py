@@ -63,7 +63,7 @@ class BladeTorsion:
     tension: Array
     """∫ Φ_k' F_c k_A² θ' dr of a twist given at the elements, (modes, elements)."""
     own_tension: Array
-    """The same with a twist in the place of Φ_k, (elements, elements)."""
+    """Tension on a twist, with another twist in the place of Φ_k, (elements, elements)."""
     moment_gain: Array
     """½σ c/R, (elements,)."""
     damping: Array
@@ -145,16 +145,16 @@ def build_torsion(
 
     highest: harmonic; count: modes.
     """
-    made = _at_unit_density(rotor, disk, only_mach, swept, highest, count)
+    torsion = _at_unit_density(rotor, disk, only_mach, swept, highest, count)
     return replace(
-        made,
-        gain=made.gain * density,
-        inertia=made.inertia / density,
-        coupling=made.coupling / density,
-        tension=made.tension / density,
-        own_tension=made.own_tension / density,
-        tip_mass=made.tip_mass / density,
-        moment_unit=made.moment_unit * density,
+        torsion,
+        gain=torsion.gain * density,
+        inertia=torsion.inertia / density,
+        coupling=torsion.coupling / density,
+        tension=torsion.tension / density,
+        own_tension=torsion.own_tension / density,
+        tip_mass=torsion.tip_mass / density,
+        moment_unit=torsion.moment_unit * density,
     )
 
 
@@ -162,7 +162,7 @@ def build_torsion(
 def _at_unit_density(
     rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int, count: int
 ) -> BladeTorsion:
-    """The same in air of 1 kg/m³; modes and tables take most of the time."""
+    """Torsion of the blade in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
     assert structure is not None
     modes = blade_modes(structure, rotor.angular_speed, count)
@@ -211,4 +211,4 @@ def _tension(modes: TorsionModes, disk: Disk, radius: float) -> tuple[Array, Arr
 
 def highest_harmonic(waves: tuple[ActiveTwist, ...]) -> int:
     """Harmonics of the elastic twist that a design with these waves of pitch needs."""
-    return max([HARMONICS, *(one.per_rev for wave in waves for one in wave.harmonics)])
+    return max([HARMONICS, *(harmonic.per_rev for wave in waves for harmonic in wave.harmonics)])

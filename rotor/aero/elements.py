@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.interface import DiskFlow
 from rotor.arrays import Array
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
@@ -73,7 +73,7 @@ class BladeElements:
     """The blade elements at a trim state. Fields are (elements, azimuths), names as in `rotor.aero.section`."""
 
     state: TrimState
-    flow: Wake
+    flow: DiskFlow
     """µ_x, µ_z as the blade elements see them, and λ0."""
     theta: Array
     """Pitch with twist [rad]."""
@@ -101,7 +101,9 @@ class BladeElements:
     torsion: TwistState | None = None
     """None for a rigid blade."""
     bent: BentState | None = None
-    """Of a blade that bends. Velocities and forces are then in axes that turn with the hub, not with its slopes."""
+    """State of a blade that bends. Velocities and forces are then in axes that turn with the hub, not its slopes."""
+    rates: Array | None = None
+    """θ'', U_T' and U_P' in unsteady flow, see `rotor.aero.unsteady_section`, (3, elements, azimuths)."""
 
 
 @dataclass(frozen=True)

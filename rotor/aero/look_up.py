@@ -36,7 +36,7 @@ def places_along_alpha(alpha: Any, offset: float, cell: Any, place: Any) -> None
 
 @_compile
 def places_along_mach(mach: Any, cell: Any, place: Any, slope: Any) -> None:
-    """The same along Mach, and ∂place/∂M: 0 beyond the table, where section data are constant; there is a caveat."""
+    """Places along Mach, and ∂place/∂M: 0 beyond the table, where section data are constant; there is a caveat."""
     for j in range(len(mach)):
         y = min(mach[j] * INVERSE_MACH, N_MACH - 1e-9)
         i = max(min(np.int32(y), np.int32(N_MACH - 1)), np.int32(0))

@@ -62,10 +62,10 @@ def _fall(f: float) -> float:
     Plain multiplications, so that the compiler makes vector code of a loop over it; the C library's expm1 is none.
     """
     x = -f / 1024.0
-    found = x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0)))))
+    growth = x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0)))))
     for _ in range(10):  # e^2x − 1 = (e^x − 1)(e^x + 1)
-        found = found * (2.0 + found)
-    return -found
+        growth = growth * (2.0 + growth)
+    return -growth
 
 
 @_compile
@@ -84,9 +84,9 @@ def end_factor(spacing: float, inflow: float) -> Any:
 def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any) -> None:
     """Multiply one row of factors, with their slopes by λ, by `end_factor`."""
     for j in range(len(inflow)):
-        own, own_slope = end_factor(spacing, inflow[j])
-        slope[j] = slope[j] * own + factor[j] * own_slope
-        factor[j] *= own
+        end, end_slope = end_factor(spacing, inflow[j])
+        slope[j] = slope[j] * end + factor[j] * end_slope
+        factor[j] *= end
 
 
 @_compile

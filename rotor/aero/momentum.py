@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Wake:
+class DiskFlow:
     """Flow through the disk; all over ΩR."""
 
     mu_x: float
@@ -24,7 +24,7 @@ class Wake:
 
     @property
     def speed(self) -> float:
-        """With which a wake leaves."""
+        """Speed at which the air leaves the disk."""
         return math.hypot(self.mu_x, self.axial)
 
 

@@ -1,7 +1,7 @@
 """A design on its grid: the arrays and coefficients that no iteration changes."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -14,12 +14,13 @@ from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
 from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
-from rotor.aero.inflow import InflowModel, Wake, inflow_model
+from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.section import LOSS, NO_MOMENT, NOTHING_ADDED, SectionData
+from rotor.aero.section import LOSS, NO_MOMENT, NO_SCATTER, NOTHING_ADDED, SectionData
 from rotor.aero.stalling_section import StallingData, stalling
+from rotor.aero.unsteady_section import UnsteadyData, unsteady
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
 from rotor.design.design import Design
@@ -67,20 +68,24 @@ class Problem:
     bending: BladeBending | None
     """The blade in flap and lag; None for one that flaps as a rigid blade."""
     stall: StallData | None
-    """For dynamic stall; None for steady sections."""
+    """For dynamic stall; None without it."""
+    unsteady: bool
+    """Whether attached flow is unsteady, see `rotor.aero.unsteady_section`."""
     wave_rates: tuple[Array, Array]
     """First and second derivative of `waves` by ψ, shaped alike."""
     given_torsion: Array
     """Residual of the torsion equations by the twist of the blade as built and by `waves` alone, scaled to radians,
     (modes, functions)."""
-    expected: Wake
-    """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
+    expected: DiskFlow
+    """The flow of momentum theory when the disk is normal to the resultant of weight and drag."""
     course: WakeCourse
     """Along which a wake of vortices lies; see `rotor.trim.forward`."""
     freedoms: tuple[Any, ...] = ()
     """Further degrees of freedom of the blade, each a `rotor.columns.blade.Freedom`."""
     joined: tuple[Array, Array] | None = None
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
+    scatter: Array = field(default_factory=lambda: NO_SCATTER)
+    """By how much the section data are changed, see `rotor.aero.section`."""
 
     @cached_property
     def arm(self) -> Array:
@@ -91,20 +96,34 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        own = self.inflow.on(self.disk, self.course, Losses(models.tip_loss, models.hub_loss, models.loss_on))
-        return own if self.stall is None else own.unsteady(self.stall.half_chord)
+        terms = self.inflow.on(self.disk, self.course, Losses(models.tip_loss, models.hub_loss, models.loss_on))
+        return terms.unsteady(self.half_chord) if self.unsteady else terms
 
     @cached_property
     def interface(self) -> SectionInterface:
-        """The section of the inflow model, with dynamic stall or without, on a blade that bends or does not."""
-        own = self.inflow_terms.interface if self.stall is None else stalling(self.inflow_terms.interface)
-        return own if self.bending is None else bent(own)
+        """The section of the inflow model: unsteady or not, on a blade that bends or does not."""
+        return self.with_effects(self.inflow_terms.interface)
 
-    def grid_data(self, step: int) -> SectionData | StallingData | BentData:
+    def with_effects(self, section: SectionInterface) -> SectionInterface:
+        """A section with dynamic stall, unsteady flow and bending, as far as the problem has them."""
+        section = section if self.stall is None else stalling(section)
+        section = unsteady(section) if self.unsteady else section
+        return section if self.bending is None else bent(section)
+
+    def grid_data(self, step: int) -> SectionData | StallingData | UnsteadyData | BentData:
         """What `interface` needs beside the channels, on every `step`-th azimuth."""
-        own, bending = self.section_data(step), self.bending
-        own = own if self.stall is None else StallingData(own, self.stall)
-        return own if bending is None else BentData(own, bending.coupling, bending.reference, bending.share)
+        plain, bending = self.section_data(step), self.bending
+        arm = 0.5 * self.half_chord + (0.0 if self.torsion is None else self.torsion.lag)
+        mass = math.pi * plain.half_solidity * self.half_chord
+        data = plain if self.stall is None else StallingData(plain, self.stall)
+        data = UnsteadyData(plain, data, self.half_chord, arm, mass) if self.unsteady else data
+        return data if bending is None else BentData(data, bending.coupling, bending.reference, bending.share)
+
+    @cached_property
+    def half_chord(self) -> Array:
+        """b/R, (elements,)."""
+        rotor = self.design.rotor
+        return 0.5 * rotor.blade.chord(self.disk.r) / rotor.radius
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
@@ -116,6 +135,7 @@ class Problem:
             (LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
             _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
             NOTHING_ADDED,
+            self.scatter,
             *(NO_MOMENT if torsion is None else torsion.moment_data),
         )
 
@@ -127,7 +147,7 @@ class Truncation(NamedTuple):
     bending: tuple[int, int] = MODES
     """In flap and in lag."""
     harmonics: int = BENDING_HARMONICS
-    """Of a blade that bends."""
+    """Harmonics of a blade that bends."""
     reference: float = REFERENCE_COLLECTIVE
     """Pitch at 0.75 R of the modes of bending [rad]."""
 
@@ -147,11 +167,11 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
         models.has("surface_drag"),
         inflow.fine_tip,
     )
-    wake = expected_wake(design)
+    flow = expected_flow(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
     if download:
-        weight *= 1.0 + download * (max(wake.axial, 0.0) / wake.speed) ** 2
+        weight *= 1.0 + download * (max(flow.axial, 0.0) / flow.speed) ** 2
     weight += down
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     waves, *rates = _pitch_waves(design, disk)
@@ -169,6 +189,7 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
             highest,
             cut.torsion,
         )
+    stall = _stall_data(design, disk, inflow)
     return Problem(
         design=design,
         disk=disk,
@@ -181,13 +202,14 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
         drag=drag,
         climb=design.climb_ratio,
         inflow=inflow,
-        expected=wake,
-        course=expected_course(design, wake, flap),
+        expected=flow,
+        course=expected_course(design, flow, flap),
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=_unloaded(design, disk),
         torsion=torsion,
         bending=bending,
-        stall=_stall_data(design, disk, inflow),
+        stall=stall,
+        unsteady=is_unsteady(design, disk, follows=bending is not None or stall is not None),
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
@@ -196,11 +218,24 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
 def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | None:
     """What dynamic stall needs, where the models have it."""
     rotor, models = design.rotor, design.models
-    if not models.dynamic_stall or design.hovering or not inflow.pointwise:
+    if models.dynamic_stall != "on" or design.hovering or not inflow.pointwise:
         return None
-    own = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
+    onset = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
     chord = rotor.blade.chord(disk.r) / rotor.radius
-    return StallData(*own, disk.section, disk.weight, 0.5 * chord, design.tip_mach, inflow.fine_tip)
+    return StallData(*onset, disk.section, disk.weight, 0.5 * chord, design.tip_mach)
+
+
+def is_unsteady(design: Design, disk: Disk, *, follows: bool) -> bool:
+    """Whether attached flow is unsteady: as the models say, and where they leave it open, where pitch or loads follow
+    the azimuth at 2/rev and more, and section data are not polynomials of one Mach number.
+
+    follows: whether they do so without n/rev being given, in bending and dynamic stall.
+    """
+    models = design.models
+    if design.hovering or models.unsteady != "auto":
+        return models.unsteady == "on" and not design.hovering
+    fast = any(harmonic.per_rev > 1 for wave in design.pitch_waves for harmonic in wave.harmonics)
+    return (follows or fast) and not models.document_losses and disk.fit_range is None
 
 
 def grid_of(design: Design) -> tuple[int, int]:
@@ -221,10 +256,10 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
     """`Problem.waves` and its first two derivatives by ψ."""
     given, none = design.pitch_waves, np.zeros((1, 1))
-    highest = max((one.per_rev for wave in given for one in wave.harmonics), default=0)
+    highest = max((harmonic.per_rev for wave in given for harmonic in wave.harmonics), default=0)
     if 2 * highest >= len(disk.psi):
         raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {len(disk.psi)}: ask for more")
-    return [sum((one(disk.r, disk.psi, order) for one in given), start=none) for order in range(3)]
+    return [sum((wave(disk.r, disk.psi, order) for wave in given), start=none) for order in range(3)]
 
 
 def _unloaded(design: Design, disk: Disk) -> Booleans | None:
@@ -236,12 +271,12 @@ def _unloaded(design: Design, disk: Disk) -> Booleans | None:
 
 def given_torsion(torsion: BladeTorsion, twist: Array, waves: Array, acceleration: Array) -> Array:
     """Tension on the built-in and the active twist, and the inertia of what follows the azimuth, (modes, functions)."""
-    found = np.zeros((len(torsion.gain), torsion.functions))
-    found[:, 0] = torsion.tension @ twist
+    forcing = np.zeros((len(torsion.gain), torsion.functions))
+    forcing[:, 0] = torsion.tension @ twist
     if waves.size > 1:
-        found += torsion.harmonics(torsion.tension @ waves)
-        found += torsion.harmonics(torsion.modal(torsion.inertia[:, None] * acceleration))
-    return torsion.gain[:, None] * found
+        forcing += torsion.harmonics(torsion.tension @ waves)
+        forcing += torsion.harmonics(torsion.modal(torsion.inertia[:, None] * acceleration))
+    return torsion.gain[:, None] * forcing
 
 
 def _reynolds(design: Design) -> float:
@@ -250,8 +285,8 @@ def _reynolds(design: Design) -> float:
     return condition.density * 0.75 * rotor.tip_speed * rotor.reference_chord / condition.viscosity
 
 
-def expected_wake(design: Design) -> Wake:
-    """The wake of momentum theory when the disk is normal to the resultant of weight and drag.
+def expected_flow(design: Design) -> DiskFlow:
+    """The flow of momentum theory when the disk is normal to the resultant of weight and drag.
 
     On a test stand: at the shaft tilt given. A free rotor's that is not given follows from its drag-to-lift ratio,
     µ tan α = −C_P/C_T with C_P = σ C_d0/8 (1 + 4.65 µ²) + C_T²/2µ.
@@ -266,18 +301,18 @@ def expected_wake(design: Design) -> Wake:
             profile = design.rotor.solidity * FREE_ROTOR_DRAG / 8.0 * (1.0 + 4.65 * mu**2)
             tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
     mu_x, mu_z = in_disk_axes(mu, design.climb_ratio, tilt)
-    return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
+    return DiskFlow(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
 
 
-def expected_course(design: Design, wake: Wake, flap: FlapDynamics) -> WakeCourse:
-    """Of the wake of momentum theory, under blades that cone as the thrust tells and flap as they are told to."""
+def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeCourse:
+    """Course of the wake by momentum theory under blades that cone as the thrust tells and flap as they are told to."""
     condition, rotor = design.condition, design.rotor
-    thrust = 2.0 * wake.lambda0 * wake.speed
+    thrust = 2.0 * flow.lambda0 * flow.speed
     coning = flap.load_gain * 0.7 * thrust - flap.droop if rotor.precone is None else rotor.precone
     chord = float(rotor.blade.chord(0.9)) / rotor.radius
     reynolds = condition.density * rotor.tip_speed * rotor.radius / condition.viscosity
     core = tip_core(chord, thrust, rotor.blades, reynolds)
-    return WakeCourse(wake.mu_x, wake.mu_z, wake.lambda0, coning, condition.flap_1c, condition.flap_1s, core)
+    return WakeCourse(flow.mu_x, flow.mu_z, flow.lambda0, coning, condition.flap_1c, condition.flap_1s, core)
 
 
 def in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:

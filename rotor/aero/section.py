@@ -56,7 +56,7 @@ class SectionData(NamedTuple):
     tables: Array
     """C_l and C_d, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Those of the circulation of a lifting line, shaped alike, see `rotor.aero.inflow.lifting_line`."""
+    """Tables of the circulation of a lifting line, shaped alike, see `rotor.aero.inflow.lifting_line`."""
     cos_sweep: Array
     sin_sweep: Array
     tip_mach: float
@@ -68,6 +68,8 @@ class SectionData(NamedTuple):
     """Elements on which the air exerts no force, (elements, azimuths), or (0, 0)."""
     added: Array
     """What unsteady flow adds to C_l, C_d and C_m, (3, elements, azimuths), or without elements."""
+    scatter: Array
+    """By how much section data may be wrong, `SCATTER`, or empty: see `rotor.trim.doubt`."""
     moment_gain: Array
     """½σ c/R; this and the rest are empty for a blade that is rigid in torsion, which has no moment."""
     damping: Array
@@ -82,6 +84,10 @@ class SectionData(NamedTuple):
 
 NOTHING_ADDED = np.zeros((3, 0, 0))
 """`SectionData.added` in steady flow."""
+SCATTER = (MORE_LIFT, MORE_DRAG, MORE_MOMENT, EARLIER_RISE) = tuple(range(4))
+"""Rows of `SectionData.scatter`: shares of C_l and C_d, an amount of C_m, and the Mach number by which drag rises
+earlier, to first order: partial derivatives leave out that of the last."""
+NO_SCATTER = np.zeros(0)
 NO_MOMENT = *(np.zeros(0),) * 3, np.zeros((0,) * 6), np.zeros(0)
 """The last five of `SectionData` for a rigid blade."""
 fix(NO_MOMENT)  # As those of a blade that twists: kernels are compiled for either kind of array.
@@ -107,29 +113,32 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
     s = np.empty((5, n if flow else 0, m))
     elastic, masked = len(data.moment_gain) > 0, len(data.unloaded) > 0
     w, alpha, mach = np.empty((14, m)), np.empty(m), np.empty(m)
-    cells, places, found = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((9, m))
+    cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((9, m))
     for i in range(n):
         t, p, r = c[UT, i], c[UP, i], c[UR, i]
         _speeds(t, p, data.half_solidity[i], w)
         angles_of_attack(c[TH, i], t, p, alpha)
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
-        _coefficients(data, i, alpha, mach, slopes or flow, cells, places, found)
+        scattered = len(data.scatter) > 0
+        _coefficients(data, i, alpha, mach, slopes or flow or scattered, cells, places, coeffs)
+        if scattered:
+            _scatter(data.scatter, coeffs)
         if data.added.shape[1] > 0:
             for k in range(3):
                 for j in range(m):
-                    found[3 * k, j] += data.added[k, i, j]
-        lift = found[0]
+                    coeffs[3 * k, j] += data.added[k, i, j]
+        lift = coeffs[0]
         if data.lossy:
             lift = w[_LIFT]
-            _times(c[LOSS, i], found[0], lift)
-        _resolve(t, p, w, lift, found[3], f[FZ, i], f[FX, i])
+            _times(c[LOSS, i], coeffs[0], lift)
+        _resolve(t, p, w, lift, coeffs[3], f[FZ, i], f[FX, i])
         f[M, i] = 0.0
         if elastic:
-            _moment(c, i, data, found, w, f)
+            _moment(c, i, data, coeffs, w, f)
         if slopes:
-            _force_slopes(c, i, data, mach, found, w, f, d)
+            _force_slopes(c, i, data, mach, coeffs, w, f, d)
             if elastic:
-                _moment_slopes(c, i, data, found, w, d)
+                _moment_slopes(c, i, data, coeffs, w, d)
         if data.friction > 0.0:
             _along_blade(t, r, data.friction * data.half_solidity[i], w, f[FX, i], f[FR, i])
             if slopes:
@@ -141,7 +150,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         if flow:
             for j in range(m):  # Rows assigned as a whole take numba two seconds more to compile.
                 s[ALPHA, i, j], s[MACH, i, j] = alpha[j], mach[j]
-                s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = found[0, j], found[3, j], found[5, j]
+                s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = coeffs[0, j], coeffs[3, j], coeffs[5, j]
         if masked:
             _unload(data.unloaded[i], c[TH, i], data.inertia[i] if elastic else 0.0, i, f, d, s)
     return f, d, s
@@ -201,7 +210,7 @@ def _mach_numbers(air: Any, cos: float, sin: float, tip_mach: float, out: Any) -
 
 @_compile
 def _coefficients(
-    data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, found: Any
+    data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, coeffs: Any
 ) -> None:  # fmt: skip
     """C_l, C_d and C_m of one row, blended from the two sections at its element, each followed by ∂/∂α and ∂/∂M.
 
@@ -212,16 +221,27 @@ def _coefficients(
         share = data.weight[i] if which == 1 else 1.0
         if share > 0.0:
             places_along_alpha(alpha, data.offset[i, which], cells[0], places[0])
-            one = data.section[i, which]
-            look_up(data.tables, one, cells, places, share, slopes, found[:6])
+            table = data.section[i, which]
+            look_up(data.tables, table, cells, places, share, slopes, coeffs[:6])
             if len(data.moment_gain) > 0:
-                look_up(data.moment_tables, one, cells, places, share, slopes, found[6:])
+                look_up(data.moment_tables, table, cells, places, share, slopes, coeffs[6:])
 
 
 @_inline
-def _times(one: Any, other: Any, out: Any) -> None:
+def _scatter(scatter: Any, coeffs: Any) -> None:
+    """Change the coefficients of one row and their derivatives."""
+    for j in range(coeffs.shape[1]):
+        coeffs[3, j] += scatter[EARLIER_RISE] * coeffs[5, j]
+        for k in range(3):
+            coeffs[k, j] *= 1.0 + scatter[MORE_LIFT]
+            coeffs[3 + k, j] *= 1.0 + scatter[MORE_DRAG]
+        coeffs[6, j] += scatter[MORE_MOMENT]
+
+
+@_inline
+def _times(factor: Any, other: Any, out: Any) -> None:
     for j in range(len(out)):
-        out[j] = one[j] * other[j]
+        out[j] = factor[j] * other[j]
 
 
 @_inline
@@ -243,11 +263,11 @@ def _along_blade(t: Any, r: Any, rub: float, w: Any, fx: Any, fr: Any) -> None:
 
 
 @_inline
-def _moment(c: Any, i: int, data: Any, found: Any, w: Any, f: Any) -> None:
+def _moment(c: Any, i: int, data: Any, coeffs: Any, w: Any, f: Any) -> None:
     """M of one row."""
     gain, damping, lag, inertia = data.moment_gain[i], data.damping[i], data.lag[i], data.inertia[i]
     for j in range(w.shape[1]):
-        f[M, i, j] = gain * w[_U, j] * w[_U, j] * found[6, j] - damping * w[_U, j] * c[RATE, i, j]
+        f[M, i, j] = gain * w[_U, j] * w[_U, j] * coeffs[6, j] - damping * w[_U, j] * c[RATE, i, j]
         f[M, i, j] -= lag * f[FZ, i, j] + 0.5 * inertia * of_double_angle(c[TH, i, j])[0]
 
 
@@ -256,14 +276,14 @@ _Z, _X, _N, _R = 0, 5, 10, 16
 
 
 @_inline
-def _force_slopes(c: Any, i: int, data: Any, mach: Any, found: Any, w: Any, f: Any, d: Any) -> None:
+def _force_slopes(c: Any, i: int, data: Any, mach: Any, coeffs: Any, w: Any, f: Any, d: Any) -> None:
     """Derivatives of F_z and F_x of one row, without friction: ∂α/∂U_T = U_P/U², ∂α/∂U_P = −U_T/U²."""
     m, cos, sin, square = w.shape[1], data.cos_sweep[i], data.sin_sweep[i], data.tip_mach * data.tip_mach
-    t, p, r, lift, lift_a, lift_m = c[UT, i], c[UP, i], c[UR, i], found[0], found[1], found[2]
+    t, p, r, lift, lift_a, lift_m = c[UT, i], c[UP, i], c[UR, i], coeffs[0], coeffs[1], coeffs[2]
     if data.lossy:
         lift, lift_a, lift_m = w[_LIFT], w[_LIFT_A], w[_LIFT_M]
-        _times(c[LOSS, i], found[1], lift_a)
-        _times(c[LOSS, i], found[2], lift_m)
+        _times(c[LOSS, i], coeffs[1], lift_a)
+        _times(c[LOSS, i], coeffs[2], lift_m)
     for j in range(m):
         w[_T_OVER, j] = t[j] / (w[_U, j] * w[_U, j])
         w[_P_OVER, j] = p[j] / (w[_U, j] * w[_U, j])
@@ -272,16 +292,16 @@ def _force_slopes(c: Any, i: int, data: Any, mach: Any, found: Any, w: Any, f: A
         w[_BY_R, j] = -sin * w[_BY_T, j]
         w[_BY_T, j] *= cos
         w[_BY_P, j] = square / mach[j] * p[j]
-    _resolve(t, p, w, lift_a, found[4], d[_Z + TH, i], d[_X + TH, i])
-    _resolve(t, p, w, lift_m, found[5], w[_ONE], w[_TWO])  # By the Mach number.
-    _times(w[_K], found[3], w[_DRAG])
+    _resolve(t, p, w, lift_a, coeffs[4], d[_Z + TH, i], d[_X + TH, i])
+    _resolve(t, p, w, lift_m, coeffs[5], w[_ONE], w[_TWO])  # By the Mach number.
+    _times(w[_K], coeffs[3], w[_DRAG])
     _times(w[_K], lift, w[_LIFT])
     _by_velocities(w, f[FZ, i], w[_ONE], w[_LIFT], w[_DRAG], -1.0, i, d[_Z:_X])
     _by_velocities(w, f[FX, i], w[_TWO], w[_DRAG], w[_LIFT], 1.0, i, d[_X:_N])
     if data.lossy:
         for j in range(m):
-            d[_Z + LOSS, i, j] = w[_K, j] * found[0, j] * t[j]
-            d[_X + LOSS, i, j] = w[_K, j] * found[0, j] * p[j]
+            d[_Z + LOSS, i, j] = w[_K, j] * coeffs[0, j] * t[j]
+            d[_X + LOSS, i, j] = w[_K, j] * coeffs[0, j] * p[j]
 
 
 @_inline
@@ -312,17 +332,17 @@ def _along_blade_slopes(t: Any, r: Any, rub: float, w: Any, i: int, d: Any) -> N
 
 
 @_inline
-def _moment_slopes(c: Any, i: int, data: Any, found: Any, w: Any, d: Any) -> None:
-    """Derivatives of M of one row, those of −x F_z from those of F_z; found: C_m and its derivatives are spent."""
+def _moment_slopes(c: Any, i: int, data: Any, coeffs: Any, w: Any, d: Any) -> None:
+    """Derivatives of M of one row, those of −x F_z from those of F_z; coeffs: C_m and its derivatives are spent."""
     m, gain, damping, lag, inertia = w.shape[1], data.moment_gain[i], data.damping[i], data.lag[i], data.inertia[i]
     for k in range(6, 9):
         for j in range(m):
-            found[k, j] *= gain * w[_U, j] * w[_U, j]
+            coeffs[k, j] *= gain * w[_U, j] * w[_U, j]
     for j in range(m):
-        d[_N + TH, i, j] = found[7, j]
-        w[_ONE, j] = 2.0 * found[6, j] - damping * c[RATE, i, j] * w[_U, j]
+        d[_N + TH, i, j] = coeffs[7, j]
+        w[_ONE, j] = 2.0 * coeffs[6, j] - damping * c[RATE, i, j] * w[_U, j]
         w[_TWO, j] = 0.0
-    _by_velocities(w, w[_ONE], found[8], w[_TWO], w[_TWO], 1.0, i, d[_N:_R])
+    _by_velocities(w, w[_ONE], coeffs[8], w[_TWO], w[_TWO], 1.0, i, d[_N:_R])
     for j in range(m):
         d[_N + TH, i, j] -= inertia * of_double_angle(c[TH, i, j])[1]
         d[_N + RATE, i, j] = -damping * w[_U, j]

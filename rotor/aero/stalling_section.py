@@ -4,7 +4,7 @@ What is added to C_n and C_c is turned by the angle from zero lift x into lift a
 
     ΔC_l = ΔC_n cos x + ΔC_c sin x,    ΔC_d = ΔC_n sin x − ΔC_c cos x
 
-The circulation of a lifting line stays that of the static section: its wake sheds as before.
+The circulation of a lifting line stays that of attached flow: its wake sheds as before.
 """
 
 from functools import lru_cache
@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, SLOWEST, STATES, StallData, follow, window
+from rotor.aero.dynamic_stall import ADDED, INPUTS, STATES, StallData, follow, window
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
-from rotor.aero.section import FX, FZ, LOSS, RATE, TH, UP, UR, UT, M, SectionData, angles_of_attack
+from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack
 from rotor.airfoil.stall_onset import ZERO
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -33,8 +33,8 @@ class StallingData(NamedTuple):
 
 @_compile
 def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, zero: Any, right: Any) -> None:
-    """x, M and q of one row, the angle from zero lift y; with slopes of α, M and q by the channels in `right`."""
-    cos, sin, tip, b = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach, stall.half_chord[i]
+    """x and M of one row, the angle from zero lift y; with slopes of α and M by the channels in `right`."""
+    cos, sin, tip = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach
     numbers = stall.numbers[i]
     last = numbers.shape[1] - 1
     angles_of_attack(c[TH, i], c[UT, i], c[UP, i], y)
@@ -48,18 +48,12 @@ def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, zero:
         y[j] = wrapped(y[j] - numbers[ZERO, cell] - rise * (place - cell))
         zero[j] = rise * last if v * tip < 1.0 else 0.0
         share, _ = window(y[j])
-        below = v * v + SLOWEST * SLOWEST
         inputs[0, j], inputs[1, j] = y[j] * share, v * tip
-        inputs[2, j] = b * c[RATE, i, j] * v / below
         if right.shape[2] > 0:
             square = t * t + p * p + 1e-30
             right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
-            by_v = (tip, b * c[RATE, i, j] * (below - 2.0 * v * v) / (below * below))
-            for k in range(2):
-                right[1 + k, UT, i, j] = by_v[k] * normal * cos / v
-                right[1 + k, UP, i, j] = by_v[k] * p / v
-                right[1 + k, UR, i, j] = -by_v[k] * normal * sin / v
-            right[2, RATE, i, j] = b * v / below
+            right[1, UT, i, j], right[1, UP, i, j] = tip * normal * cos / v, tip * p / v
+            right[1, UR, i, j] = -tip * normal * sin / v
 
 
 @_compile
@@ -68,14 +62,14 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     section, stall = data
     n, m = c.shape[1:]
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
-    own = n if slopes else 0
-    kernel, right = np.zeros((3, 3, own, m, m)), np.zeros((3, c.shape[0], own, m))
+    elements = n if slopes else 0
+    kernel, right = np.zeros((3, 2, elements, m, m)), np.zeros((2, c.shape[0], elements, m))
     inputs, y, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty(m)
-    added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 3 * m if slopes else 0)), np.empty((len(STATES), m))
-    turned = np.empty((3, 3 * m if slopes else 0))
+    added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 2 * m if slopes else 0)), np.empty((len(STATES), m))
+    turned = np.empty((3, 2 * m if slopes else 0))
     for i in range(n):
         _inputs(c, i, section, stall, inputs, y, zero, right)
-        follow(i, inputs[0], inputs[1], inputs[2], stall, slopes, added, by, shown)
+        follow(i, inputs[0], inputs[1], stall, slopes, added, by, shown)
         for j in range(m):
             x = inputs[0, j]
             share, falls = window(y[j])
@@ -87,7 +81,7 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
                 states[k, i, j] = shown[k, j] * share
             states[0, i, j] += 1.0 - share
             if slopes:
-                for k in range(3 * m):
+                for k in range(2 * m):
                     turned[0, k] = share * (by[0, j, k] * cos + by[1, j, k] * sin)
                     turned[1, k] = share * (by[0, j, k] * sin - by[1, j, k] * cos)
                     turned[2, k] = share * by[2, j, k]
@@ -103,7 +97,6 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
                             by_y += falls * values[o]
                         kernel[o, 0, i, j, k] = by_y
                         kernel[o, 1, i, j, k] = turned[o, m + k] - by_y * zero[k]
-                        kernel[o, 2, i, j, k] = turned[o, 2 * m + k]
     return out, states, kernel, right
 
 

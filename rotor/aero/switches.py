@@ -7,7 +7,7 @@ import numpy as np
 
 from rotor.aero.inflow import inflow_model
 from rotor.design.design import BEYOND_DOCUMENT, Design, Models
-from rotor.design.quantities import OPTIONS, QUANTITIES, SWITCHES
+from rotor.design.quantities import CHOSEN, OPTIONS, QUANTITIES, SWITCHES
 from rotor.design.quantity import Quantity
 from rotor.user_input import did_you_mean
 
@@ -25,7 +25,7 @@ def with_switches(design: Design, off: Collection[str]) -> Design:
 def parse_switches(text: str) -> tuple[str, ...]:
     """Field names from `tip-loss,reverse-flow`; ValueError for a name that is not known."""
     names = tuple(part.strip() for part in text.split(",") if part.strip())
-    flags = {QUANTITIES[name].flag: name for name in (*SWITCHES, *OPTIONS)}
+    flags = {QUANTITIES[name].flag: name for name in (*SWITCHES, *OPTIONS, *CHOSEN)}
     for name in names:
         if name.replace("_", "-") not in flags:
             hint = did_you_mean(name, flags) or ":"

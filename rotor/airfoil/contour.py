@@ -33,8 +33,8 @@ _FIVE_DIGIT = {  # Middle digits: where the camber is: (m, k1) for a design lift
 
 def is_naca(name: str) -> bool:
     """Whether `naca_points` has a formula for `name`, such as naca0012, naca2412 or naca23012."""
-    found = re.fullmatch(r"naca(\d{4}|\d{5})", name)
-    return found is not None and (len(found[1]) == 4 or found[1][1:3] in _FIVE_DIGIT) and int(found[1][-2:]) > 0
+    match = re.fullmatch(r"naca(\d{4}|\d{5})", name)
+    return match is not None and (len(match[1]) == 4 or match[1][1:3] in _FIVE_DIGIT) and int(match[1][-2:]) > 0
 
 
 def naca_points(name: str) -> Array:
@@ -163,7 +163,7 @@ def thickness_and_camber(contour: Contour, stations: int = 501) -> tuple[float, 
 
 
 def resample(contour: Contour, n: int) -> Contour:
-    """The same outline on `n` points (odd, at least 11), so that sections blend point by point.
+    """An outline on `n` points (odd, at least 11), so that sections blend point by point.
 
     Each side gets (n + 1) / 2 points, cosine-spaced in arc length (dense at nose and trailing edge);
     point (n - 1) / 2 is the nose on every section. Cubic splines through the given points carry the shape.

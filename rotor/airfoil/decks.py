@@ -143,16 +143,16 @@ def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]
     """Values at every half degree: the deck within its angles, blended into the closed form beyond them."""
     nodes = np.linspace(-180.0, 180.0, 721)
     curve = scipy.interpolate.PchipInterpolator(alpha, values, axis=0)
-    own = np.asarray(curve(np.clip(nodes, alpha[0], alpha[-1])), dtype=np.float64)
+    measured = np.asarray(curve(np.clip(nodes, alpha[0], alpha[-1])), dtype=np.float64)
     edge = np.where(nodes < 0.0, float(-alpha[0]), float(alpha[-1])).astype(np.float64)
     fade = np.maximum(edge + BLEND_END_DEG - BLEND_START_DEG, BLEND_END_DEG) - edge
     t: Array = np.clip((np.abs(nodes) - edge) / fade, 0.0, 1.0)
     weight: Array = (t * t * (3.0 - 2.0 * t))[:, None]
     far = wrap_coefficients(np.deg2rad(nodes).astype(np.float64))[kind][:, None]
     if kind != 1:
-        return nodes, (1.0 - weight) * own + weight * far
+        return nodes, (1.0 - weight) * measured + weight * far
     # In the logarithm, so that drag stays positive. Short of 20 deg the closed form is too low, even negative.
-    return nodes, np.exp((1.0 - weight) * np.log(own) + weight * np.log(np.maximum(far, own.min())))
+    return nodes, np.exp((1.0 - weight) * np.log(measured) + weight * np.log(np.maximum(far, measured.min())))
 
 
 @dataclass(frozen=True)
@@ -299,7 +299,7 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns
         return _at(slower, alpha_deg)
     share = min(max((mach - slower.mach) / (faster.mach - slower.mach), 0.0), 1.0)
     low, high = _at(slower, alpha_deg), _at(faster, alpha_deg)
-    cl, cd, cm = ((1.0 - share) * one + share * two for one, two in zip(low, high, strict=True))
+    cl, cd, cm = ((1.0 - share) * slow + share * fast for slow, fast in zip(low, high, strict=True))
     return cl, cd, cm
 
 

@@ -156,10 +156,10 @@ def _checked(name: str, polar: Polar) -> Polar:
 
 
 def _value(name: str, head: str, pattern: str, what: str) -> float:
-    found = re.search(pattern, head)
-    if found is None:
+    match = re.search(pattern, head)
+    if match is None:
         raise ValueError(f"{name} does not say {what!r} above its columns: keep the heading that XFOIL writes")
     try:
-        return float(found[1].replace(" ", ""))
+        return float(match[1].replace(" ", ""))
     except ValueError:
-        raise ValueError(f"{name} has {found[0]!r} above its columns: keep the heading that XFOIL writes") from None
+        raise ValueError(f"{name} has {match[0]!r} above its columns: keep the heading that XFOIL writes") from None

@@ -46,7 +46,7 @@ class PolynomialReading:
 
 
 THESIS_READING = PolynomialReading("tripped", 0.1)
-"""That of the preset `thesis`, see `rotor.reproduce.readings`."""
+"""The reading of the preset `thesis`, see `rotor.reproduce.readings`."""
 
 
 def parse_reading(name: str) -> PolynomialReading:
@@ -87,7 +87,7 @@ class PolynomialSection:
     def slopes(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(dcl, dcd)/dalpha [1/rad], zero outside the fit; at its ends, the slope from inside."""
         a, outside = np.asarray(alpha, dtype=np.float64), self.outside(alpha)
-        cl, cd = (np.where(outside, 0.0, one.deriv()(a)) for one in (self.cl_series, self.cd_series))
+        cl, cd = (np.where(outside, 0.0, series.deriv()(a)) for series in (self.cl_series, self.cd_series))
         return cl, cd
 
 

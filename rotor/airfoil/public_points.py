@@ -63,7 +63,7 @@ def points_near(section: str, mach: float, within: float = 0.05) -> tuple[Public
 
 
 def nearest_points(section: str, mach: float, alpha: float) -> tuple[PublicPoint, ...]:
-    """Of each source the point nearest to a Mach number and an angle [rad], if within 0.1 and 3 deg.
+    """The point of each source that is nearest to a Mach number and an angle [rad], if within 0.1 and 3 deg.
 
     Half a degree counts as much as 0.02 of Mach.
     """

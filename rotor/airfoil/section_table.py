@@ -60,10 +60,10 @@ def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
     """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), constant outside."""
     nodes = mach_nodes()
     inside = np.clip(nodes, mach[0], mach[-1])
-    own = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach))
-    own[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
-    own[:, 0] = 0.0
-    curve = scipy.interpolate.CubicHermiteSpline(mach, values, own, axis=1)
+    slopes = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach))
+    slopes[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
+    slopes[:, 0] = 0.0
+    curve = scipy.interpolate.CubicHermiteSpline(mach, values, slopes, axis=1)
     slope: Callable[[Array], Array] = curve.derivative()
     flat = (nodes > mach[0]) & (nodes < mach[-1])
     return np.asarray(curve(inside)), np.asarray(slope(inside)) * MACH_STEP * flat
@@ -109,8 +109,8 @@ def held_beyond_peak(coefficients: Array) -> Array:
     place[zero:] = zero + _last_record(lift[zero:])
     place[zero::-1] = zero - _last_record(-lift[zero::-1])
     held = np.take_along_axis(nodes, place[:, :, None, None, None], axis=0)
-    own = place == np.arange(N_ALPHA + 1)[:, None]
-    held[~(own & np.roll(own, 1, axis=0) & np.roll(own, -1, axis=0)), :, 1] = 0.0  # Level from end to end.
+    at_peak = place == np.arange(N_ALPHA + 1)[:, None]
+    held[~(at_peak & np.roll(at_peak, 1, axis=0) & np.roll(at_peak, -1, axis=0)), :, 1] = 0.0  # Level from end to end.
     return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
 
 
@@ -282,11 +282,11 @@ def make_table(
     bare = SectionTable(name, source, mach_limit, coefficients, unknown, unknown, fit_range)
     mach = mach_nodes()
     zero, attached = bare.zero_lift_alpha(mach), bare.lift_slope(mach)
-    found = [
+    onsets = [
         zero + side * first_quarter_slope(bare(zero[:, None] + side * SEARCH_OUTWARD, mach[:, None]).cl_alpha, attached)
         for side in (-1.0, 1.0)
     ]
-    return replace(bare, alpha_stall_negative=found[0], alpha_stall_positive=found[1])
+    return replace(bare, alpha_stall_negative=onsets[0], alpha_stall_positive=onsets[1])
 
 
 def _check_lift(table: SectionTable) -> None:

@@ -89,12 +89,12 @@ def load_installed(name: str) -> Section:
 
 @lru_cache(maxsize=16)
 @read_only
-def install_own(own: OwnSection) -> Section:
+def install_own(section: OwnSection) -> Section:
     """A user's section; read once per process and cached; takes some 30 ms.
 
     Raises ValueError with one sentence that gives line and remedy for a deck or an outline that cannot be used.
     """
-    deck = on_run_time_grid(parse_c81(own.deck, own.name))
-    outline = parse_contour(own.outline, own.name) if "\n" in own.outline else load_contour(own.outline)
-    table = table_from_deck(own.name, own.source, deck)
-    return Section(own.name, table, own.incidence_offset, own.chord_ratio, outline)
+    deck = on_run_time_grid(parse_c81(section.deck, section.name))
+    outline = parse_contour(section.outline, section.name) if "\n" in section.outline else load_contour(section.outline)
+    table = table_from_deck(section.name, section.source, deck)
+    return Section(section.name, table, section.incidence_offset, section.chord_ratio, outline)

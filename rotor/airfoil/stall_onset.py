@@ -41,7 +41,7 @@ _LAGS = {
 
 
 class StallOnset(NamedTuple):
-    """Of one section."""
+    """Onset of stall of one section."""
 
     numbers: Array
     """At the Mach nodes, (8, nodes): C_nα [1/rad]; angles from zero lift [rad] at which attached flow has the normal
@@ -83,5 +83,5 @@ def stall_onset(table: SectionTable) -> StallOnset:
 
 def _normal_force(table: SectionTable, alpha: Array, mach: Array) -> Array:
     """C_n of the static data."""
-    own = table(alpha, mach)
-    return own.cl * np.cos(alpha) + own.cd * np.sin(alpha)
+    forces = table(alpha, mach)
+    return forces.cl * np.cos(alpha) + forces.cd * np.sin(alpha)

@@ -61,15 +61,15 @@ def coordinates_of(b: BladeBending, s: Structure, z: Array) -> tuple[Array, floa
 
 def _all(s: Structure) -> list[tuple[int, int, int]]:
     """Mode, wave and atom of all coordinates."""
-    own = list[tuple[int, int, int]]()
+    coordinates = list[tuple[int, int, int]]()
     for name, atom in s.states.items():
         if isinstance(name, tuple) and name != OFFSET:
             kind, k, h = cast(tuple[str, int, int], name)
             if kind == "bend":
-                own.append((k, h, atom))
-    present = {(k, h) for k, h, _ in own}
-    first = next(k for k, _, _ in own if (k, 1) not in present)
-    return [(first, h, s.states[name]) for h, name in enumerate(FLAPPING_STATES)] + own
+                coordinates.append((k, h, atom))
+    present = {(k, h) for k, h, _ in coordinates}
+    first = next(k for k, _, _ in coordinates if (k, 1) not in present)
+    return [(first, h, s.states[name]) for h, name in enumerate(FLAPPING_STATES)] + coordinates
 
 
 class Bending(Freedom):
@@ -89,7 +89,7 @@ class Bending(Freedom):
         )
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
-        """Of the equations in the head of this file."""
+        """Numbers of the equations in the head of this file."""
         b, torsion = problem.bending, problem.torsion
         assert b is not None
         highest = harmonic_of(self.functions - 1)
@@ -131,14 +131,14 @@ class Bending(Freedom):
                 if k == self.lag and h == STEADY:
                     s.column(UR, "one", STEADY, 1.0, s.states[OFFSET])
                     continue
-                own = coordinate(s, self.first, k, h)
+                place = coordinate(s, self.first, k, h)
                 rate, factor = rate_of(h)
-                s.column(UP, ("W", k), rate, factor, own)
-                s.column(UT, ("V", k), rate, factor, own)
-                s.column(UR, ("V", k), h, 1.0, own)
-                s.column(slot[B], ("outboard", k), rate, factor, own)
+                s.column(UP, ("W", k), rate, factor, place)
+                s.column(UT, ("V", k), rate, factor, place)
+                s.column(UR, ("V", k), h, 1.0, place)
+                s.column(slot[B], ("outboard", k), rate, factor, place)
                 for channel, name in ((SW, "W'"), (SV, "V'"), (KW, "W''"), (KV, "V''")):
-                    s.column(slot[channel], (name, k), h, 1.0, own)
+                    s.column(slot[channel], (name, k), h, 1.0, place)
         for k in range(self.modes):
             for h in range(self.functions):
                 self._balance(s, k, h)
@@ -175,33 +175,35 @@ class Bending(Freedom):
             twist = s.states["twist", j, h]
             s.term(row, -1.0, n["tip on bending", j, k, harmonic], twist)
             if not steady_lag:
-                own = coordinate(s, self.first, k, h)
-                s.term(s.equations["twist", j, h], -1.0, n["tip on torsion", j, k, harmonic], own)
+                place = coordinate(s, self.first, k, h)
+                s.term(s.equations["twist", j, h], -1.0, n["tip on torsion", j, k, harmonic], place)
 
     def shapes(self, problem: Problem) -> dict[Shape, Array]:
-        """Of modes and precone."""
+        """Shapes of modes and precone."""
         b = problem.bending
         assert b is not None
         out: dict[Shape, Array] = {OUTBOARD: b.mass_outboard}
         names = ("W", "W'", "W''", "V", "V'", "V''")
-        for name, own in zip(names, b.shapes[:, b.first], strict=True):  # The rigid cone, in place of that of the mode.
-            out["precone", name] = (1.0 if name == "W'" else 0.0) - own
+        for name, slope in zip(
+            names, b.shapes[:, b.first], strict=True
+        ):  # The rigid cone, in place of that of the mode.
+            out["precone", name] = (1.0 if name == "W'" else 0.0) - slope
         for k in range(self.modes):
             out["outboard", k] = b.outboard[k]
-            for name, own in zip(names, b.shapes[:, k], strict=True):
-                out[name, k] = own
+            for name, slope in zip(names, b.shapes[:, k], strict=True):
+                out[name, k] = slope
         return out
 
 
 def freedoms_of(problem: Problem, functions: int | None = None) -> tuple[Freedom, ...]:
     """Torsion and bending of a design; functions: waves of the elastic twist, by default those of its torsion."""
     torsion, bending = problem.torsion, problem.bending
-    found = list[Freedom]()
+    freedoms = list[Freedom]()
     if torsion is not None:
-        found.append(Torsion(len(torsion.gain), functions or torsion.functions, bends=bending is not None))
+        freedoms.append(Torsion(len(torsion.gain), functions or torsion.functions, bends=bending is not None))
     if bending is not None:
-        found.append(Bending(problem))
-    return tuple(found)
+        freedoms.append(Bending(problem))
+    return tuple(freedoms)
 
 
 LOADS = ("fx", "fy", "fz", "mx", "my")
@@ -249,9 +251,9 @@ class HubLoadTerms:
         for product, share in times_wave(*waves):
             squared = harmonic_of(product) ** 2
             gain = {"at rest": 1.0, "inertia": squared, "moment of inertia": squared - 1.0}[lever]
-            for k, own in enumerate(shapes.tolist()):
+            for k, shape in enumerate(shapes.tolist()):
                 place = coordinate(self._s, bending.first, k, product)
-                self.rows.append((row, 0, place, atom, factor * share * gain * own))
+                self.rows.append((row, 0, place, atom, factor * share * gain * shape))
 
     def _static(self, which: int, arm: bool = False) -> Array:
         """∫ m (r) W_k dr or ∫ m V_k dr, (modes,)."""

@@ -16,9 +16,10 @@ from collections.abc import Hashable
 
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
+from rotor.aero.unsteady_section import DTH, DUP, DUT
 from rotor.arrays import Array
 from rotor.engine.terms import ONE, Addend, Shape, Structure, Sum
-from rotor.engine.waves import COS, SIN, STEADY, rate_of
+from rotor.engine.waves import COS, SIN, STEADY, rate_of, times_wave
 
 CYCLIC = (("cyclic_1c", COS), ("cyclic_1s", SIN))
 FLAPPING = (("coning", STEADY), ("flap_1c", COS), ("flap_1s", SIN))
@@ -42,6 +43,27 @@ def add_pitch_rates(s: Structure) -> None:
     for name, wave in CYCLIC:
         if name in s.states:
             s.column(RATE, "one", *rate_of(wave), s.states[name])
+
+
+def add_accelerations(s: Structure, first: int, slopes: int | None = None) -> None:
+    """Rates of θ', U_T and U_P, from the columns that there are by now: without the inflow.
+
+    first: the channel of θ'' (`rotor.aero.unsteady_section`). slopes: that of w', then v', of a blade that bends, along
+    which wind blows: w' µ_x cos ψ is in its U_P. No wave is added beyond the highest.
+    """
+    by_rate = {RATE: first + DTH, UT: first + DUT, UP: first + DUP}
+    moved = [(by_rate[column[0]], column, (column[2], 1.0), column[4]) for column in s.columns if column[0] in by_rate]
+    highest = max(column[2] for column in s.columns)
+    if slopes is not None:
+        by_slope, mu_x = {slopes: first + DUP, slopes + 1: first + DUT}, s.derived["mu_x"]
+        for column in s.columns:
+            if column[0] in by_slope:
+                assert column[4] == ONE
+                waves = (wave for wave in times_wave(column[2], COS) if wave[0] <= highest)
+                moved += [(by_slope[column[0]], column, product, mu_x) for product in waves]
+    for channel, (source, row, _, i, _, factor), (wave, share), j in moved:
+        rate, by_rate_of_wave = rate_of(wave)
+        s.column(channel, list(s.shapes[source])[row], rate, factor * share * by_rate_of_wave, i, j)
 
 
 _POWER = {UT: (1.0, FX), UP: (-1.0, FZ), UR: (1.0, FR)}
@@ -83,7 +105,7 @@ class Freedom(ABC):
 
     @property
     def key(self) -> Hashable:
-        """The same for the same columns and equations: its class and its fields."""
+        """Equal for equal columns and equations: class and fields."""
         return type(self), *vars(self).items()
 
     @abstractmethod
@@ -118,7 +140,7 @@ class Torsion(Freedom):
         self.states = tuple(("twist", k, h) for k in range(modes) for h in range(functions))
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
-        """Of the equations in the head of this file."""
+        """Numbers of the equations in the head of this file."""
         torsion, given = problem.torsion, problem.given_torsion.tolist()
         assert torsion is not None
         out = dict[Hashable, float]()
@@ -138,9 +160,9 @@ class Torsion(Freedom):
         add_pitch_rates(s)
         for k in range(self.modes):
             for h in range(self.functions):
-                own = s.states["twist", k, h]
-                s.column(TH, ("mode", k), h, 1.0, own)
-                s.column(RATE, ("mode", k), *rate_of(h), own)
+                state = s.states["twist", k, h]
+                s.column(TH, ("mode", k), h, 1.0, state)
+                s.column(RATE, ("mode", k), *rate_of(h), state)
                 self._balance(s, k, h)
 
     def _balance(self, s: Structure, k: int, h: int) -> None:
@@ -159,4 +181,4 @@ class Torsion(Freedom):
     def shapes(self, problem: Problem) -> dict[Shape, Array]:
         """Φ_k"""
         assert problem.torsion is not None
-        return {("mode", k): own for k, own in enumerate(problem.torsion.radial)}
+        return {("mode", k): mode for k, mode in enumerate(problem.torsion.radial)}

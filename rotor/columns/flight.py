@@ -17,7 +17,7 @@ import numpy as np
 
 from rotor.aero.bent_section import SLOPES
 from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState
-from rotor.aero.inflow.interface import InflowTerms, Wake
+from rotor.aero.inflow.interface import DiskFlow, InflowTerms
 from rotor.aero.problem import Problem, in_disk_axes, swirl_of
 from rotor.aero.section import (
     ALPHA,
@@ -36,9 +36,10 @@ from rotor.aero.section import (
     UT,
     M,
 )  # fmt: skip
+from rotor.aero.unsteady_section import DTH, RATES
 from rotor.arrays import Array
 from rotor.columns.bending import bends, coordinates_of, freedoms_of
-from rotor.columns.blade import Freedom, Torsion, add_pitch_rates, add_rigid_blade, power_of_air
+from rotor.columns.blade import Freedom, Torsion, add_accelerations, add_pitch_rates, add_rigid_blade, power_of_air
 from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
@@ -79,6 +80,8 @@ class _StructureKey:
     inflow: Hashable
     follows_rate: bool
     """Whether forces follow the rate of pitch."""
+    rates: int | None
+    """The first channel of those that unsteady flow adds; None in steady flow."""
     section: tuple[tuple[tuple[int, int], ...], int, int]
     """Pairs, channels and forces of the section."""
     freedoms: tuple[Freedom, ...] = field(compare=False)
@@ -100,12 +103,14 @@ def _structure(key: _StructureKey) -> Structure:
     derived = {name: s.quantity(name) for name in _DERIVED}
     declare_equations(s, key.trim)
     add_rigid_blade(s, bends=bends(s))
-    if key.follows_rate and not any(isinstance(own, Torsion) for own in key.freedoms):
+    if key.follows_rate and not any(isinstance(freedom, Torsion) for freedom in key.freedoms):
         add_pitch_rates(s)
     s.column(UT, "one", SIN, 1.0, derived["mu_x"])
     s.column(UR, "one", COS, 1.0, derived["mu_x"])
     for freedom in key.freedoms:
         freedom.build(s)
+    if key.rates is not None:
+        add_accelerations(s, key.rates, s.channels + SLOPES[0] if bends(s) else None)
     _add_sums(s, key)
     s.column(UP, "one", STEADY, 1.0, derived["mu_z"])
     terms.build(s)
@@ -158,7 +163,8 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
         shapes |= freedom.shapes(problem)
     section, blade = problem.interface, tuple(freedom.key for freedom in freedoms)
     structure = _structure(_StructureKey(
-        trim_of(problem.design), blade, tuple(values), terms.key, problem.stall is not None,
+        trim_of(problem.design), blade, tuple(values), terms.key, problem.unsteady,
+        terms.interface.channels if problem.unsteady else None,
         (section.pairs, section.channels, section.forces), freedoms, terms,
     ))  # fmt: skip
     grid = _grid(problem, structure, 1)
@@ -202,12 +208,14 @@ def check_freedoms(problem: Problem) -> None:
             hash(freedom.key)
         except TypeError as error:
             raise TypeError(f"A field of {type(freedom).__name__} is no value ({error}): use tuples.") from None
-        for names, own in zip(taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True):
-            if again := names.intersection(own):
+        for names, named in zip(
+            taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True
+        ):
+            if again := names.intersection(named):
                 raise ValueError(f"{type(freedom).__name__} has another {min(again, key=str)!r}: give it another name.")
-            names.update(own)
+            names.update(named)
     s = flight_system(problem).structure
-    used = {name for own in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in own}
+    used = {name for shapes in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in shapes}
     if unknown := used - taken[2]:
         raise ValueError(f"No freedom has a shape {min(unknown, key=str)!r}: add it to shapes.")
 
@@ -236,6 +244,8 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     varying = dict[int, Array]()
     if problem.waves.size > 1:
         varying = {TH: problem.waves[:, ::step], RATE: problem.wave_rates[0][:, ::step]}
+        if problem.unsteady:
+            varying[problem.inflow_terms.interface.channels + DTH] = problem.wave_rates[1][:, ::step]
     waves = wave_grid(structure.waves, len(disk.psi) // step)
     return Grid(waves, steady, varying, problem.grid_data(step))
 
@@ -250,26 +260,26 @@ class _Flow:
         self._tilt, self._lambda0 = structure.roots
         self._atoms = {name: k for k, name in enumerate(structure.derived)}
 
-    def wake(self, x: Array) -> Wake:
-        """The wake of momentum theory, in axes of the shaft."""
-        return Wake(*in_disk_axes(self._mu, self._climb, float(x[self._tilt])), float(x[self._lambda0]))
+    def at_disk(self, x: Array) -> DiskFlow:
+        """The flow of momentum theory, in axes of the shaft."""
+        return DiskFlow(*in_disk_axes(self._mu, self._climb, float(x[self._tilt])), float(x[self._lambda0]))
 
-    def flow(self, x: Array) -> Wake:
-        """The same as the blade elements see it."""
-        return self._seen(self.wake(x))
+    def flow(self, x: Array) -> DiskFlow:
+        """The flow as the blade elements see it."""
+        return self._seen(self.at_disk(x))
 
-    def _seen(self, wake: Wake) -> Wake:
-        return wake if self._sees_tilt else Wake(self._mu, 0.0, wake.lambda0)
+    def _seen(self, flow: DiskFlow) -> DiskFlow:
+        return flow if self._sees_tilt else DiskFlow(self._mu, 0.0, flow.lambda0)
 
     def __call__(self, x: Array) -> tuple[Array, Array, Live]:
         """Values, slopes by shaft tilt and λ0, and live shapes; in axes of the shaft dµ_x = −µ_z dα, dµ_z = µ_x dα."""
-        wake, tilt = self.wake(x), float(x[self._tilt])
-        flow = self._seen(wake)
+        flow, tilt = self.at_disk(x), float(x[self._tilt])
+        seen = self._seen(flow)
         values, slopes, sees = np.zeros(len(self._atoms)), np.zeros((len(self._atoms), 2)), float(self._sees_tilt)
-        cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), wake.lambda0, flow.speed, flow.axial
-        values[:7] = cos, sin, flow.mu_x, flow.mu_z, speed, wake.mu_x, wake.mu_z
+        cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), flow.lambda0, seen.speed, seen.axial
+        values[:7] = cos, sin, seen.mu_x, seen.mu_z, speed, flow.mu_x, flow.mu_z
         slopes[:7, 0] = (
-            -sin, cos, -sees * flow.mu_z, sees * flow.mu_x, sees * flow.mu_x * l0 / speed, -wake.mu_z, wake.mu_x
+            -sin, cos, -sees * seen.mu_z, sees * seen.mu_x, sees * seen.mu_x * l0 / speed, -flow.mu_z, flow.mu_x
         )  # fmt: skip
         slopes[4, 1] = axial / speed
         slopes[7, 0] = slopes[8, 1] = 1.0
@@ -277,16 +287,16 @@ class _Flow:
         if self._swirls:
             swirl, by_product = swirl_of(self._r, l0 * axial)
             live[UT, SWIRL], live[UT, SWIRL_SLOPE] = -swirl, -by_product
-            slopes[9] = sees * l0 * flow.mu_x, axial + l0
-        followed = self._terms.follow(wake, flow.mu_z, self._sees_tilt)
-        for name, (value, by_wake) in followed.atoms.items():
+            slopes[9] = sees * l0 * seen.mu_x, axial + l0
+        followed = self._terms.follow(flow, seen.mu_z, self._sees_tilt)
+        for name, (value, by_flow) in followed.atoms.items():
             row = self._atoms[name]
-            values[row], slopes[row] = value, (wake.mu_x * by_wake[1] - wake.mu_z * by_wake[0], by_wake[2])
-        for (channel, name), (value, by_wake) in followed.live.items():
+            values[row], slopes[row] = value, (flow.mu_x * by_flow[1] - flow.mu_z * by_flow[0], by_flow[2])
+        for (channel, name), (value, by_flow) in followed.live.items():
             live[channel, name] = value
             if (channel, name) in self._terms.live:
-                live[channel, (name, "tilt")] = wake.mu_x * by_wake[1] - wake.mu_z * by_wake[0]
-                live[channel, (name, "inflow")] = by_wake[2]
+                live[channel, (name, "tilt")] = flow.mu_x * by_flow[1] - flow.mu_z * by_flow[0]
+                live[channel, (name, "inflow")] = by_flow[2]
         return values, slopes, live
 
 
@@ -318,8 +328,8 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     assert isinstance(make, _Flow)
     flow = make.flow(x)
     induced = part(point, UP, list(terms.names))
-    own: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
-    induced += own
+    balanced: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
+    induced += balanced
     if (nodes := point.system.nodes) is not None:
         induced += nodes.field(x[structure.given :]).reshape(induced.shape)
     swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
@@ -331,7 +341,7 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)
         around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
-    bent = None
+    bent, first = None, terms.interface.channels
     if problem.bending is not None:
         q, _ = coordinates_of(problem.bending, structure, point.z)
         modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
@@ -339,8 +349,8 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         bent = BentState(c[SLOPES[0] :], lift)
     beta = state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin
     return BladeElements(
-        state=state, flow=flow, theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
+        state=state, flow=flow, theta=c[TH], u_t=c[UT], u_p=c[UP] + balanced, u_r=c[UR],
         loss=c[LOSS], rate=c[RATE], beta=beta, induced=induced, swirl=swirl, fz=f[FZ],
         fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
-        bent=bent,
+        bent=bent, rates=c[first : first + len(RATES)] if problem.unsteady else None,
     )  # fmt: skip

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
 from rotor.aero.momentum import axial_inflow
@@ -107,7 +107,7 @@ class Annuli(NamedTuple):
     slope: Array
     """C_lα of the linear lift curve, for the closed form (3.3); empty with section data."""
     zero: Array
-    """Its zero-lift pitch."""
+    """Zero-lift pitch of the element."""
 
 
 class AnnulusData(NamedTuple):
@@ -135,8 +135,8 @@ def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> t
     theta = c[TH, :, 0].copy()
     inflow, answer = _balanced(theta, data.start, data.annuli, data.section)
     data.start[:] = inflow
-    own, turning = _channels(theta, inflow, data.annuli)
-    f, d, s = section(own, data.section, slopes, flow)
+    channels, turning = _channels(theta, inflow, data.annuli)
+    f, d, s = section(channels, data.section, slopes, flow)
     f = np.concatenate([f, inflow[None, :, None]])
     if not slopes:
         return f, np.zeros((len(HOVER_PAIRS), 0, 1)), s
@@ -150,26 +150,26 @@ def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> t
 @_compile
 def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
     """Channels of the section, (channels, elements, 1), and the slope of the swirl by λ_i, (elements,)."""
-    own, turning = np.zeros((6, len(theta), 1)), np.zeros(len(theta))
+    channels, turning = np.zeros((6, len(theta), 1)), np.zeros(len(theta))
     for i in range(len(theta)):
         total, r = inflow[i] + annuli.climb, annuli.r[i]
-        own[TH, i, 0], own[UT, i, 0], own[UP, i, 0], own[LOSS, i, 0] = theta[i], r, total, 1.0
+        channels[TH, i, 0], channels[UT, i, 0], channels[UP, i, 0], channels[LOSS, i, 0] = theta[i], r, total, 1.0
         if annuli.swirls:
             swirl, slope = swirl_of(r, inflow[i] * total)
-            own[UT, i, 0] -= swirl
+            channels[UT, i, 0] -= swirl
             turning[i] = (inflow[i] + total) * slope
-    return own, turning
+    return channels, turning
 
 
 @_inline
 def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
     """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch, (4, elements)."""
     out = np.empty((4, len(theta)))
-    own, turning = _channels(theta, inflow, annuli)
+    channels, turning = _channels(theta, inflow, annuli)
     closed = len(annuli.slope) > 0
     slopes = not closed
     flow = closed and slopes  # False. As a constant it would be a type of its own, and the section compiled twice.
-    f, d, _ = section(own, data, slopes, flow)
+    f, d, _ = section(channels, data, slopes, flow)
     for i in range(len(theta)):
         r, total = annuli.r[i], inflow[i] + annuli.climb
         (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
@@ -193,11 +193,11 @@ def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
     """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket."""
     inflow, bracket, left = start.copy(), bracket_of(len(start)), MOST_PASSES
     while True:
-        found = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
-        if left == 0 or not balancing_step(inflow, bracket, found[0], found[1], found[2]):
+        balance = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
+        if left == 0 or not balancing_step(inflow, bracket, balance[0], balance[1], balance[2]):
             break
         left -= 1
-    return inflow, found[3] / np.maximum(found[1], 1e-12)
+    return inflow, balance[3] / np.maximum(balance[1], 1e-12)
 
 
 @lru_cache(maxsize=16)
@@ -274,7 +274,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     """The hovering rotor as blade elements over the whole disk; `point` has the flow at the sections."""
     disk, torsion, structure = problem.disk, problem.torsion, point.system.structure
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
-    own, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
+    channels, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     coning = float(point.x[states["coning"]])
     thrust = float(disk.dr @ f[FZ, :, 0])
     state = TrimState(
@@ -293,10 +293,11 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
 
     zero = np.zeros(disk.shape)
     return BladeElements(
-        state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(own[TH]),
-        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero, loss=np.ones(disk.shape), rate=zero,
-        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - own[UT], fz=everywhere(f[FZ, :, 0]),
-        fx=everywhere(f[FX, :, 0]), fr=zero, alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
+        state=state, flow=DiskFlow(0.0, problem.climb, state.lambda0), theta=everywhere(channels[TH]),
+        u_t=everywhere(channels[UT]), u_p=everywhere(channels[UP]), u_r=zero, loss=np.ones(disk.shape), rate=zero,
+        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - channels[UT],
+        fz=everywhere(f[FZ, :, 0]), fx=everywhere(f[FX, :, 0]), fr=zero,
+        alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
         cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,
     )  # fmt: skip
 

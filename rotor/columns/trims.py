@@ -130,7 +130,7 @@ def declare_equations(s: Structure, trim: Trim) -> None:
 
 
 def add_equations(s: Structure, trim: Trim, drag: Sum, torque: Sum) -> None:
-    """Their terms, see the head of this file; H and C_Q: of `power_of_air`."""
+    """Add the terms of the equations in the head of this file; H and C_Q: of `power_of_air`."""
     z, q = {**s.numbers, **s.states, **s.derived}, s.measure
     thrust = q(FZ, "one", STEADY)
     for name in trim.equations:

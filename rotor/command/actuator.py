@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from rotor.actuator import stopped
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
@@ -34,7 +35,7 @@ from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.terminal import wrapped
-from rotor.user_input import check_suffix, check_writable, write_whole
+from rotor.user_input import check_suffix, check_writable, parse_range, write_whole
 
 
 def add_parser(commands: Any) -> None:
@@ -79,6 +80,9 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
+    parser.add_argument(
+        "--stops-at", metavar="MU,…", help="also fly on with the twist frozen where it was at these advance ratios"
+    )
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(
         "--what-would-pay",
@@ -107,6 +111,9 @@ def run(args: argparse.Namespace) -> int:
             raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
     placement, host = _placement(args), Host(args.blade, stiffness)
+    stops = () if args.stops_at is None else parse_range(args.stops_at)
+    for speed in stops:
+        pair.design.at(mu=speed)
     if args.plot is not None and args.what_would_pay is None:
         raise ValueError("--plot draws the break-even line: add --what-would-pay")
     if args.plot is not None:
@@ -118,6 +125,7 @@ def run(args: argparse.Namespace) -> int:
         if args.table == "5.2":
             return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
+        failures = [stopped.failure(verdict, stops_at=speed) for speed in stops]
         turned = None
         if args.harmonic is not None:
             turned = phase_sweep(
@@ -130,8 +138,30 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    print_result(args, lambda: record(verdict, turned), lambda: report(verdict, turned))
+    also = {"failures": [one.record() for one in failures]} if failures else {}
+    told = "".join(f"\n\n{failure_report(one)}" for one in failures)
+    print_result(args, lambda: record(verdict, turned) | also, lambda: report(verdict, turned) + told)
     return 0
+
+
+def failure_report(found: stopped.Failure) -> str:
+    """What flying on costs, speed by speed."""
+    lines = [
+        f"stopped at µ {found.stops_at:g}, its twist frozen; one blade: the others work",
+        f"{'µ':<7}{'kt':>4}{'twist':>9}{'power':>12}{'cost':>11}{'engines left':>14}{'stalled':>9}{'collective':>12}"
+        f"{'one blade':>13}",
+    ]
+    for point in found.points:
+        row, there, one = point.record(), point.stopped, point.one_blade
+        left = "" if point.power_left is None else f"{point.power_left / 1e3:.0f} kW"
+        cost = "" if point.cost is None else f"{point.cost / 1e3:+.1f} kW"
+        power = "no trim" if there.power is None else f"{there.power / 1e3:.1f} kW"
+        shaken = "" if one is None else f"{one.force_n:.0f} N 1/rev"
+        lines.append(
+            f"{point.mu:<7g}{row['speed_kt']:>4.0f}{math.degrees(there.twist):>8.2f}°{power:>12}{cost:>11}{left:>14}"
+            f"{row['stopped_stalled_percent']:>7.1f} %{math.degrees(there.collective):>10.1f} °{shaken:>14}"
+        )
+    return "\n".join(lines)
 
 
 def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
@@ -156,6 +186,7 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "mass_cost_w": verdict.mass_cost,
         "drive_cost_w": verdict.drive_cost,
         "net_saving_w": verdict.net_saving,
+        "net_saving_band_w": verdict.net_band,
         "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
         "limits": [asdict(limit) for limit in verdict.limits],
         "caveats": list(verdict.caveats),
@@ -181,7 +212,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "attainable_twist_derated_deg": None, "feasible": None, "voltages_v": [], "added_mass_kg": None,
         "torsion_frequency_per_rev": None, "against": args.against, "ideal_saving_w": None, "gross_saving_w": None,
         "stiffness_cost_w": None, "mass_cost_w": None, "drive_cost_w": None, "net_saving_w": None,
-        "fuel_saving_kg_h": None, "limits": [], "caveats": [],
+        "net_saving_band_w": None, "fuel_saving_kg_h": None, "limits": [], "caveats": [],
     }  # fmt: skip
 
 
@@ -238,12 +269,12 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
             ),
         ]
     met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
-    lines += ["", *(wrapped(one, " " * 9) for one in met)]
+    lines += ["", *(wrapped(limit, " " * 9) for limit in met)]
     return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])
 
 
 ROTORS = (*SHIPPED_ROTORS, "hart2")
-"""Of `--what-would-pay all`."""
+"""Rotors of `--what-would-pay all`."""
 
 
 def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
@@ -255,9 +286,9 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
     if args.plot is not None:
         best = None
         if first.candidates:
-            one = first.candidates[0]
-            worth = first.even.twist_for(one.estimate.gross - one.estimate.stiffness_cost)
-            best = (one.installed.actuator.name, worth, one.mass)
+            candidate = first.candidates[0]
+            worth = first.even.twist_for(candidate.estimate.gross - candidate.estimate.stiffness_cost)
+            best = (candidate.installed.actuator.name, worth, candidate.mass)
         write_whole(args.plot, svg(break_even_chart(first.even, best)))
     if args.json:
         records = [pay_record(search) for search in searches]
@@ -274,7 +305,9 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
 def _builds(search: PaySearch) -> list[str]:
     if not search.candidates:
         return []
-    judged = [wrapped(f"{one.installed.actuator.id}: {verdict_sentence(one)}", "  ") for one in search.verdicts]
+    judged = [
+        wrapped(f"{verdict.installed.actuator.id}: {verdict_sentence(verdict)}", "  ") for verdict in search.verdicts
+    ]
     return ["", builds_table(search.candidates[:5]).text(), *(["", "By full search"] if judged else []), *judged]
 
 
@@ -296,14 +329,15 @@ def pay_record(search: PaySearch) -> dict[str, Any]:
         },
         "builds": [
             {
-                "actuator": one.installed.actuator.id, "plies": one.installed.placement.plies,
-                "span_r": list(one.installed.placement.span), "blade": one.installed.host.label,
-                "twist_deg": math.degrees(one.installed.attainable), "swing": one.estimate.swing, "mass_kg": one.mass,
-                "gross_saving_w": one.estimate.gross, "stiffness_cost_w": one.estimate.stiffness_cost,
-                "mass_cost_w": one.estimate.mass_cost, "drive_cost_w": one.estimate.drive_cost,
-                "net_saving_w": one.estimate.net,
+                "actuator": candidate.installed.actuator.id, "plies": candidate.installed.placement.plies,
+                "span_r": list(candidate.installed.placement.span), "blade": candidate.installed.host.label,
+                "twist_deg": math.degrees(candidate.installed.attainable), "swing": candidate.estimate.swing,
+                "mass_kg": candidate.mass,
+                "gross_saving_w": candidate.estimate.gross, "stiffness_cost_w": candidate.estimate.stiffness_cost,
+                "mass_cost_w": candidate.estimate.mass_cost, "drive_cost_w": candidate.estimate.drive_cost,
+                "net_saving_w": candidate.estimate.net,
             }
-            for one in search.candidates
+            for candidate in search.candidates
         ],
         "judged": [record(verdict) for verdict in search.verdicts],
     }  # fmt: skip

@@ -19,7 +19,9 @@ from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, repor
 from rotor.aero.problem import Problem, build_problem
 from rotor.columns.flight import flight_system
 from rotor.command.common import add_command
+from rotor.compiled import tell_in_a_log
 from rotor.design.design import Design
+from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
@@ -30,6 +32,7 @@ from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
+from rotor.trim.doubt import power_changes
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import first_point, newton
 from rotor.trim.solution import Solution
@@ -47,6 +50,7 @@ TARGETS_MS = {
     "cold": 40.0,
     "warm": 4.0,
     "gradient": 2.0,
+    "doubt": 8.0,
 }
 """Targets of the project [ms], on the grid of each model, one core of an idle machine."""
 
@@ -97,6 +101,30 @@ def _points_per_second(call: Callable[[], Any]) -> float:
     return _POINTS / (time.process_time() - begin)
 
 
+def add_warm(commands: Any) -> None:
+    add_command(
+        commands, "warm", _warm, "compiles all kernels, once after installing",
+        "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
+    )  # fmt: skip
+
+
+def _warm(_: argparse.Namespace) -> int:
+    tell_in_a_log()
+    compile_all()
+    print("All kernels are compiled.")
+    return 0
+
+
+def compile_all() -> None:
+    """Compile every kernel of the solver: both presets in flight and hover, blades that bend, stall with lags."""
+    for preset in PRESETS:
+        for advance_ratio in (0.2, 0.0):
+            power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
+    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
+    power_gradient(solve(make_design(mu=0.2, bending=True)))
+    power_gradient(solve(make_design(mu=0.2, bending=True, dynamic_stall="on")))
+
+
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "bench", run, "times evaluations and trims beside their targets and other codes")
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
@@ -112,7 +140,7 @@ def run(args: argparse.Namespace) -> int:
         answer = {
             "ms": figures, "targets_ms": TARGETS_MS, "seconds": searches, "targets_s": TARGETS_S,
             "trims_per_second_and_core": batch, "target_per_second": TARGET_PER_SECOND,
-            "baselines": [asdict(one) | {"ratio": one.ratio} for one in baselines], "notes": notes,
+            "baselines": [asdict(baseline) | {"ratio": baseline.ratio} for baseline in baselines], "notes": notes,
         }  # fmt: skip
         print(json.dumps(answer, indent=2, allow_nan=False))
         return 0
@@ -129,8 +157,8 @@ def run(args: argparse.Namespace) -> int:
     minutes = 1e5 / (2.0 * 60.0 * batch["as a study works them off"])
     print(_line("10⁵ of them on two cores [minutes]", minutes, "10.1f", 30.0, "≤"))
     print("\nother codes [ms], and how often ours runs in that time\n")
-    for one in baselines:
-        print(f"{one.name:<44}{one.ms:10.3f}   {one.ratio:8.2g} × {one.ours}; {one.physics}")
+    for baseline in baselines:
+        print(f"{baseline.name:<44}{baseline.ms:10.3f}   {baseline.ratio:8.2g} × {baseline.ours}; {baseline.physics}")
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
     return 0
@@ -156,7 +184,7 @@ class OtherCode:
 
     @property
     def ratio(self) -> float:
-        """Their time over ours."""
+        """Time of the other code over ours."""
         return self.ms / self.ours_ms
 
 
@@ -187,6 +215,7 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
         pairs = list(zip(nearby, solutions, strict=True))
         figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
         figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
+        figures[f"{beside}doubt"] = _mean(power_changes.__wrapped__, solutions, 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
     cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
     linear = _designs(0.0, "linear:-16", _CASES["linear inflow, "])
@@ -222,7 +251,7 @@ def _gradient(nearby: Design, start: Solution) -> float:
 
 
 def _hybr(problem: Problem) -> None:
-    """The same residual through scipy's Powell hybrid method with finite differences."""
+    """Our residual through scipy's Powell hybrid method with finite differences."""
     system = flight_system(problem)
     first, free = first_point(problem, system, first_guess(problem)), system.structure.free
 

@@ -24,7 +24,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
-from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, SPEED, STAND
+from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, SPEED, STAND, SWEPT
 from rotor.design.quantity import Quantity
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
@@ -32,7 +32,7 @@ from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.study.results import design_at
-from rotor.user_input import write_whole
+from rotor.user_input import check_writable, parse_range, write_whole
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -49,18 +49,22 @@ _FLAGS = {name: row for name, row in ARGUMENTS.items() if name not in ("models",
 _INFLOWS = (*INFLOW_MODELS, *HOVER_INFLOWS)
 
 
-def add_design_arguments(parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False) -> None:
-    """A flag for every argument of `make_design`; those of the speed on demand, and more than one twist."""
+def add_design_arguments(
+    parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False, ranges: bool = False
+) -> None:
+    """A flag for every argument of `make_design`; those of the speed on demand, more than one twist, and ranges."""
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
     _add_allow_outside(parser)
     for name, row in (_FLAGS | STAND).items():
-        if name in SPEED and not speed:
+        if name in SPEED and not speed and not (ranges and name in SWEPT):
             continue
         to = speeds if name in SPEED else stand if name in ("trim", *STAND) else parser
         how = _how(row)
         if name == "twist" and twists:
             how["nargs"] = "+"
+        if ranges and name in SWEPT:
+            how |= {"type": _range, "help": f"{how['help']}; or A:B:STEP"}
         to.add_argument(f"--{row.flag}", dest=name, **how)
 
 
@@ -71,7 +75,8 @@ def _how(row: Quantity) -> dict[str, Any]:
         case "switch":
             return {"help": row.help, "action": "store_true"}
         case "choice":
-            return {"help": row.help, "choices": choices}
+            alone = {"nargs": "?", "const": "on"} if "on" in choices else {}
+            return {"help": row.help, "choices": choices, **alone}
         case "whole":
             return {"help": row.help, "type": int, "metavar": "N"}
         case "number":
@@ -79,6 +84,13 @@ def _how(row: Quantity) -> dict[str, Any]:
         case _:
             listed = "; ".join(filter(None, (row.help, ", ".join(choices))))
             return {"help": listed, "metavar": row.flag.upper()}
+
+
+def _range(text: str) -> list[float]:
+    try:
+        return parse_range(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _unit(name: str) -> str:
@@ -119,11 +131,33 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     return make_design(**{name: value for name, value in changed.items() if value is not None})
 
 
+def add_output_arguments(parser: argparse.ArgumentParser) -> None:
+    """`--csv` and `--json` of a command that prints a table."""
+    parser.add_argument(
+        "--csv", metavar="FILE", help="write the table to a file as well; - prints it in place of all else"
+    )
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+
+
+def check_output(args: argparse.Namespace) -> None:
+    """ValueError for a file of `--csv` that cannot be written, and for two outputs at once."""
+    if args.csv == "-" and args.json:
+        raise ValueError("--csv - and --json both print: give one of them")
+    if args.csv and args.csv != "-":
+        check_writable(args.csv)
+
+
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails."""
+    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails.
+
+    The path - is stdout.
+    """
     text = io.StringIO()
     text.write(heading)
     csv.writer(text, lineterminator="\n").writerows(rows)
+    if path == "-":
+        print(text.getvalue(), end="")
+        return
     try:
         write_whole(path, text.getvalue())
     except OSError as error:
@@ -131,7 +165,9 @@ def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> 
 
 
 def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:
-    """Print the answer of a command: with --json the record, else the report."""
+    """Print the answer of a command: with --json the record, else the report; nothing after `--csv -`."""
+    if getattr(args, "csv", None) == "-":
+        return
     print(json.dumps(record(), indent=2, allow_nan=False) if args.json else report())
 
 
@@ -167,7 +203,7 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
         help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
     )  # fmt: skip
     limits.add_argument(
-        "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg=-20,0"
+        "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg -20,0"
     )
     limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
@@ -188,7 +224,7 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
 
 def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
     """The limits that the flags describe; ValueError for what no concept can use."""
-    units = {parameter.name: parameter for one in concepts for parameter in one.parameters}
+    units = {parameter.name: parameter for concept in concepts for parameter in concept.parameters}
     bounds: list[tuple[str, float, float]] = []
     for text in args.bound:
         name, _, numbers = str(text).partition("=")
@@ -199,7 +235,7 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
     rate = None
     if args.rate_deg is not None:
-        low, high = parse_pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
+        low, high = parse_pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg -20,0")
         rate = math.radians(low), math.radians(high)
     return Limits(
         bounds=tuple(bounds),
@@ -235,7 +271,7 @@ def waves_text(harmonics: tuple[Harmonic, ...]) -> str:
 def short_spec(spec: str) -> str:
     """A twist SPEC with angles to a hundredth of a degree, which is finer than any optimum is known."""
     angles, at, stations = spec.partition("@")
-    return re.sub(r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}", angles) + at + stations
+    return re.sub(r"-?\d+\.\d{3,}", lambda match: f"{float(match[0]):.2f}", angles) + at + stations
 
 
 CONCEPT_HELP = " | ".join(CONCEPTS)
@@ -278,13 +314,13 @@ STOPPED = 130
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
     """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
     hidden = not sys.stderr.isatty()
-    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
+    shown: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
 
     def advance(words: str) -> None:
-        made.set_postfix_str(words, refresh=False)
-        made.update()
+        shown.set_postfix_str(words, refresh=False)
+        shown.update()
 
-    with made:
+    with shown:
         yield advance
 
 

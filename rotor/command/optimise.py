@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -33,9 +33,10 @@ from rotor.optimisation.objective import (
     measure,
     read_mission,
 )
-from rotor.optimisation.results import Minimum, Optimum, Progress, SearchStatus
-from rotor.optimisation.search import STARTS, Search, run_search
+from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
+from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
 from rotor.terminal import wrapped
+from rotor.trim.doubt import other_models
 from rotor.trim.solution import Solution
 
 
@@ -58,6 +59,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
     )
+    parser.add_argument("--doubt", action="store_true", help="search with other models, masses and drag areas as well")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
 
@@ -68,6 +70,11 @@ def run(args: argparse.Namespace) -> int:
     if args.on_top:
         concept = on_top(concept, design.twist)
     objective = _objective(args, design)
+    alone = objective == at_condition(design)
+    if args.doubt and not alone:
+        raise ValueError(
+            "--doubt searches for the least total power in one flight: leave --mission and --objective out"
+        )
     search = Search(
         design=design,
         concept=concept,
@@ -80,6 +87,11 @@ def run(args: argparse.Namespace) -> int:
     with interruptible() as stop, bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     beside = _beside(design, objective, optimum)
+    if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
+        if args.doubt:
+            beside = replace(beside, flights=_in_other_flights(search, optimum.best))
+        if args.doubt or (design.hovering and alone):
+            beside = replace(beside, models=_with_other_models(search, optimum.best))
     print_result(args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective))
     return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
 
@@ -89,11 +101,15 @@ class _Beside:
     """What belongs beside the answer of a search."""
 
     caveats: tuple[str, ...] = ()
-    """Of the best design."""
+    """Caveats of the best design."""
     index_band: tuple[float, float] | None = None
-    """Least and largest mean index of the best design over wakes [%]; None where it is not asked for."""
+    """Least and largest mean index of the best design over inflow models [%]; None where it is not asked for."""
     same_airfoils: float | None = None
     """Power of the starting twist on the airfoils of the best design [W]; None where the airfoils are the same."""
+    models: tuple[tuple[str, Optimum], ...] = ()
+    """What searches with other models find, by the name of the model."""
+    flights: tuple[tuple[str, Optimum], ...] = ()
+    """Optima with other masses and drag areas, by the words for it."""
 
 
 def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
@@ -104,12 +120,39 @@ def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
     power = measure(objective, start, gradient=False).power if changed else None
-    return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
+    return _Beside(
+        tuple(caveats),
+        None if optimum.best.index is None else _index_band(objective, solutions),
+        power,
+    )
+
+
+def _with_other_models(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
+    """From the same best twist."""
+    return _from(search, best, other_models(search.design).items())
+
+
+def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
+    """With other masses and drag areas, from the same best twist."""
+    units = {"mass": "{:.0f} kg", "drag area": "{:.1f} m²"}
+    designs = [
+        (f"{cause} {units[cause].format(end)}", design)
+        for cause, ends, pair in nearby_flights(search.design)
+        for end, design in zip(ends, pair, strict=True)
+    ]
+    return _from(search, best, designs)
+
+
+def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) -> tuple[tuple[str, Optimum], ...]:
+    other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
+    return tuple((name, run_search(replace(other, design=design))) for name, design in designs)
 
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
-    """Least and largest mean index of some trims over wakes [%]."""
-    ends = [loads.band for one in solutions if (loads := one.hub_loads) is not None and loads.band is not None]
+    """Least and largest mean index of some trims over inflow models [%]."""
+    ends = [
+        loads.band for solution in solutions if (loads := solution.hub_loads) is not None and loads.band is not None
+    ]
     if len(ends) < len(solutions):
         return None
     low, high = (sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True)) for k in (0, 1))
@@ -148,7 +191,6 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
 def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any]:
     """The JSON of `optimise --json`; values not found are null."""
     best = optimum.best
-    by_name = {parameter.name: parameter for parameter in concept.parameters}
     return {
         "status": optimum.status.value,
         "concept": optimum.concept,
@@ -158,23 +200,39 @@ def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any
         "baseline_power_w": optimum.baseline_power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
         **({} if best is None or best.index is None else _index(optimum, best, beside)),
-        "band": {
-            by_name[band.parameter].label: [
-                round(by_name[band.parameter].shown(band.low), 6),
-                round(by_name[band.parameter].shown(band.high), 6),
-            ]
-            for band in optimum.band
-        },
-        "local_minima": [_minimum(one, concept) for one in optimum.minima],
+        "band": _bands(concept, optimum.band),
+        "local_minima": [_minimum(minimum, concept) for minimum in optimum.minima],
         "evaluations": optimum.evaluations,
         "elapsed_s": optimum.elapsed,
         "message": optimum.message,
+        "saving_doubt_percent": None if optimum.doubt is None else optimum.doubt.change_band_percent,
+        "sureness": optimum.doubt and optimum.doubt.sureness,
+        "doubt_band": _bands(concept, optimum.doubt_band),
         "active": [] if best is None else list(best.active),
         "airfoils": airfoils_spec(optimum.design.rotor),
         "starts": optimum.starts,
         "seed": optimum.seed,
         "same_airfoils_power_w": beside.same_airfoils,
         "caveats": list(beside.caveats),
+        **({"models": {name: _other(other, concept) for name, other in beside.models}} if beside.models else {}),
+        **({"flights": {name: _other(other, concept) for name, other in beside.flights}} if beside.flights else {}),
+    }
+
+
+def _other(optimum: Optimum, concept: Concept) -> dict[str, Any]:
+    return {
+        "parameters": {} if optimum.best is None else named(concept, optimum.best.parameters),
+        "power_w": None if optimum.best is None else optimum.best.power,
+        "saving_percent": optimum.saving_percent,
+    }
+
+
+def _bands(concept: Concept, bands: Sequence[ParameterBand]) -> dict[str, list[float]]:
+    """By label, low and high."""
+    by_name = {parameter.name: parameter for parameter in concept.parameters}
+    return {
+        by_name[band.parameter].label: [round(by_name[band.parameter].shown(end), 6) for end in (band.low, band.high)]
+        for band in bands
     }
 
 
@@ -186,20 +244,26 @@ def _index(optimum: Optimum, best: Minimum, beside: _Beside) -> dict[str, Any]:
     }
 
 
-def _minimum(one: Minimum, concept: Concept) -> dict[str, Any]:
+def _minimum(minimum: Minimum, concept: Concept) -> dict[str, Any]:
     return {
-        "parameters": named(concept, one.parameters),
-        "twist": one.twist,
-        "power_w": one.power,
-        **({} if one.index is None else {"index_percent": one.index}),
-        "starts": list(one.starts),
-        "active": list(one.active),
+        "parameters": named(concept, minimum.parameters),
+        "twist": minimum.twist,
+        "power_w": minimum.power,
+        **({} if minimum.index is None else {"index_percent": minimum.index}),
+        "starts": list(minimum.starts),
+        "active": list(minimum.active),
     }
 
 
 def digits_of_band(width: float) -> int:
     """Decimals that show a tenth of a band's width, at most 3: more would be noise on a flat optimum."""
     return min(max(math.ceil(1.0 - math.log10(width)), 0), 3) if width > 0.0 else 3
+
+
+def _in_hover(beside: _Beside, optimum: Optimum, k: int) -> list[float]:
+    """The parameter of that index with the other wake of hover, where there is one."""
+    optima = [other.best for _, other in beside.models] if optimum.design.hovering else []
+    return [best.parameters[k] for best in optima if best is not None]
 
 
 def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objective) -> str:
@@ -209,14 +273,22 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         return "\n".join(lines)
     least = "index" if objective.quantity == "vibration" else "power"
     bands = {band.parameter: band for band in optimum.band}
-    for parameter, value in zip(concept.parameters, best.parameters, strict=True):
+    doubts = {band.parameter: band for band in optimum.doubt_band}
+    for k, (parameter, value) in enumerate(zip(concept.parameters, best.parameters, strict=True)):
         band = bands.get(parameter.name)
         low, high = (parameter.shown(band.low), parameter.shown(band.high)) if band else (0.0, 1.0)
         digits = digits_of_band(high - low)
         line = f"{parameter.title:<20}{parameter.shown(value):9.{digits}f} {parameter.shown_unit}"
         if band:
             line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the {least}"
-        lines.append(line)
+        if sure := doubts.get(parameter.name):
+            low, high = parameter.shown(sure.low), parameter.shown(sure.high)
+            causes = ", ".join(f"{words} {parameter.shown(by):+.{digits}f}" for words, by in sure.causes)
+            line += f", {low:.{digits}f} to {high:.{digits}f} by what is uncertain ({causes})"
+        for line_rate in _in_hover(beside, optimum, k):
+            low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
+            line += f", {low:.{digits}f} to {high:.{digits}f} between annuli and a lifting line"
+        lines.append(wrapped(line, " " * 38))
     lines.append(f"twist {short_spec(best.twist)}")
     airfoils = airfoils_spec(optimum.design.rotor)
     if airfoils:
@@ -226,16 +298,22 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
         lines.append(f"starting design {optimum.baseline_power / 1e3:.1f} kW, saving {100 * optimum.saving:.2f} %")
+        if optimum.doubt is not None:
+            lines.append(optimum.doubt.sentence)
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
         lines.append(
-            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over wakes: trade-offs, not a level"
-            f"{before}"
+            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: "
+            f"trade-offs, not a level{before}"
         )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
         lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.1f} kW, saving {saving:.2f} %")
+    for name, outcome in (*beside.models, *beside.flights):
+        twist = "no optimum" if outcome.best is None else short_spec(outcome.best.twist)
+        saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"
+        lines.append(f"with {name}: {twist}{saving}")
     for other in optimum.minima[1:]:
         lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")

@@ -47,7 +47,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--trust",
         action="store_true",
-        help="also make the trust page: validation.md, validation/, trust.csv, sensitivity.csv",
+        help="also make the trust page: validation.md, validation/, trust.csv",
     )
     add_processes_argument(parser)
 
@@ -61,7 +61,6 @@ def run(args: argparse.Namespace) -> int:
     from rotor.reproduce.runs import compute_ahead
     from rotor.units import typographic
     from rotor.validation.page import SETS, write_trust
-    from rotor.validation.sensitivity import sensitivity
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
@@ -70,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
     entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = make_folder(args.out)
     begin = time.perf_counter()
-    made: list[tuple[CatalogueEntry, Report]] = []
+    reports: list[tuple[CatalogueEntry, Report]] = []
 
     def make(wanted: list[CatalogueEntry]) -> None:
         for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
@@ -78,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
             if report is None:
                 report = entry.make()
                 write_report(report, folder)
-            made.append((entry, report))
+            reports.append((entry, report))
             tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
 
     fast = [entry for entry in entries if not entry.slow]
@@ -95,14 +94,14 @@ def run(args: argparse.Namespace) -> int:
     make(fast)
     if not stopped:
         make([entry for entry in entries if entry.slow])
-    made.sort(key=lambda pair: entries.index(pair[0]))
-    page = write_all(made, folder)
+    reports.sort(key=lambda pair: entries.index(pair[0]))
+    page = write_all(reports, folder)
     if args.trust and not stopped:
         sets = [make_set() for make_set in SETS.values()]
-        sets += trust_sets(report for _, report in made)
-        print(f"trust page: {write_trust(sets, list(sensitivity()), folder)}")
-    left = f", {len(entries) - len(made)} left out because of Ctrl-C" if stopped else ""
-    print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
+        sets += trust_sets(report for _, report in reports)
+        print(f"trust page: {write_trust(sets, folder)}")
+    left = f", {len(entries) - len(reports)} left out because of Ctrl-C" if stopped else ""
+    print(f"{len(reports)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
     return STOPPED if stopped else 0
 
 
@@ -127,13 +126,13 @@ def run_ladder(args: argparse.Namespace) -> int:
     with interruptible() as stop, bar(len({call for group in groups for call in group}), "optimum") as advance:
         if compute_ahead(groups, processes_from(args), advance, stop):
             return STOPPED
-    found = climb(speeds)
-    print_result(args, lambda: ladder_record(found), lambda: ladder_text(found))
+    ladder = climb(speeds)
+    print_result(args, lambda: ladder_record(ladder), lambda: ladder_text(ladder))
     return 0
 
 
-def ladder_text(found: Ladder) -> str:
-    heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in found.speeds]
+def ladder_text(ladder: Ladder) -> str:
+    heads = ["hover" if mu == 0.0 else f"µ {mu:g}" for mu in ladder.speeds]
     wide = 46
     lines = [
         "UH-60A, 8322.4 kg, sea level: linear twist of least total power [°/R]; each line changes one assumption more.",
@@ -142,77 +141,77 @@ def ladder_text(found: Ladder) -> str:
         f"−17.3° over −11.5°: main-rotor power at {FAST_KMH:.0f} km/h; Keys et al. measured {100 * FAST:+.0f} %.",
         "",
         f"{'':<{wide}}" + "".join(f"{head:>8}" for head in heads)
-        + "".join(f"{f'moves at {mu:g}':>21}" for mu in found.named) + f"{'saves':>9}{'−17.3/−11.5':>13}",
+        + "".join(f"{f'moves at {mu:g}':>21}" for mu in ladder.named) + f"{'saves':>9}{'−17.3/−11.5':>13}",
     ]  # fmt: skip
-    for one in found.steps:
-        moved = _moves(one) if one.moves else f"{'':{21 * len(found.named)}}"
-        lines.append(f"{one.words:<{wide}}{_rates(one.best)}{moved}{_end(one)}")
-        if one.name == TRIM[-1]:
-            lines.append(f"{'  ' + found.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(found.trim)}")
+    for step in ladder.steps:
+        moved = _moves(step) if step.moves else f"{'':{21 * len(ladder.named)}}"
+        lines.append(f"{step.words:<{wide}}{_rates(step.best)}{moved}{_end(step)}")
+        if step.name == TRIM[-1]:
+            lines.append(f"{'  ' + ladder.trim.words:<{wide}}{'':{8 * len(heads)}}{_moves(ladder.trim)}")
     lines += [
-        f"Eight rigid blades of half the chord in place of four move it by {found.eight_blades_deg:+.1f}°.",
-        f"Without fuselage drag, which tilts the disk, the best of flight is {found.without_drag_deg:.1f}°.",
+        f"Eight rigid blades of half the chord in place of four move it by {ladder.eight_blades_deg:+.1f}°.",
+        f"Without fuselage drag, which tilts the disk, the best of flight is {ladder.without_drag_deg:.1f}°.",
         "",
         "flight with each inflow model",
     ]
     lines += [
-        f"{one.inflow:<{wide}}{_rates(one.best)}{'':{21 * len(found.named)}}{100 * one.moving.gain:7.2f} %"
-        for one in found.wakes
+        f"{row.inflow:<{wide}}{_rates(row.best)}{'':{21 * len(ladder.named)}}{100 * row.moving.gain:7.2f} %"
+        for row in ladder.inflows
     ]
     return "\n".join(lines)
 
 
 def _rates(best: Sequence[Least]) -> str:
-    return "".join(f"{one.rate_deg:8.1f}" for one in best)
+    return "".join(f"{twist.rate_deg:8.1f}" for twist in best)
 
 
-def _moves(one: Step) -> str:
-    words = (" / ".join("–" if abs(way) < NOTHING else f"{way:+.1f}" for way in ways) for ways in one.moves)
+def _moves(step: Step) -> str:
+    words = (" / ".join("–" if abs(way) < NOTHING else f"{way:+.1f}" for way in ways) for ways in step.moves)
     return "".join(f"{word:>21}" for word in words)
 
 
-def _end(one: Step) -> str:
-    return f"{100 * one.moving.gain:7.2f} %{100 * one.strong_over_weak[1]:+11.1f} %"
+def _end(step: Step) -> str:
+    return f"{100 * step.moving.gain:7.2f} %{100 * step.strong_over_weak[1]:+11.1f} %"
 
 
-def ladder_record(found: Ladder) -> dict[str, Any]:
+def ladder_record(ladder: Ladder) -> dict[str, Any]:
     return {
-        "speeds_mu": list(found.speeds),
-        "named_mu": list(found.named),
-        "steps": [_step_record(one) for one in found.steps],
-        "trim": _step_record(found.trim),
-        "eight_blades_deg": found.eight_blades_deg,
-        "without_drag_deg": found.without_drag_deg,
+        "speeds_mu": list(ladder.speeds),
+        "named_mu": list(ladder.named),
+        "steps": [_step_record(step) for step in ladder.steps],
+        "trim": _step_record(ladder.trim),
+        "eight_blades_deg": ladder.eight_blades_deg,
+        "without_drag_deg": ladder.without_drag_deg,
         "wakes": [
-            {"inflow": one.inflow, **_least_record(one.best), **_moving_record(one.moving)} for one in found.wakes
+            {"inflow": row.inflow, **_least_record(row.best), **_moving_record(row.moving)} for row in ladder.inflows
         ],
         "measured": {"hover_percent": 100 * HOVER, "fast_percent": 100 * FAST, "fast_km_h": FAST_KMH},
     }
 
 
-def _step_record(one: Step) -> dict[str, Any]:
-    hover, fast = one.strong_over_weak
+def _step_record(step: Step) -> dict[str, Any]:
+    hover, fast = step.strong_over_weak
     return {
-        "step": one.name,
-        "change": one.words,
-        **_least_record(one.best),
+        "step": step.name,
+        "change": step.words,
+        **_least_record(step.best),
         # Those at the fastest of the named speeds; `moves` has them all.
-        "moves_deg": one.moves[-1].in_ladder if one.moves else None,
-        "alone_on_thesis_deg": one.moves[-1].alone_on_thesis if one.moves else None,
-        "alone_off_flight_deg": one.moves[-1].alone_off_flight if one.moves else None,
-        "moves": [{f"{name}_deg": way for name, way in ways._asdict().items()} for ways in one.moves],
-        **_moving_record(one.moving),
+        "moves_deg": step.moves[-1].in_ladder if step.moves else None,
+        "alone_on_thesis_deg": step.moves[-1].alone_on_thesis if step.moves else None,
+        "alone_off_flight_deg": step.moves[-1].alone_off_flight if step.moves else None,
+        "moves": [{f"{name}_deg": way for name, way in ways._asdict().items()} for ways in step.moves],
+        **_moving_record(step.moving),
         "strong_over_weak_percent": {"hover": 100 * hover, "fast": 100 * fast},
     }
 
 
 def _least_record(best: Sequence[Least]) -> dict[str, Any]:
     return {
-        "best_twist_deg": [one.rate_deg for one in best],
-        "band_deg": [None if math.isnan(sum(one.band_deg)) else list(one.band_deg) for one in best],
-        "power_w": [1e3 * one.power_kw for one in best],
+        "best_twist_deg": [twist.rate_deg for twist in best],
+        "band_deg": [None if math.isnan(sum(twist.band_deg)) else list(twist.band_deg) for twist in best],
+        "power_w": [1e3 * twist.power_kw for twist in best],
     }
 
 
-def _moving_record(one: MovingTwist) -> dict[str, float]:
-    return {"best_fixed_deg": one.fixed_deg, "moving_saves_percent": 100.0 * one.gain}
+def _moving_record(twist: MovingTwist) -> dict[str, float]:
+    return {"best_fixed_deg": twist.fixed_deg, "moving_saves_percent": 100.0 * twist.gain}

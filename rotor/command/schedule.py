@@ -10,9 +10,11 @@ from rotor.command.common import (
     STOPPED,
     add_command,
     add_design_arguments,
+    add_output_arguments,
     add_processes_argument,
     add_search_arguments,
     bar,
+    check_output,
     design_from,
     interruptible,
     limits_from,
@@ -29,7 +31,7 @@ from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondit
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.terminal import wrapped
-from rotor.user_input import check_writable, parse_range
+from rotor.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
@@ -54,27 +56,25 @@ def add_parser(commands: Any) -> None:
     add_search_arguments(parser, 4)
     add_processes_argument(parser)
     parser.add_argument("--resume", metavar="FILE", help="store results in this file and resume from it")
-    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with the results so far printed."""
     plan = plan_from(args)
     processes = processes_from(args)
-    if args.csv:
-        check_writable(args.csv)
-    found = read_cells(args.resume, plan) if args.resume else []
+    check_output(args)
+    cells = read_cells(args.resume, plan) if args.resume else []
     keep = open_cells(args.resume, plan) if args.resume else None
     total = len(plan.concepts) * (len(plan.conditions) + 1)
-    with interruptible() as stop, bar(total - len(found), " optima") as advance:
+    with interruptible() as stop, bar(total - len(cells), " optima") as advance:
 
         def add(cell: Cell) -> None:
             if keep is not None:
                 keep(cell)
             advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
 
-        schedule = run_plan(plan, found, add, stop, processes if total - len(found) > 2 else 1)
+        schedule = run_plan(plan, cells, add, stop, processes if total - len(cells) > 2 else 1)
         stopped = stop()
     if args.csv:
         write_table(args.csv, [(*_quantities(plan), *COLUMNS), *_rows(schedule)])
@@ -130,22 +130,23 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 **{name: condition.flight.numbers[name] for name in quantities},
                 "hours": condition.hours,
                 "baseline_power_w": _baseline(schedule, k),
-                "optima": {one.name: _entry(schedule.at(k, one.name), one) for one in plan.concepts},
+                "optima": {concept.name: _entry(schedule.at(k, concept.name), concept) for concept in plan.concepts},
             }
             for k, condition in enumerate(plan.conditions)
         ],
-        "fixed": {one.name: _entry(schedule.at(None, one.name), one) for one in plan.concepts},
+        "fixed": {concept.name: _entry(schedule.at(None, concept.name), concept) for concept in plan.concepts},
         "worth": {
             name: None
-            if one is None
+            if gain is None
             else {
-                "baseline_w": one.baseline,
-                "fixed_w": one.fixed,
-                "moving_w": one.moving,
-                "gain_w": one.gain,
-                "gain_percent": 100.0 * one.share,
+                "baseline_w": gain.baseline,
+                "fixed_w": gain.fixed,
+                "moving_w": gain.moving,
+                "gain_w": gain.gain,
+                "gain_percent": 100.0 * gain.share,
+                "gain_band_w": sure.change_band if (sure := schedule.gain_doubt(name)) is not None else None,
             }
-            for name, one in gains.items()
+            for name, gain in gains.items()
         },
     }
 
@@ -185,13 +186,15 @@ def report(schedule: Schedule) -> str:
         lines.append("*: at a bound or limit that holds it, so the least power lies beyond")
     lines.append("")
     for concept in schedule.plan.concepts:
-        one = schedule.in_flight_gain(concept.name)
-        if one is not None:
+        gain = schedule.in_flight_gain(concept.name)
+        if gain is not None:
             sentence = (
-                f"{concept.title}: current design {one.baseline / 1e3:.1f} kW, best fixed {one.fixed / 1e3:.1f} kW, "
-                f"variable {one.moving / 1e3:.1f} kW. Additional saving from variable twist {one.gain / 1e3:.1f} kW "
-                f"({100 * one.share:.2f} %)."
+                f"{concept.title}: current design {gain.baseline / 1e3:.1f} kW, best fixed {gain.fixed / 1e3:.1f} kW, "
+                f"variable {gain.moving / 1e3:.1f} kW. Additional saving from variable twist {gain.gain / 1e3:.1f} kW "
+                f"({100 * gain.share:.2f} %)."
             )
+            if (sure := schedule.gain_doubt(concept.name)) is not None and sure.change_band is not None:
+                sentence += f" Known to ± {sure.change_band / 1e3:.1f} kW: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end: use --resume FILE to store results and continue.")
@@ -213,13 +216,13 @@ def _kilowatts(power: float | None) -> str:
 
 def _line(cell: Cell, width: int) -> str:
     """An optimum of the table, and below it what holds it; what could not be found says why."""
-    one = cell.optimum
-    if one.best is None:
-        return wrapped(f"  {cell.concept:<{width}}  {one.status.value}: {one.message}", "    ")
-    saving = "" if one.saving is None else f"saves {100 * one.saving:.2f} %"
-    met = f"\n    * {', '.join(one.best.active)}" if one.best.active else ""
-    status = "" if one.status is SearchStatus.CONVERGED else f"  ({one.status.value})"
-    power, twist = _kilowatts(one.best.power), short_spec(one.best.twist)
+    optimum = cell.optimum
+    if optimum.best is None:
+        return wrapped(f"  {cell.concept:<{width}}  {optimum.status.value}: {optimum.message}", "    ")
+    saving = "" if optimum.saving is None else f"saves {100 * optimum.saving:.2f} %"
+    met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
+    status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
+    power, twist = _kilowatts(optimum.best.power), short_spec(optimum.best.twist)
     return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 
@@ -227,18 +230,18 @@ def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     quantities = _quantities(schedule.plan)
     for cell in schedule.cells:
-        condition, one = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
+        condition, optimum = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
         where = ("all", *[""] * len(quantities))
         if condition is not None:
             numbers = condition.flight.numbers
             cells = (f"{numbers[name]:.{6 if name == 'mass_kg' else 4}g}" for name in quantities)
             where = (*cells, f"{condition.hours:.4g}")
         rows.append((
-            *where, cell.concept, one.status.value,
-            "" if one.baseline_power is None else f"{one.baseline_power / 1e3:.2f}",
-            "" if one.best is None else f"{one.best.power / 1e3:.2f}",
-            "" if one.saving is None else f"{100 * one.saving:.2f}",
-            "" if one.best is None else one.best.twist,
-            "" if one.best is None else ", ".join(one.best.active),
+            *where, cell.concept, optimum.status.value,
+            "" if optimum.baseline_power is None else f"{optimum.baseline_power / 1e3:.2f}",
+            "" if optimum.best is None else f"{optimum.best.power / 1e3:.2f}",
+            "" if optimum.saving is None else f"{100 * optimum.saving:.2f}",
+            "" if optimum.best is None else optimum.best.twist,
+            "" if optimum.best is None else ", ".join(optimum.best.active),
         ))  # fmt: skip
     return rows

@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
+from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -35,6 +37,9 @@ def add_parser(commands: Any) -> None:
         help="lift along the blade too; with --json lift, coefficients, angle of attack and induced velocity of one "
         "blade by radius and azimuth",
     )
+    parser.add_argument(
+        "--doubt", action="store_true", help="how sure power is, and what the twist saves against the blade as built"
+    )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
 
@@ -45,19 +50,47 @@ def run(args: argparse.Namespace) -> int:
         check_writable(args.save)
         design.save(args.save)
     solution = solve(design)
-    found = distribution(solution) if args.distribution and solution.converged else None
+    sure = _doubt(solution) if args.doubt and solution.converged else None
+    loads = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
-        also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}
+        also: dict[str, Any] = {"distribution": loads and loads.to_dict()} if args.distribution else {}
         if (band := between_drag_areas(solution)) is not None:
             also["power_band_w"] = [end.power.total for end in band]
+        if args.doubt:
+            also["doubt"] = sure and sure.record()
         record = solution.to_dict()
         also |= _vibration(solution, record["caveats"])
         print(json.dumps({**record, **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
-        if found is not None:
-            print(f"\nlift of one blade\n{found.table()}")
+        if sure is not None:
+            print(f"\n{doubt_table(sure)}")
+        if loads is not None:
+            print(f"\nlift of one blade\n{loads.table()}")
     return 0 if solution.converged else 1
+
+
+def _doubt(solution: Solution) -> Doubt | None:
+    """Against the blade as built, where that has another twist and trims; None for a free rotor."""
+    design = solution.design
+    if design.models.trim == "free-rotor":
+        return None
+    built = replace(design, twist=design.aircraft.twist_for(design.preset))
+    other = None if built == design else solve(built)
+    return doubt(solution, other if other is not None and other.converged else None, models=True)
+
+
+def doubt_table(doubt: Doubt) -> str:
+    """The sentence, and what the band consists of."""
+    lines = [wrapped(doubt.sentence.replace(" It ", " Against the blade as built it ")), ""]
+    lines += [f"{'uncertain':<42}{'by':>8}{'power':>12}{'change':>12}"]
+    for row in doubt.rows:
+        change = "" if row.change is None else f"{row.change / 1e3:+9.2f} kW"
+        lines.append(f"{row.words:<42}{f'{row.size:g} {row.unit}':>8}{row.power / 1e3:+9.2f} kW{change}")
+    for other in doubt.models:
+        change = "" if other.change is None else f"{other.change / 1e3:+9.2f} kW"
+        lines.append(f"{f'with {other.name}':<50}{other.power / 1e3:9.1f} kW{change}")
+    return "\n".join(lines)
 
 
 def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
@@ -68,9 +101,11 @@ def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
         caveats.append(reason.sentence)
     elif loads is None and solution.converged:
         caveats.append("No hub loads: the design does not trim with blades that bend.")
+    elif loads is not None and not solution.design.models.bending:
+        caveats.append("The hub loads are those of blades that bend; add bending for a trim with them.")
     return {
         "hub_loads": loads and loads.record(),
-        "blade_frequencies_per_rev": frequencies and {name: list(own) for name, own in vars(frequencies).items()},
+        "blade_frequencies_per_rev": frequencies and {name: list(values) for name, values in vars(frequencies).items()},
     }
 
 
@@ -141,7 +176,8 @@ def report(solution: Solution) -> str:
             + ", ".join(
                 f"{name} {value:.0f} {'N' if name[0] == 'f' else 'N m'}" for name, value in loads.amplitudes.items()
             ),
-            f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over wakes: trade-offs, not a level",
+            f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over inflow models: "
+            "trade-offs, not a level",
         ]
     lines += [wrapped(f"caveat: {caveat.sentence}", "  ") for caveat in solution.caveats]
     return "\n".join(lines)

@@ -49,7 +49,7 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
         "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
         "robust": robust and asdict(robust),
-        "sensitivities": [asdict(one) for one in effects(results, least)],
+        "sensitivities": [asdict(effect) for effect in effects(results, least)],
         "package_version": results.about.get("package_version", ""),
         "commit": results.about.get("commit") or None,
     }
@@ -73,8 +73,10 @@ def report(results: Results, shown: dict[str, Any]) -> str:
         cases = robust["least_worst"]["cases"]
         counts = f"{_count(cases, 'case')}; {_count(robust['designs'], 'design')}"
         lines += ["", f"robust over {', '.join(shown['uncertain'])} ({counts})"]
-        for name, one in (("least worst case", robust["least_worst"]), ("least mean", robust["least_mean"])):
-            lines.append(f"  {name:<17} worst {value(one['worst'])}, mean {value(one['mean'])}: {_at(one['design'])}")
+        for name, design in (("least worst case", robust["least_worst"]), ("least mean", robust["least_mean"])):
+            lines.append(
+                f"  {name:<17} worst {value(design['worst'])}, mean {value(design['mean'])}: {_at(design['design'])}"
+            )
         if robust["dropped"]:
             lines.append(f"  {_count(robust['dropped'], 'design')} left out: a case failed or is not finished")
     elif shown["uncertain"]:
@@ -82,11 +84,11 @@ def report(results: Results, shown: dict[str, Any]) -> str:
     if shown["sensitivities"]:
         so_far = "" if shown["done"] == shown["points"] else ", from the finished points"
         lines += ["", f"what {least} depends on{so_far}: share of its variance; mean where that is least … most"]
-        for one in shown["sensitivities"]:
+        for row in shown["sensitivities"]:
             ends = (
-                f"{value(one['least'])} at {_text(one['least_at'])} … {value(one['most'])} at {_text(one['most_at'])}"
+                f"{value(row['least'])} at {_text(row['least_at'])} … {value(row['most'])} at {_text(row['most_at'])}"
             )
-            lines.append(f"  {one['axis']:<20}{100 * one['share']:6.1f} %   {ends}")
+            lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
     if shown["failed"]:
         lines += ["", f"{shown['failed']:,} failed, for example:"]
         lines += [f"  {count:,} × {sentence}" for sentence, count in shown["sentences"].items()]

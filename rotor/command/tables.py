@@ -9,7 +9,7 @@ import argparse
 import json
 import math
 import sys
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from tqdm import tqdm
@@ -21,7 +21,9 @@ from rotor.command.common import (
     CONCEPT_HELP,
     add_command,
     add_design_arguments,
+    add_output_arguments,
     add_rotor_argument,
+    check_output,
     design_from,
     finite,
     print_result,
@@ -31,53 +33,80 @@ from rotor.command.common import (
 )
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
-from rotor.design.quantities import CONDITION
+from rotor.design.quantities import CONDITION, SWEPT
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.ideal_bound import Bound, find_bound
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.study.series import PARTS, SHARED_COLUMNS, Waterfall, WaterfallStep, sweep, sweep_columns, waterfall
 from rotor.terminal import wrapped
-from rotor.user_input import check_writable, parse_range
+from rotor.trim.doubt import doubt
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve_alike
+from rotor.user_input import parse_range
 
 
 def add_sweep(commands: Any) -> None:
-    parser = add_command(commands, "sweep", run_sweep, "power of one or more twists over advance ratio")
-    parser.add_argument(
-        "--mu", dest="range", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover"
+    parser = add_command(
+        commands,
+        "sweep",
+        run_sweep,
+        "power of one or more twists over speed, mass, altitude or another quantity of flight",
     )
-    add_design_arguments(parser, twists=True)
-    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    add_design_arguments(parser, twists=True, ranges=True)
+    add_output_arguments(parser)
 
 
 def run_sweep(args: argparse.Namespace) -> int:
     """0 when every point converged, else 1."""
-    advance_ratios = parse_range(args.range)
+    name, steps = _swept(args)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
-    designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input is reported first.
-    if args.csv:
-        check_writable(args.csv)
+    designs = [design_from(args, spec) for spec in specs]
+    points = [
+        design.at(**cast(Any, {name: step})) for design in designs for step in steps
+    ]  # Bad input is reported first.
+    check_output(args)
     rows: list[tuple[str, ...]] = []
-    converged = True
-    columns = tuple(name for name in sweep_columns(designs) if name not in SHARED_COLUMNS)
-    level = all(design.condition.climb_speed == 0.0 for design in designs)
-    shown = [name for name in columns if name != "message" and not (level and name.startswith("climb"))]
+    records: list[dict[str, float | str | None]] = []
+    converged, quiet = True, args.json or args.csv == "-"
+    columns = tuple(name for name in sweep_columns(points) if name not in SHARED_COLUMNS or name == args.over)
+    level = all(design.condition.climb_speed == 0.0 for design in points)
+    unsaid = {"message", "status", *(name for name in columns if level and name.startswith("climb"))}
+    shown = [name for name in columns if name not in unsaid]
     widths = {name: len(name) + 2 for name in shown} | {"mu": 7}
     widths["twist"] = max(len(design.twist.spec()) for design in designs) + 2
-    widths["status"] = len("not-converged") + 2
-    print("".join(f"{name:<{widths[name]}}" for name in shown).rstrip())
-    for design in designs[:: len(advance_ratios)]:
-        table = sweep(design, advance_ratios)
+    if not quiet:
+        print("".join(f"{name:<{widths[name]}}" for name in shown).rstrip())
+    for design in designs:
+        table = sweep(design, **cast(Any, {name: steps}))
         converged = converged and all(solution.converged for solution in table)
         for cells in table.rows:
             named = dict(zip(table.columns, cells, strict=True))
-            row = tuple(_text(name, named[name]) for name in columns)
-            rows.append(row)
+            records.append(named)
+            rows.append(tuple(_text(name, named[name]) for name in columns))
             line = "".join(f"{_text(name, named[name], 1):<{widths[name]}}" for name in shown).rstrip()
-            print(line if named["status"] == "converged" else wrapped(f"{line}  {named['message']}", "    "))
+            if not quiet:
+                good = named["status"] == "converged"
+                print(line if good else wrapped(f"{line}  {named['status']}: {named['message']}", "    "))
     if args.csv:
         write_table(args.csv, [columns, *rows])
+    if args.json:
+        print(json.dumps(records, indent=2, allow_nan=False))
     return 0 if converged else 1
+
+
+def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
+    """Name and values of what is swept; of the others `args` has the one value afterwards."""
+    given: dict[str, list[float]] = {name: getattr(args, name) for name in SWEPT if getattr(args, name) is not None}
+    speeds = [name for name in ("mu", "speed_kt") if name in given]
+    several = [name for name in given if len(given[name]) > 1] or speeds
+    if len(speeds) > 1 or len(several) != 1:
+        asked = " and ".join(f"--{SWEPT[name].flag}" for name in dict.fromkeys((*speeds, *several))) or "nothing"
+        raise ValueError(f"a sweep over {asked}: give one range, for example --mu 0.05:0.40:0.05; 0 is hover")
+    args.over = several[0]
+    for name, values in given.items():
+        setattr(args, name, values[0])
+    return args.over, given[args.over]
 
 
 def _text(name: str, cell: float | str | None, digits: int = 2) -> str:
@@ -90,11 +119,12 @@ def _text(name: str, cell: float | str | None, digits: int = 2) -> str:
 
 
 FRONT_COLUMNS = (
-    "twist_per_rev", "twist", "power_kw", "power_change_percent", "index_percent", "index_change_percent",
+    "twist_per_rev", "twist", "power_kw", "power_change_percent", "power_change_band_percent",
+    "index_percent", "index_change_percent",
     "least_index_percent", "largest_index_percent", "least_change_percent", "largest_change_percent",
     "preview_power_kw", "preview_index_percent",
 )  # fmt: skip
-"""The least and the largest are those over wakes."""
+"""The least and the largest are those over inflow models."""
 
 
 def add_front(commands: Any) -> None:
@@ -108,8 +138,7 @@ def add_front(commands: Any) -> None:
     )
     parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
     add_design_arguments(parser, speed=True)
-    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    add_output_arguments(parser)
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -119,60 +148,66 @@ def run_front(args: argparse.Namespace) -> int:
     except ValueError:
         raise ValueError(f"harmonics {args.harmonics!r} are not understood: write for example 2,3") from None
     design = design_from(args)
-    if args.csv:
-        check_writable(args.csv)
+    check_output(args)
     try:
-        found = vibration_front(design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points)
+        front = vibration_front(design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points)
     except RuntimeError as error:
         print(json.dumps({"status": "not-converged", "message": str(error)}, indent=2) if args.json else str(error))
         return 1
-    rows = [front_row(one, found.start) for one in (found.start, *found.points)]
+    start = solve_alike(front.start.design, None)
+    rows = [front_row(point, front.start, start) for point in (front.start, *front.points)]
     if args.csv:
         write_table(args.csv, [FRONT_COLUMNS, *([_text(name, row[name]) for name in FRONT_COLUMNS] for row in rows)])
-    print_result(args, lambda: front_record(design, found, rows), lambda: _front(found, rows))
-    return 0 if len(found.points) == args.points else 1
+    print_result(args, lambda: front_record(design, front, rows), lambda: _front(front, rows))
+    return 0 if len(front.points) == args.points else 1
 
 
-def front_row(one: FrontPoint, start: FrontPoint) -> dict[str, float | str | None]:
-    """A point by `FRONT_COLUMNS`; None for what it does not have."""
-    active, preview, none = one.design.active_twist, one.preview, (None, None)
+def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> dict[str, float | str | None]:
+    """A point by `FRONT_COLUMNS`; None for what it does not have. trimmed: the solution of the start."""
+    sure = None if point is start else doubt(solve_alike(point.design, trimmed), trimmed).change_band_percent
+    active, preview, none = point.design.active_twist, point.preview, (None, None)
     values = (
-        None if active is None else harmonics_text(active.harmonics), one.design.twist.spec(), one.power / 1e3,
-        100.0 * (one.power / start.power - 1.0), one.index, 100.0 * (one.index / start.index - 1.0),
-        *(one.band or none), *(one.over_wakes or none), preview and preview[0] / 1e3, preview and preview[1],
+        None if active is None else harmonics_text(active.harmonics), point.design.twist.spec(), point.power / 1e3,
+        100.0 * (point.power / start.power - 1.0), sure, point.index, 100.0 * (point.index / start.index - 1.0),
+        *(point.band or none), *(point.over_inflows or none), preview and preview[0] / 1e3, preview and preview[1],
     )  # fmt: skip
     return dict(zip(FRONT_COLUMNS, values, strict=True))
 
 
-def front_record(design: Design, found: VibrationFront, rows: list[dict[str, float | str | None]]) -> dict[str, Any]:
+def front_record(design: Design, front: VibrationFront, rows: list[dict[str, float | str | None]]) -> dict[str, Any]:
     return {
         "status": "converged",
-        "message": found.message,
+        "message": front.message,
         "mu": design.condition.advance_ratio,
         "preset": design.preset,
         "inflow": design.models.inflow,
         "start": rows[0],
         "points": rows[1:],
-        "preview_error_percent": found.preview_error and list(found.preview_error),
+        "preview_error_percent": front.preview_error and list(front.preview_error),
     }
 
 
-def _front(found: VibrationFront, rows: list[dict[str, float | str | None]]) -> str:
+def _front(front: VibrationFront, rows: list[dict[str, float | str | None]]) -> str:
     lines = [
-        found.message,
-        f"{'power':>12}{'change':>10}{'index':>10}{'over wakes':>14}{'change':>9}{'over wakes':>16}   twist",
+        front.message,
+        f"{'power':>12}{'change':>10}{'±':>9}{'index':>10}{'over models':>14}{'change':>9}{'over models':>16}   twist",
     ]
-    for one, row in zip((found.start, *found.points), rows, strict=True):
-        wakes = "" if one.over_wakes is None else "{:+.0f} … {:+.0f} %".format(*one.over_wakes)
-        band = "" if one.band is None else "{:.1f} … {:.1f} %".format(*one.band)
-        active = () if one.design.active_twist is None else one.design.active_twist.harmonics
-        twist = waves_text(active) or short_spec(one.design.twist.spec())
+    for point, row in zip((front.start, *front.points), rows, strict=True):
+        models = "" if point.over_inflows is None else "{:+.0f} … {:+.0f} %".format(*point.over_inflows)
+        band = "" if point.band is None else "{:.1f} … {:.1f} %".format(*point.band)
+        active = () if point.design.active_twist is None else point.design.active_twist.harmonics
+        twist = waves_text(active) or short_spec(point.design.twist.spec())
+        sure = "" if row["power_change_band_percent"] is None else f"{row['power_change_band_percent']:.2f} %"
         lines.append(
-            f"{one.power / 1e3:9.1f} kW{row['power_change_percent']:+8.2f} %{one.index:8.2f} %{band:>14}"
-            f"{row['index_change_percent']:+7.0f} %{wakes:>16}   {twist}"
+            f"{point.power / 1e3:9.1f} kW{row['power_change_percent']:+8.2f} %{sure:>9}{point.index:8.2f} %{band:>14}"
+            f"{row['index_change_percent']:+7.0f} %{models:>16}   {twist}"
         )
-    if found.preview_error is not None:
-        lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*found.preview_error))
+    if any(
+        point.over_inflows is not None and point.over_inflows[0] * point.over_inflows[1] < 0.0 for point in front.points
+    ):
+        lines.append("Where the changes over inflow models differ in sign, no phase is best.")
+    if front.preview_error is not None:
+        lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*front.preview_error))
     lines.append(
         wrapped(
             "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
@@ -193,22 +228,22 @@ def add_waterfall(commands: Any) -> None:
 def run_waterfall(args: argparse.Namespace) -> int:
     """0 when every step converged, else 1."""
     design = design_from(args)
-    found = waterfall(design)
-    print_result(args, lambda: waterfall_record(found), lambda: waterfall_report(found))
-    return 0 if found.converged else 1
+    result = waterfall(design)
+    print_result(args, lambda: waterfall_record(result), lambda: waterfall_report(result))
+    return 0 if result.converged else 1
 
 
-def waterfall_record(found: Waterfall) -> dict[str, Any]:
+def waterfall_record(result: Waterfall) -> dict[str, Any]:
     """The JSON; values of a step that did not trim are null."""
-    design = found.full.design
+    design = result.full.design
     return {
-        "status": "converged" if found.converged else "not-converged",
+        "status": "converged" if result.converged else "not-converged",
         "mu": design.condition.advance_ratio,
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
-        "steps": [_step_record(step) for step in found.steps],
-        "each_alone_off": [_step_record(step) for step in found.alone],
+        "steps": [_step_record(step) for step in result.steps],
+        "each_alone_off": [_step_record(step) for step in result.alone],
     }
 
 
@@ -222,8 +257,8 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
     }
 
 
-def waterfall_report(found: Waterfall) -> str:
-    design = found.full.design
+def waterfall_report(result: Waterfall) -> str:
+    design = result.full.design
     heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in _parts(design))
     return "\n".join(
         [
@@ -232,11 +267,11 @@ def waterfall_report(found: Waterfall) -> str:
             "",
             "Switched on one after another",
             heading,
-            *(_step_line(step) for step in found.steps),
+            *(_step_line(step) for step in result.steps),
             "",
             "Each effect removed on its own",
             heading,
-            *(_step_line(step) for step in found.alone),
+            *(_step_line(step) for step in result.alone),
         ]
     )
 
@@ -250,7 +285,7 @@ def _step_line(step: WaterfallStep) -> str:
         power = step.solution.power
         return f"{start}{'':9}" + "".join(f"{getattr(power, part) / 1e3:10.1f}" for part in parts)
     changes = "".join(f"{_kilowatts(step.change[part]):+10.1f}" for part in parts)
-    return f"{start}{_kilowatts(step.added):+9.1f}{changes}{note}"
+    return wrapped(f"{start}{_kilowatts(step.added):+9.1f}{changes}{note}", "    ")
 
 
 def _parts(design: Design) -> list[str]:
@@ -267,7 +302,7 @@ _IDEAL_COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",
     "linear_deg",
 )  # fmt: skip
-_IDEAL_UNITS = ("", "kg", "", "", "kW", *["κ"] * 4, "°/R")
+_IDEAL_UNITS = (*[""] * 5, *["κ"] * 4, "°/R")
 """κ: induced power over C_T λ0."""
 
 _EXPLANATION = (
@@ -289,7 +324,7 @@ def add_ideal(commands: Any) -> None:
         "--mass-kg", metavar="LIST", help="aircraft masses, as 5000,8322.4 (default: the reference mass)"
     )
     add_rotor_argument(parser)
-    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    add_output_arguments(parser)
 
 
 def run_ideal(args: argparse.Namespace) -> int:
@@ -300,18 +335,23 @@ def run_ideal(args: argparse.Namespace) -> int:
     if min(speeds) < 0.02:
         raise ValueError(f"advance ratio {min(speeds):g} is too low for a skewed wake: start at 0.02 or more")
     designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
-    if args.csv:
-        check_writable(args.csv)
+    check_output(args)
     rows: list[tuple[str, ...]] = []
-    for heading in (_IDEAL_COLUMNS, _IDEAL_UNITS):
-        print("".join(f"{word:>16}" for word in heading))
+    words = [name.partition("_")[::2] for name in _IDEAL_COLUMNS]
+    widths = [max(9, *(len(word) + 1 for word in pair)) for pair in words]
+    quiet = args.json or args.csv == "-"
+    for heading in () if quiet else (*zip(*words, strict=True), _IDEAL_UNITS):
+        print("".join(f"{word:>{width}}" for word, width in zip(heading, widths, strict=True)))
     for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):
         bound = find_bound(design)
         rows.append(_ideal_row(design.condition.mass, bound, bound.ct * bound.lambda0 * design.power_unit))
-        print("".join(f"{cell:>16}" for cell in rows[-1]))
+        if not quiet:
+            print("".join(f"{cell:>{width}}" for cell, width in zip(rows[-1], widths, strict=True)))
     if args.csv:
         flag = f" --rotor {args.rotor}" if args.rotor else ""
         write_table(args.csv, [_IDEAL_COLUMNS, *rows], _EXPLANATION.format(rotor=craft.name, flag=flag))
+    if args.json:
+        print(json.dumps([dict(zip(_IDEAL_COLUMNS, map(float, row), strict=True)) for row in rows], indent=2))
     return 0
 
 
@@ -377,7 +417,7 @@ def _show_section(section: Section, as_json: bool) -> None:
     sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), table.moment(0.0, mach)
     columns: dict[str, tuple[str, int, Array]] = {
         "mach": ("Mach", 2, mach),
-        "cl_alpha_per_deg": ("cl_alpha/deg", 4, np.deg2rad(table.lift_slope(mach))),
+        "cl_alpha_per_deg": ("slope/deg", 4, np.deg2rad(table.lift_slope(mach))),
         "zero_lift_deg": ("alpha0 deg", 2, np.rad2deg(table.zero_lift_alpha(mach))),
         "stall_negative_deg": ("stall- deg", 1, np.rad2deg(negative)),
         "stall_positive_deg": ("stall+ deg", 1, np.rad2deg(positive)),
@@ -402,12 +442,14 @@ def _show_section(section: Section, as_json: bool) -> None:
         }
         print(json.dumps(answer))
         return
-    print(f"{section.name}: {table.source}")
+    print(wrapped(f"{section.name}: {table.source}", "  "))
     print(
         f"data to Mach {table.mach_limit:g}; chord line {offset:g} deg nose-down of, "
         f"and chord {section.chord_ratio:g} times, those of SC1095"
     )
-    print("  ".join(f"{head:>12}" for head, _, _ in columns.values()))
+    widths = [max(len(head) + 1, 8) for head, _, _ in columns.values()]
+    print("".join(f"{head:>{width}}" for (head, _, _), width in zip(columns.values(), widths, strict=True)))
     for k in range(len(mach)):
-        print("  ".join(f"{values[k]:12.{decimals}f}" for _, decimals, values in columns.values()))
+        cells = zip(columns.values(), widths, strict=True)
+        print("".join(f"{values[k]:{width}.{decimals}f}" for (_, decimals, values), width in cells))
     print("drag divergence (dcd/dM = 0.1) at Mach " + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items()))

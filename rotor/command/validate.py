@@ -10,6 +10,7 @@ from typing import Any
 
 from rotor.command.common import add_command
 from rotor.plots import draw_chart
+from rotor.terminal import wrapped
 from rotor.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
@@ -48,44 +49,44 @@ def run(args: argparse.Namespace) -> int:
         if name not in known:
             raise ValueError(f"set {name!r} is not known: use one of {', '.join(known)}")
     chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
-    found: list[Comparison] = []
+    comparisons: list[Comparison] = []
     for measured in chosen:
         comparison = compare(measured, args.inflow)
-        found.append(comparison)
+        comparisons.append(comparison)
         if not args.json:
-            print(("" if len(found) == 1 else "\n") + report(comparison), flush=True)
+            print(("" if len(comparisons) == 1 else "\n") + report(comparison), flush=True)
     inflow = list(inflow_agreement()) if INFLOW_SET in names else []
     curves = list(airload_agreement(tuple(name for name in names if name in REPORTS)))
     powers = list(flown_powers()) if POWERS in names else []
     others = [TRUST_SETS[name]() for name in names if name in _OTHERS]
     if args.json:
         record = {
-            "sets": [one.to_dict() for one in found],
-            "inflow": [asdict(one) for one in inflow],
-            "airloads": [one.to_dict() | {"fitted": False} for one in curves],
-            "powers": [asdict(one) | {"fitted": False} for one in powers],
-            "rows": [asdict(row) for one in others for row in one.rows],
+            "sets": [comparison.to_dict() for comparison in comparisons],
+            "inflow": [asdict(agreement) for agreement in inflow],
+            "airloads": [curve.to_dict() | {"fitted": False} for curve in curves],
+            "powers": [asdict(power) | {"fitted": False} for power in powers],
+            "rows": [asdict(row) for other in others for row in other.rows],
         }
         print(json.dumps(record, indent=2, allow_nan=False))
     else:
         tables = [inflow_report(inflow)] if inflow else []
         tables += [airload_report(curves)] if curves else []
         tables += [power_report(powers)] if powers else []
-        for one in others:
+        for other in others:
             what, shown = (
-                max(map(len, words)) for words in zip(*((row.what, row.shown) for row in one.rows), strict=True)
+                max(map(len, words)) for words in zip(*((row.what, row.shown) for row in other.rows), strict=True)
             )
-            lines = [f"{row.what:<{what}}  {row.shown:<{shown}}  {row.verdict}" for row in one.rows]
-            tables.append("\n".join([one.title, *lines]))
+            lines = [f"{row.what:<{what}}  {row.shown:<{shown}}  {row.verdict}" for row in other.rows]
+            tables.append("\n".join([other.title, *lines]))
         if tables:
-            print(("\n" if found else "") + "\n\n".join(tables))
+            print(("\n" if comparisons else "") + "\n\n".join(tables))
     if args.plot:
-        for comparison in found:
+        for comparison in comparisons:
             draw(comparison, Path(args.plot))
     for name in names if args.page else ():
         page = write_set(TRUST_SETS[name](), make_folder(args.page))
         print(f"page: {page}", file=sys.stderr)
-    return 0 if all(point.ours is not None for one in found for point in one.judged) else 1
+    return 0 if all(point.ours is not None for comparison in comparisons for point in comparison.judged) else 1
 
 
 def inflow_report(rows: list[InflowAgreement]) -> str:
@@ -98,11 +99,13 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
         lines.append(
             f"{row.mu:6.2f}  {row.model:<30}{correlation:>12}{row.rms:9.4f}{row.mean:9.4f}{row.measured_mean:10.4f}"
         )
-    return "\n".join([*lines, WHY])
+    return "\n".join([*lines, wrapped(WHY)])
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:
-    lines = [*(f"{name}: {REPORTS[name]}; never fitted" for name in dict.fromkeys(row.case.test for row in rows))]
+    lines = [
+        *(wrapped(f"{name}: {REPORTS[name]}; never fitted") for name in dict.fromkeys(row.case.test for row in rows))
+    ]
     lines.append(
         f"{'case':>6}{'r/R':>7}  {'quantity':<14}{'correlation':>12}{'rms':>10}{'of':>10}{'mean':>10}{'measured':>10}"
     )
@@ -112,7 +115,7 @@ def airload_report(rows: list[CurveAgreement]) -> str:
             f"{row.measured_rms:10.4f}{row.mean:10.4f}{row.measured_mean:10.4f}"
         )
     lines.append(
-        "Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of the difference and of the measured."
+        wrapped("Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of difference and measured.")
     )
     return "\n".join(lines)
 
@@ -132,18 +135,18 @@ def power_report(rows: list[FlownPower]) -> str:
     return "\n".join(lines)
 
 
-def report(found: Comparison) -> str:
-    measured, quantity = found.measured, found.measured.quantity
+def report(comparison: Comparison) -> str:
+    measured, quantity = comparison.measured, comparison.measured.quantity
     lines = [
-        f"{measured.name}: {measured.title}",
-        f"{measured.report}",
-        f"inflow {found.inflow}; never fitted",
+        wrapped(f"{measured.name}: {measured.title}"),
+        wrapped(measured.report),
+        f"inflow {comparison.inflow}; never fitted",
         "".join(f"{name:>15}" for name in (*measured.given, "measured", "ours", "error %")) + "  within scatter",
     ]
-    for point in found.points:
+    for point in comparison.points:
         cells = "".join(f"{point.given[name]:15.5g}" for name in measured.given)
         if point.ours is None:
-            lines.append(f"{cells}{point.measured[quantity]:15.6g}  {point.message}")
+            lines.append(wrapped(f"{cells}{point.measured[quantity]:15.6g}  {point.message}", " " * 15))
             continue
         marks = "yes" if point.within_scatter else "no"
         missed = "" if point.passed else ", misses the target"
@@ -152,33 +155,33 @@ def report(found: Comparison) -> str:
             f"{cells}{point.measured[quantity]:15.6g}{point.ours[quantity]:15.6g}{point.error_percent:+15.1f}"
             f"  {marks}{missed}{aside}"
         )
-    lines.append(verdict(found))
-    if lost := [point for point in found.points if point.ours is None]:
-        counted = sum(point in found.judged for point in lost)
+    lines.append(wrapped(verdict(comparison)))
+    if lost := [point for point in comparison.points if point.ours is None]:
+        counted = sum(point in comparison.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"
-        lines.append(f"{len(lost)} of {len(found.points)} points do not trim, {where}.")
-    if found.why_missed:
-        lines.append(found.why_missed)
+        lines.append(f"{len(lost)} of {len(comparison.points)} points do not trim, {where}.")
+    if comparison.why_missed:
+        lines.append(wrapped(comparison.why_missed))
     return "\n".join(lines)
 
 
-def verdict(found: Comparison) -> str:
+def verdict(comparison: Comparison) -> str:
     """Root mean square, worst error and target in one line."""
-    rms = "a point does not trim" if found.rms_percent is None else f"rms {found.rms_percent:.1f} %"
-    worst = "" if found.worst_percent is None else f", worst {found.worst_percent:+.1f} %"
+    rms = "a point does not trim" if comparison.rms_percent is None else f"rms {comparison.rms_percent:.1f} %"
+    worst = "" if comparison.worst_percent is None else f", worst {comparison.worst_percent:+.1f} %"
     target = "indicative, without a target"
-    if found.passed is not None:
-        target = f"target {found.measured.target}: {'met' if found.passed else 'missed'}"
+    if comparison.passed is not None:
+        target = f"target {comparison.measured.target}: {'met' if comparison.passed else 'missed'}"
     return f"{rms}{worst}; {target}"
 
 
-def draw(found: Comparison, folder: Path) -> Path:
+def draw(comparison: Comparison, folder: Path) -> Path:
     """Measured points with their scatter, and ours, as `SET.png`."""
     pictures: Any = importlib.import_module("matplotlib.figure")
-    measured = found.measured
+    measured = comparison.measured
     figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")
-    draw_chart(comparison_chart([found]), figure.subplots()).set_title(
-        f"{measured.title}\n{verdict(found)}", fontsize="medium"
+    draw_chart(comparison_chart([comparison]), figure.subplots()).set_title(
+        f"{measured.title}\n{verdict(comparison)}", fontsize="medium"
     )
     path = folder / f"{measured.name}.png"
     try:

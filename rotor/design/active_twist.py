@@ -27,7 +27,7 @@ class Harmonic:
 
     per_rev: int
     amplitude: float
-    """Of active twist, tip relative to root, or of root pitch [rad]."""
+    """Amplitude of active twist, tip relative to root, or of root pitch [rad]."""
     phase: float = 0.0
     """φ [rad], 0…2π: most nose-up at ψ = φ/n."""
 
@@ -82,8 +82,8 @@ def root_pitch(harmonics: tuple[Harmonic, ...]) -> ActiveTwist:
 
 def check_harmonics(harmonics: tuple[Harmonic, ...], what: str) -> None:
     """Raise ValueError, with one sentence, where a harmonic is there twice; so there are `HIGHEST` at most."""
-    found = [harmonic.per_rev for harmonic in harmonics]
-    twice = next((n for k, n in enumerate(found) if n in found[:k]), None)
+    orders = [harmonic.per_rev for harmonic in harmonics]
+    twice = next((n for k, n in enumerate(orders) if n in orders[:k]), None)
     if twice is not None:
         raise ValueError(f"{what} has {twice}/rev twice: give each harmonic once")
 
@@ -120,9 +120,11 @@ def read_harmonics(value: PerRev, name: str) -> tuple[Harmonic, ...]:
         items = list(value)
     else:
         raise ValueError(f"{name} is {value!r:.80}: {_FORM}")
-    found = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
-    check_harmonics(found, name)
-    return tuple(sorted((one for one in found if one.amplitude), key=lambda one: one.per_rev))
+    harmonics = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
+    check_harmonics(harmonics, name)
+    return tuple(
+        sorted((harmonic for harmonic in harmonics if harmonic.amplitude), key=lambda harmonic: harmonic.per_rev)
+    )
 
 
 def _harmonic(item: Any, name: str) -> Harmonic:
@@ -148,18 +150,21 @@ def _shown(item: Any) -> str:
 
 def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
     """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
-    return ",".join(f"{one.per_rev}:{degrees_text(one.amplitude)}:{degrees_text(one.phase)}" for one in harmonics)
+    return ",".join(
+        f"{harmonic.per_rev}:{degrees_text(harmonic.amplitude)}:{degrees_text(harmonic.phase)}"
+        for harmonic in harmonics
+    )
 
 
 def harmonics_record(harmonics: tuple[Harmonic, ...]) -> list[dict[str, Any]]:
     """Rows of a record, with angles in degrees."""
     return [
         {
-            "per_rev": one.per_rev,
-            "amplitude_deg": float(degrees_text(one.amplitude)),
-            "phase_deg": float(degrees_text(one.phase)),
+            "per_rev": harmonic.per_rev,
+            "amplitude_deg": float(degrees_text(harmonic.amplitude)),
+            "phase_deg": float(degrees_text(harmonic.phase)),
         }
-        for one in harmonics
+        for harmonic in harmonics
     ]
 
 

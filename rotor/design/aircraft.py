@@ -42,7 +42,7 @@ class Stand:
     thrust: float | None = None
     """Along the shaft [N]."""
     ct_over_sigma: float | None = None
-    """The same over ρA(ΩR)²σ."""
+    """Thrust over ρA(ΩR)²σ."""
     collective: float | None = None
     """Pitch at 0.75 R [rad]."""
     cyclic_1c: float = 0.0
@@ -54,7 +54,7 @@ class Stand:
     hub_roll: float = 0.0
     """Moment of the rotor on its hub [N m], towards the retreating side."""
     hub_pitch: float = 0.0
-    """The same nose up."""
+    """Moment of the rotor on its hub [N m], nose up."""
     tip_mach: float | None = None
     """ΩR over the speed of sound; left out, that of the standard atmosphere."""
     density: float | None = None
@@ -131,6 +131,10 @@ class FlightCondition:
     rotor_speed_percent: float = 100.0
     """Ω over that of the rotor file [%]; the tail rotor is geared to it."""
 
+    load_factor: float = 1.0
+    """n, lift over weight, of a steady turn: lift n W cos γ across the flight path, D + W sin γ along it. Not of the
+    turn: rates of roll, pitch and yaw of the shaft, and blades that weigh n times as much."""
+
     def __post_init__(self) -> None:
         tested = self.stand is not None
         for row in CONDITION.values():
@@ -164,6 +168,11 @@ class FlightCondition:
     def weight(self) -> float:
         """[N]"""
         return self.mass * GRAVITY
+
+    @property
+    def load(self) -> float:
+        """n W, what the rotor carries [N]"""
+        return self.load_factor * self.weight
 
     @cached_property
     def density(self) -> float:
@@ -209,7 +218,7 @@ def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
     """Names of the quantities that a table of these conditions has: those of every table, and what is set."""
     numbers = [condition.numbers for condition in conditions]
     return tuple(
-        name for name, row in CONDITION.items() if row.told or any(own[name] != row.default for own in numbers)
+        name for name, row in CONDITION.items() if row.told or any(value[name] != row.default for value in numbers)
     )
 
 
@@ -318,6 +327,8 @@ class Aircraft:
     """Assumptions made when the files were read, in sentences."""
     installed_power: float | None = None
     """What the engines give at sea level [W]; None where the file does not say."""
+    doubt: tuple[tuple[str, float], ...] = ()
+    """Sizes of uncertain inputs that the file states, by the names of `assets/doubt.toml`."""
     isolated: bool = False
     """Whether the file is of a rotor alone, without an airframe, to be tested on a stand."""
 

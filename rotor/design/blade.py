@@ -18,7 +18,7 @@ class BladeStructure:
     """Stiffness, inertia and mass along one blade; linear between stations and constant beyond."""
 
     radius: float
-    """Of the tip [m]."""
+    """Radius of the tip [m]."""
     stations: tuple[float, ...]
     """Radii [m], ascending."""
     torsional_stiffness: tuple[float, ...]
@@ -40,14 +40,17 @@ class BladeStructure:
     lag_stiffness: tuple[float, ...] = ()
     """EI in lag [N m²]"""
     lag_damper: float = 0.0
-    """Of a linear damper at the lag hinge [N m s/rad]."""
+    """Rate of a linear damper at the lag hinge [N m s/rad]."""
     lag_spring: float | None = None
-    """Of the root in lag [N m/rad]; None: a hinge is free, a hingeless root is held."""
+    """Spring rate of the root in lag [N m/rad]; None: a hinge is free, a hingeless root is held."""
+    mass_offset: tuple[float, ...] = ()
+    """How far the centre of gravity lies behind the pitch axis [m]; empty: on it. Stability alone reads it."""
 
     def __post_init__(self) -> None:
-        bending = tuple(own for own in (self.flap_stiffness, self.lag_stiffness) if own)
+        bending = tuple(stiffness for stiffness in (self.flap_stiffness, self.lag_stiffness) if stiffness)
         columns = (self.torsional_stiffness, self.mass_per_length, self.torsional_inertia, *bending)
-        if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in columns):
+        given = (*columns, self.mass_offset) if self.mass_offset else columns
+        if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in given):
             raise ValueError(
                 f"a blade structure has {len(self.stations)} stations: give two or more, with one stiffness, mass and "
                 "inertia each"
@@ -161,8 +164,8 @@ class Blade:
 
     def installed(self, name: str) -> Section:
         """The section `name` with table and outline, the user's or a bundled one; ValueError for an unknown name."""
-        own = next((section for section in self.own_sections if section.name == name), None)
-        return install_own(own) if own else load_installed(name)
+        supplied = next((section for section in self.own_sections if section.name == name), None)
+        return install_own(supplied) if supplied else load_installed(name)
 
     def section_at(self, r: float) -> tuple[str, str, float]:
         """Inner section, outer section and the weight of the outer one (0 within a span) at r = y/R."""
@@ -207,11 +210,11 @@ class Rotor:
         return f"Rotor({self.name}, {size}, twist {self.builtin_twist.spec()})"
 
     def at_speed(self, percent: float) -> "Rotor":
-        """The same rotor at this part of the speed it is built for; 100 is itself."""
-        own = self.angular_speed if self.own_speed is None else self.own_speed
+        """This rotor at a part of the speed it is built for [%]; 100 is itself."""
+        speed = self.angular_speed if self.own_speed is None else self.own_speed
         if percent == 100.0:
-            return self if self.own_speed is None else replace(self, angular_speed=own, own_speed=None)
-        return replace(self, angular_speed=own * (percent / 100.0), own_speed=own)
+            return self if self.own_speed is None else replace(self, angular_speed=speed, own_speed=None)
+        return replace(self, angular_speed=speed * (percent / 100.0), own_speed=speed)
 
     @property
     def tip_speed(self) -> float:
@@ -245,7 +248,7 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
     """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
     ends = (rotor.blade.root_cutout, *breaks, 1.0)
     if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
-        given = ", ".join(f"{one:g}" for one in breaks)
+        given = ", ".join(f"{place:g}" for place in breaks)
         raise ValueError(
             f"{len(sections)} airfoils with {f'changes at {given}' if breaks else 'no change'}: give one ascending r/R "
             f"between each two, beyond the root cut-out {rotor.blade.root_cutout:g}, for example "

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Unpack, cast
 
 from rotor.design.active_twist import (
     ActiveTwist,
@@ -25,17 +25,22 @@ from rotor.design.active_twist import (
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.quantities import (
+    CHOSEN,
     CONDITION,
     OPTIONS,
     PRESETS,
     QUANTITIES,
     STAND_TRIMS,
+    SWEPT,
+    Flight,
     FlightTrim,
     HoverInflow,
     LossOn,
     LowSpeed,
     StandTrim,
+    When,
 )
+from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.user_input import check_suffix, write_whole
 
@@ -59,7 +64,7 @@ def _text(value: Any) -> str:
 
 
 FORMAT = "rotor-explorer design"
-"""Of design files."""
+"""Value of the key `format` in design files."""
 VERSION = 2
 
 
@@ -117,9 +122,12 @@ class Models:
     """Whether the blade twists under its loads. Off: rigid in torsion."""
     bending: bool = False
     """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
-    dynamic_stall: bool = False
+    dynamic_stall: When = "auto"
     """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall.
-    Off: section data of steady flow."""
+    `auto`: where with steady ones more than 5 % of the disk is stalled, but for polynomials of one Mach number."""
+    unsteady: When = "auto"
+    """Whether attached flow is unsteady. `auto`: where blades bend or pitch follows the azimuth at n/rev, but for the
+    document's models and polynomials of one Mach number."""
     low_speed: LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
@@ -142,7 +150,9 @@ class Models:
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        for name in ("hover_inflow", "low_speed", "loss_on"):
+        for name in CHOSEN:
+            object.__setattr__(self, name, QUANTITIES[name].chosen(getattr(self, name)))
+        for name in ("hover_inflow", "low_speed", "loss_on", *CHOSEN):
             QUANTITIES[name].check_choice(getattr(self, name))
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
@@ -219,27 +229,20 @@ class Design:
             f"preset {self.preset}, inflow {inflow})"
         )
 
-    def at(
-        self,
-        *,
-        mu: float | None = None,
-        speed_kt: float | None = None,
-        hover: bool = False,
-        mass_kg: float | None = None,
-        altitude_m: float | None = None,
-        climb_m_s: float | None = None,
-        rotor_speed_percent: float | None = None,
-    ) -> "Design":
-        """The same design at another flight condition; what is left out stays as it is.
+    @takes(SWEPT, after="hover")
+    def at(self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[Flight[float | None]]) -> "Design":
+        """This design at another flight condition; what is left out stays as it is.
 
         The arguments are those of `make_design`; `mu`, `speed_kt` and `hover` exclude one another.
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
-        asked = locals()
-        return replace(self, condition=changed_condition(self.condition, self.rotor.at_speed(100.0).tip_speed, asked))
+        tip_speed = self.rotor.at_speed(100.0).tip_speed
+        return replace(
+            self, condition=changed_condition(self.condition, tip_speed, {"mu": mu, "hover": hover, **flight})
+        )
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
-        """The same design with another twist: a law, or a SPEC as `parse_twist` reads it.
+        """This design with another twist: a law, or a SPEC as `parse_twist` reads it.
 
         In a SPEC `builtin` is this rotor's own twist, and `ideal` the ideal twist for this weight in hover.
         """
@@ -268,7 +271,7 @@ class Design:
             "inflow": self.models.inflow,
             **{
                 name: getattr(self.models, name)
-                for name in ("hover_inflow", "low_speed", "loss_on", *switches, *OPTIONS)
+                for name in ("hover_inflow", "low_speed", "loss_on", *CHOSEN, *switches, *OPTIONS)
                 if name in always or getattr(self.models, name) != getattr(preset, name)
             },
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
@@ -279,12 +282,12 @@ class Design:
 
     def _per_rev_record(self) -> dict[str, Any]:
         """Pitch that follows the azimuth; a twist linear from the root cut-out as on the command line."""
-        active, made = self.active_twist, dict[str, Any]()
+        active, record = self.active_twist, dict[str, Any]()
         if self.linear_active_twist:
-            made["twist_per_rev"] = harmonics_text(self.linear_active_twist)
+            record["twist_per_rev"] = harmonics_text(self.linear_active_twist)
         elif active is not None:
-            made["active_twist"] = active_twist_record(active)
-        return made | ({"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {})
+            record["active_twist"] = active_twist_record(active)
+        return record | ({"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {})
 
     def save(self, path: str | Path) -> None:
         """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
@@ -330,11 +333,14 @@ class Design:
 
     @property
     def drag_parts(self) -> tuple[float, float]:
-        """Drag coefficients of the airframe over ρA(ΩR)², aft and down."""
-        speed = self.flight_speed
+        """Coefficients of drag over ρA(ΩR)², aft and down.
+
+        In a climbing turn less what n W pulls back along the path beyond the weight: (n − 1) W sin γ.
+        """
+        speed, here = self.flight_speed, self.condition
         if speed == 0.0:
             return 0.0, 0.0
-        drag = self.drag / self.thrust_unit
+        drag = (self.drag - (here.load - here.weight) * here.climb_speed / speed) / self.thrust_unit
         return drag * (self.airspeed / speed), drag * (self.condition.climb_speed / speed)
 
     @property
@@ -348,11 +354,11 @@ class Design:
 
     @property
     def weight_coefficient(self) -> float:
-        """C_W = W/(ρ A (ΩR)²); on a test stand the thrust coefficient given, or where the collective is given what
+        """C_W = n W/(ρ A (ΩR)²); on a test stand the thrust coefficient given, or where the collective is given what
         blade element theory expects of an untwisted blade."""
         stand = self.condition.stand
         if stand is None:
-            return self.condition.weight / self.thrust_unit
+            return self.condition.load / self.thrust_unit
         if stand.ct_over_sigma is not None:
             return stand.ct_over_sigma * self.rotor.solidity
         if stand.collective is not None:
@@ -406,6 +412,7 @@ THESIS_MODELS = Models(
     tail_rotor_solved=False,
     loss_on="inflow",
     document_losses=True,
+    dynamic_stall="off",
 )
 
 
@@ -417,11 +424,11 @@ def with_grid(models: Models, elements: int | None = None, azimuths: int | None 
 
 def grid_asked(models: Models) -> dict[str, int | None]:
     """The arguments of `with_grid` that give these models; None for the numbers of a preset."""
-    plain, found = FLIGHT_MODELS, dict[str, int | None]()
+    plain, asked_for = FLIGHT_MODELS, dict[str, int | None]()
     for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):
         values = {getattr(models, name) for name in (asked, line) if getattr(models, name) != getattr(plain, name)}
-        found[asked] = min(values, default=None)
-    return found
+        asked_for[asked] = min(values, default=None)
+    return asked_for
 
 
 def preset_models(preset: str) -> Models:

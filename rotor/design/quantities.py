@@ -7,10 +7,10 @@ quantity of studies and sweeps, columns of tables, keys of JSON, and on the page
 by the name of the page's input. `ARGUMENTS`, `CONDITION`, `SWITCHES` and `STAND` are the rows of a kind, in order.
 `row.of(design)` is the value that a design has, in the unit at the end of the name, `row.put(design, value)` the
 design with another, `row.check(value)` refuses what lies outside its bounds, `row.said(value)` is it in words, and
-`row.slider` what the page shows. How to add one: CONTRIBUTING.md. One file, because it is one table.
+`row.slider` what the page shows. How to add one: docs/developers/quantity.md. One file, because it is one table.
 """
 
-from typing import Literal, get_args
+from typing import Generic, Literal, TypedDict, TypeVar, get_args
 
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
@@ -25,12 +25,31 @@ StandTrim = Literal["wind-tunnel", "free-rotor", "controls"]
 """`wind-tunnel`: shaft tilt and thrust or collective given; `free-rotor`: no torque, collective or thrust given;
 `controls`: collective, cyclic and shaft tilt given."""
 Flapping = Literal["trimmed", "free", "hub-moments"]
+Value = TypeVar("Value")
+
+
+class Flight(TypedDict, Generic[Value], total=False):
+    """Arguments of `make_design`, `Design.at` and `rotor.sweep` beside `mu`, as a type checker sees them.
+
+    `rotor.design.quantity.takes` gives these functions a keyword for each row.
+    """
+
+    speed_kt: Value
+    mass_kg: Value
+    altitude_m: Value
+    climb_m_s: Value
+    rotor_speed_percent: Value
+    load_factor: Value
+
+
 HOVER_INFLOWS: tuple[HoverInflow, ...] = get_args(HoverInflow)
 LOW_SPEEDS: tuple[LowSpeed, ...] = get_args(LowSpeed)
 LOSS_ON: tuple[LossOn, ...] = get_args(LossOn)
 STAND_TRIMS: tuple[StandTrim, ...] = get_args(StandTrim)
 TRIMS: tuple[FlightTrim | StandTrim, ...] = (*get_args(FlightTrim), *STAND_TRIMS)
 PRESETS = ("flight", "thesis")
+When = Literal["auto", "on", "off"]
+WHEN: tuple[When, ...] = get_args(When)
 
 
 def _switch(name: str, title: str, on: str, off: str, source: str = "section 5") -> Quantity:
@@ -129,14 +148,17 @@ _CONDITION = (
         input="advance_ratio", slider=Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
         hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
     ),
-    Quantity("speed_kt", "number", "the same as airspeed in knots", examples=(60, 90, 120), section="fixed"),
+    Quantity(
+        "speed_kt", "number", "the same as airspeed in knots", what="airspeed", examples=(60, 90, 120),
+        section="fixed",
+    ),
     Quantity("hover", "switch", "hover, in place of a speed", default=False),
     Quantity(
         "mass_kg", "number", "aircraft mass (default: the rotor's reference mass)",
         place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
         examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
-        input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg"),
-        aviation=Slider("Mass [lb]", 11_000.0, 24_300.0, 100.0, 0.2 * POUND, "/200 lb"),
+        input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg", "t", 1e3),
+        aviation=Slider("Mass [lb]", 11_000.0, 24_300.0, 100.0, 0.2 * POUND, "/200 lb", "lb", POUND),
         hint="Gross mass; the rotor carries its weight W = mg. | section 2",
     ),
     Quantity(
@@ -144,23 +166,35 @@ _CONDITION = (
         place="condition.altitude", what="altitude", low=-500.0, high=8_000.0, default=0.0,
         examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, told=True,
         input="altitude_m", slider=Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
-        aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft"),
+        aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft", "ft", FOOT),
+        in_place="density_kg_m3",
         hint="Pressure altitude in the standard atmosphere: it sets air density and speed of sound. | section 2",
     ),
     Quantity(
         "climb_m_s", "number", "rate of climb, negative in descent (default 0); preset flight",
-        place="condition.climb_speed", what="rate of climb", short="climb", low=-20.0, high=20.0, default=0.0,
-        in_flight=True, axial=True, examples=(-5, 0, 5), key="climb_m_s", word="climb", section="fixed", told=True,
-        input="climb_m_s", slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
-        aviation=Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)"),
+        place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
+        plain="level flight", low=-20.0, high=20.0, default=0.0, in_flight=True, axial=True, examples=(-5, 0, 5),
+        key="climb_m_s", word="climb", section="fixed", told=True, input="climb_m_s",
+        slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
+        aviation=Slider(
+            "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0
+        ),
         hint="Rate of climb, negative in descent; µ is of the horizontal speed. | section 2",
     ),
     Quantity(
         "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays",
-        place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", low=70.0, high=110.0,
-        default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm", section="fixed",
-        input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
+        place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", plain="its own rotor speed",
+        low=70.0, high=110.0, default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm",
+        section="fixed", input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
         hint="Rotor speed over that of the rotor file; µ stays, and the tail rotor is geared to it. | section 2",
+    ),
+    Quantity(
+        "load_factor", "number", "lift over weight in a steady turn at the same drag of the airframe (default 1)",
+        place="condition.load_factor", what="load factor", short="load factor", plain="straight flight", low=0.1,
+        high=5.0, default=1.0, in_flight=True, examples=(1.2, 1.0, 1.5), key="load_factor", word="n", section="fixed",
+        input="load_factor", slider=Slider("Load factor n", 0.5, 3.0, 0.01, 0.1, "/0.1"),
+        hint="Lift over weight in a steady turn, n = 1/cos of the bank angle; the propulsive force is that of straight "
+        "flight. The body's rate of turn and heavier blades are left out. | section 2",
     ),
 )  # fmt: skip
 
@@ -195,24 +229,25 @@ _MODELS = (
         "flight (default): best available; thesis: the models of the source document, on a rotor other than the "
         "UH-60A with that rotor's own sections, planform, hinge and twist",
         place="preset", default=PRESETS[0], key="preset", section="models", written=True, input="preset",
+        title="Preset",
         hint="Model choices of the source document, or the best available; each can be changed. | section 15",
     ),
     Quantity(
         "inflow", "text", "model of the inflow, of forward flight or of hover",
-        place="models.inflow", key="inflow", section="models", written=True, input="inflow",
+        place="models.inflow", key="inflow", section="models", written=True, input="inflow", title="Inflow",
         hint="How the inflow through the disk depends on speed and load distribution. | 3.4",
     ),
     Quantity(
         "low_speed", "choice",
         "hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not",
-        place="models.low_speed", choices=LOW_SPEEDS, key="low_speed", input="low_speed",
+        place="models.low_speed", choices=LOW_SPEEDS, key="low_speed", input="low_speed", title="At low speed",
         hint="Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any "
         "speed. | section 9",
     ),
     Quantity(
         "loss_on", "choice",
         "lift (flight) or inflow (thesis): what Prandtl's factors act on under linear inflow in forward flight",
-        place="models.loss_on", choices=LOSS_ON, key="loss_on", input="loss_on",
+        place="models.loss_on", choices=LOSS_ON, key="loss_on", input="loss_on", title="Tip and root loss",
         hint="Prandtl's factors with linear inflow in forward flight: less lift at the ends of the blade, or more "
         "inflow. | 3.3",
     ),
@@ -222,24 +257,33 @@ _MODELS = (
     ),
     Quantity(
         "off", "text", "physical effects switched off, separated by commas",
-        choices=tuple(one.flag for one in _SWITCHES),
+        choices=tuple(switch.flag for switch in _SWITCHES),
     ),
     Quantity(
         "bending", "switch",
         "blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads",
         place="models.bending", default=False, key="bending", section="models", input="bending",
-        title="Blade bending",
+        title="Blade bending", short="blades bend",
         hint="On: blades whose stiffness is known bend in flap and lag, drawn ten times as large; the hub then has "
         "vibratory loads. Off: they flap as rigid blades. | section 10",
     ),
     Quantity(
-        "dynamic_stall", "switch",
-        "sections that stall with the lags and the vortex of Leishman and Beddoes; --off dynamic-stall takes away "
-        "that of a design file",
-        place="models.dynamic_stall", default=False, key="dynamic_stall", section="models", input="dynamic_stall",
+        "dynamic_stall", "choice",
+        "sections that stall with the lags and the vortex of Leishman and Beddoes: auto (flight), where with steady "
+        "ones more than a twentieth of the disk is stalled; on, as the flag alone says; off (thesis)",
+        place="models.dynamic_stall", choices=WHEN, key="dynamic_stall", section="models", input="dynamic_stall",
         title="Dynamic stall",
-        hint="On: separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and "
-        "Beddoes). Off: section data of steady flow. Measurements are met no better on the whole. | section 5",
+        hint="Separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and Beddoes). By "
+        "itself where steady sections have more than 5 % of the disk stalled; or always, or never. | section 5",
+    ),
+    Quantity(
+        "unsteady", "choice",
+        "auto (default): attached flow is unsteady, with apparent mass and the flow at three quarters of the chord, "
+        "where blades bend or pitch follows the azimuth at n/rev; on; off",
+        place="models.unsteady", choices=WHEN, default="auto", key="unsteady", section="models", input="unsteady",
+        title="Unsteady flow",
+        hint="Lift by the flow at three quarters of the chord, and the mass of air that a section moves. By itself "
+        "where blades bend or pitch follows the azimuth at n/rev; or always, or never. | section 5",
     ),
     Quantity(
         "elements", "whole", "blade elements (default 40, or 24 panels of a lifting line)",
@@ -254,7 +298,7 @@ _MODELS = (
     ),
     Quantity(
         "trim", "text", "in flight, or on a test stand (the last three)",
-        place="models.trim", choices=TRIMS, key="trim", section="models", input="trim",
+        place="models.trim", choices=TRIMS, key="trim", section="models", input="trim", title="Flight or test",
         hint="Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; "
         "with the conditions of its tests, where a rotor was measured.",
     ),
@@ -268,7 +312,8 @@ _MODELS = (
 
 _HOVER_INFLOW = Quantity(
     "hover_inflow", "choice", place="models.hover_inflow", choices=HOVER_INFLOWS, key="hover_inflow",
-    input="hover_inflow", hint="Hover: momentum balance of each annulus, or one equation. | 3.3",
+    input="hover_inflow", title="Inflow in hover",
+    hint="Hover: momentum balance of each annulus, or one equation. | 3.3",
 )  # fmt: skip
 _ACTIVE_TWIST = Quantity("active_twist", "object", key="active_twist")
 
@@ -326,7 +371,7 @@ _STAND = (
     Quantity(
         "flapping", "choice",
         "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
-        place="condition.stand.flapping", choices=get_args(Flapping), input="stand_flapping",
+        place="condition.stand.flapping", choices=get_args(Flapping), input="stand_flapping", title="Flapping",
         hint="First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub "
         "moments.",
     ),
@@ -338,21 +383,25 @@ _STUDIES = (
 )
 
 ARGUMENTS = {row.name: row for row in (*_BLADE, *_CONDITION, *_MODELS)}
-"""Those of `make_design`, in its order."""
+"""Arguments of `make_design`, in its order."""
 CONDITION = {row.name: row for row in _CONDITION if row.place}
 """Numbers of the flight condition."""
+SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *CONDITION)}
+"""What a sweep may go over, and what `Design.at` takes beside `hover`."""
 BESIDE = {name: row for name, row in CONDITION.items() if row.short}
-"""Those of them that reports have only where they are not the default."""
+"""Quantities of the flight condition that reports have only where they are not the default."""
 SPEED = ("mu", "speed_kt", "hover")
-"""Of which one is given."""
+"""Ways to give the speed, of which one is used."""
 SWITCHES = {row.name: row for row in _SWITCHES}
 """Effects that can be switched off, in the order in which a waterfall adds them."""
-OPTIONS = ("bending", "dynamic_stall")
+OPTIONS = ("bending",)
 """Effects that are off unless they are asked for."""
+CHOSEN = ("unsteady", "dynamic_stall")
+"""Effects that are on by themselves where they count, and may be asked for or taken away."""
 STAND = {row.name: row for row in _STAND}
 """Keys of a test stand. In a study `stand_` stands before the name."""
 LOAD_KEYS = ("thrust_n", "ct_over_sigma", "collective_deg")
-"""Of which one is given."""
+"""Ways to give the load on a stand, of which one is used."""
 QUANTITIES = {**ARGUMENTS, **SWITCHES, **{row.name: row for row in (_HOVER_INFLOW, *_STUDIES)}}
 """All by name, but for the test stand's."""
 BY_KEY = {row.key: row for row in (*QUANTITIES.values(), _ACTIVE_TWIST) if row.key}

@@ -1,9 +1,12 @@
 """A row of the table of quantities: what it holds and what can be asked of it. The rows: `rotor.design.quantities`."""
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import wraps
+from inspect import Parameter, signature
 from numbers import Real
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar, cast
 
 Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
@@ -48,6 +51,10 @@ class Slider:
     """The step that an engineer thinks in, in the unit of the page's input."""
     per: str = "/°"
     """What follows the power for a natural step."""
+    unit: str = ""
+    """What a value is followed by in words, where it is not the unit of the name."""
+    size: float = 1.0
+    """One of its unit, in the unit of the name."""
 
     @property
     def digits(self) -> int:
@@ -63,13 +70,17 @@ class Quantity:
     """Argument of `make_design`, and of a study; the unit of a number is its end."""
     kind: Kind
     help: str = ""
-    """Of the flag and of the argument, one clause."""
+    """Help of the flag and of the argument, one clause."""
     place: str = ""
     """Fields that lead to it from a `Design`, as `condition.mass`; empty where it sets several."""
     what: str = ""
     """In sentences, as `rate of climb`."""
     short: str = ""
     """Before the value in reports, which have it where it is not the default: `climb`."""
+    plain: str = ""
+    """The default in words: `level flight`."""
+    below: str = ""
+    """The word on the page for a value below zero, which is then without its sign: `descent`."""
     low: float = -math.inf
     high: float = math.inf
     high_on_stand: float | None = None
@@ -83,14 +94,16 @@ class Quantity:
     """None: that at the end of the name."""
     in_flight: bool = False
     """Whether it is for flight only: a test stand has none."""
+    in_place: str = ""
+    """What the page shows on a test stand in its place."""
     axial: bool = False
     """Whether it needs models with the axial flow of the tilted disk, which the document's have not."""
     key: str = ""
-    """Of design files; empty where they have none."""
+    """Key in design files; empty where they have none."""
     word: str = ""
     """In a link, where it is shorter than the key."""
     section: Literal["", "fixed", "models"] = ""
-    """Of a study file; as an axis it is in [axes]. Empty: not for studies."""
+    """Section of a study file; as an axis it is in [axes]. Empty: not for studies."""
     written: bool = False
     """Whether every design file has it; else only where it is not the default."""
     told: bool = False
@@ -104,22 +117,22 @@ class Quantity:
     aviation: Slider | None = None
     """In aviation units, where they differ."""
     title: str = ""
-    """Of a switch."""
+    """Title of a switch."""
     on: str = ""
     """The effect that a switch adds, one sentence."""
     off: str = ""
     """The model without it, one sentence."""
     hint: str = ""
-    """Of the page, where it says more than the help; after a bar the equation or the section of docs/theory.md."""
+    """Hint on the page, where it says more than the help; after a bar the equation or the section of docs/theory.md."""
 
     @property
     def flag(self) -> str:
-        """As on the command line, without the dashes in front."""
+        """The flag on the command line, without the dashes in front."""
         return self.name.removesuffix("_kg_m3").replace("_", "-")
 
     @property
     def symbol(self) -> str:
-        """Its unit."""
+        """Unit of the quantity, as a symbol."""
         return unit_of(self.name) if self.unit is None else self.unit
 
     @property
@@ -132,9 +145,14 @@ class Quantity:
         return self.place.rpartition(".")[2]
 
     @property
+    def heading(self) -> str:
+        """At the begin of a line."""
+        return f"{self.what[:1].upper()}{self.what[1:]}"
+
+    @property
     def axis_title(self) -> str:
         """For the axis of a chart."""
-        return f"{self.what[:1].upper()}{self.what[1:]}" + (f" [{self.symbol}]" if self.symbol else "")
+        return self.heading + (f" [{self.symbol}]" if self.symbol else "")
 
     @property
     def tooltip(self) -> str:
@@ -178,6 +196,10 @@ class Quantity:
         """What a file must give."""
         return _WANTED[self.kind][0]
 
+    def chosen(self, value: Any) -> Any:
+        """The choice that a value is: true and false of older files are on and off, where these are choices."""
+        return ("on" if value else "off") if isinstance(value, bool) and "on" in self.choices else value
+
     def holds(self, value: Any) -> bool:
         """Whether a value from a file is of its kind."""
         types = _WANTED[self.kind][1]
@@ -197,6 +219,39 @@ class Quantity:
     def applies(self, *, tested: bool, axial: bool) -> bool:
         """Whether it counts: on a test stand, and with models that have the axial flow of the tilted disk or not."""
         return not (tested and self.in_flight) and (axial or not self.axial)
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def takes(names: Iterable[str], after: str) -> Callable[[Function], Function]:
+    """Give a function a keyword for each name, None by default, in place of its `**` parameter.
+
+    They follow `after` in its signature. Another keyword is a TypeError, as Python words it.
+    """
+
+    def with_keywords(function: Function) -> Function:
+        before = signature(function)
+        written = {
+            name: parameter
+            for name, parameter in before.parameters.items()
+            if parameter.kind is not Parameter.VAR_KEYWORD
+        }
+        added = [Parameter(name, Parameter.KEYWORD_ONLY, default=None) for name in names if name not in written]
+        place = 1 + list(written).index(after)
+        kept = list(written.values())
+        signed = before.replace(parameters=[*kept[:place], *added, *kept[place:]])
+
+        @wraps(function)
+        def called(*given: Any, **asked: Any) -> Any:
+            if (wrong := next((name for name in asked if name not in signed.parameters), None)) is not None:
+                raise TypeError(f"{function.__name__}() got an unexpected keyword argument {wrong!r}")
+            return function(*given, **asked)
+
+        called.__dict__["__signature__"] = signed
+        return cast(Function, called)
+
+    return with_keywords
 
 
 def _replaced(thing: Any, names: list[str], value: Any) -> Any:

@@ -42,7 +42,7 @@ class BendingBeam:
     r: Array
     """[m]"""
     weight: Array
-    """Of the points in an integral along the blade [m]."""
+    """Weights of the points in an integral along the blade [m]."""
     mass: Array
     """[kg/m]"""
     tension: Array
@@ -89,13 +89,12 @@ def bending_beam(
 def _polynomials(nodes: Array, r: Array) -> tuple[Integers, Array]:
     """Number of the element of each station, and its four polynomials with two derivatives, (stations, 3, 4)."""
     element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
-    length = np.diff(nodes)[element]
-    s = (r - nodes[element]) / length
-    one, o = np.ones_like(s), length
+    o = np.diff(nodes)[element]
+    s = (r - nodes[element]) / o
     values = [1 - 3 * s**2 + 2 * s**3, o * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3, o * (s**3 - s**2)]
     slopes = [(6 * s**2 - 6 * s) / o, 1 - 4 * s + 3 * s**2, (6 * s - 6 * s**2) / o, 3 * s**2 - 2 * s]
-    curvatures = [(12 * s - 6) / o**2, (6 * s - 4) / o, (6 - 12 * s) / o**2, (6 * s - 2 * one) / o]
-    return element, np.stack([np.stack(own, axis=-1) for own in (values, slopes, curvatures)], axis=1)
+    curvatures = [(12 * s - 6) / o**2, (6 * s - 4) / o, (6 - 12 * s) / o**2, (6 * s - 2) / o]
+    return element, np.stack([np.stack(polynomials, axis=-1) for polynomials in (values, slopes, curvatures)], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +113,7 @@ class BendingModes:
         element, basis = _polynomials(self.beam.nodes, radii)
         ends = np.concatenate([np.take(self.nodal, element + k, axis=1) for k in range(2)], axis=2)
         flap, lag = ends[:, :, [0, 1, 4, 5]], ends[:, :, [2, 3, 6, 7]]  # Of both ends, (modes, stations, 4) each.
-        out = np.stack([np.einsum("kn,mkn->mk", basis[:, d], own) for own in (flap, lag) for d in range(3)])
+        out = np.stack([np.einsum("kn,mkn->mk", basis[:, d], ends_of) for ends_of in (flap, lag) for d in range(3)])
         return out * (radii >= self.beam.nodes[0])
 
     @property
@@ -156,15 +155,15 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
 
     def add(matrix: Array, by_value: Array, by_slope: Array, by_curvature: Array, rows: int, columns: int) -> None:
         blocks = sum(
-            (beam.weight * factor)[:, None, None] * own
-            for factor, own in ((by_value, value), (by_slope, slope), (by_curvature, curvature))
+            (beam.weight * factor)[:, None, None] * product
+            for factor, product in ((by_value, value), (by_slope, slope), (by_curvature, curvature))
         )
         first = 4 * element[:, None] + np.array([0, 1, 4, 5])
         np.add.at(matrix, ((first + rows)[:, :, None], (first + columns)[:, None, :]), blocks)
 
     none = np.zeros_like(beam.r)
-    for own in (0, 2):
-        add(mass, beam.mass, none, none, own, own)
+    for row in (0, 2):
+        add(mass, beam.mass, none, none, row, row)
     add(stiffness, none, beam.tension, up, 0, 0)
     add(stiffness, -(beam.angular_speed**2) * beam.mass, beam.tension, forward, 2, 2)
     add(stiffness, none, none, both, 0, 2)
@@ -185,7 +184,7 @@ def blade_bending_modes(
 
     count: how many of those that move more in flap, and in lag.
     """
-    stations, angles = (np.array(own) for own in pitch)
+    stations, angles = (np.array(values) for values in pitch)
 
     def at(r: Array) -> Array:
         return np.interp(r, stations, angles)
@@ -204,5 +203,5 @@ def lowest_by_kind(modes: BendingModes, flap: int, lag: int) -> BendingModes:
 def frequencies_by_kind(modes: BendingModes) -> tuple[list[float], list[float]]:
     """Frequencies [per rev] of the modes that move more in flap, and of those that move more in lag."""
     per_rev, flaps = (modes.frequency / modes.beam.angular_speed).tolist(), (modes.flap_share > 0.5).tolist()
-    flap = [own for own, kind in zip(per_rev, flaps, strict=True) if kind]
-    return flap, [own for own, kind in zip(per_rev, flaps, strict=True) if not kind]
+    flap = [frequency for frequency, kind in zip(per_rev, flaps, strict=True) if kind]
+    return flap, [frequency for frequency, kind in zip(per_rev, flaps, strict=True) if not kind]

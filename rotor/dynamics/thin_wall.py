@@ -44,7 +44,7 @@ class Layer:
     thickness: float
     """[m]"""
     angle: float
-    """Of the fibres from the span axis [rad]."""
+    """Angle of the fibres from the span axis [rad]."""
     free_strain: tuple[float, float] = (0.0, 0.0)
     """Λ1, Λ2 along and across the fibres: strain of the free sheet under voltage or heat [-]."""
 
@@ -220,7 +220,7 @@ def _extension_at_centre(section: WallSection) -> float:
     """ε_x per newton at the tension centre, where a force causes no bending: the least over all points."""
     base = respond(section, force=1.0)
     by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
-    compliance = np.array([[own.extension, own.curvature_y, own.curvature_z] for own in (base, by_y, by_z)]).T
+    compliance = np.array([[e.extension, e.curvature_y, e.curvature_z] for e in (base, by_y, by_z)]).T
     return float(compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0]))
 
 

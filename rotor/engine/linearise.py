@@ -61,7 +61,7 @@ class Nodes:
     matrix: NDArray[np.float32]
     """A, (points, points); points in the order (element, azimuth). Products with it are summed in double precision."""
     tolerance: float
-    """Of y − f."""
+    """Tolerance of y − f."""
     limit: float
     """Largest step of y."""
 
@@ -86,7 +86,7 @@ class Shapes:
         none = np.zeros(len(widths))
 
         def stack(all_names: Sequence[Mapping[Shape, int]]) -> Array:
-            return np.array([values.get(name, none) for own in all_names for name in own]).reshape(-1, len(widths))
+            return np.array([values.get(name, none) for names in all_names for name in names]).reshape(-1, len(widths))
 
         self.phi = stack(structure.shapes)
         """(shapes of all channels, elements)"""
@@ -116,18 +116,18 @@ class System:
     grid: Grid
     """All azimuths."""
     thin: Grid
-    """The same on few azimuths, or `grid` itself."""
+    """The grid on few azimuths, or `grid` itself."""
     section: Callable[[Array, Any, bool, bool], tuple[Array, Array, Array]]
     """Channels and the data of the grid → forces, partial derivatives and flow; the last two where asked for."""
     make: Callable[[Array], tuple[Array, Array, Live]]
     """x → derived atoms, their slopes by the roots (derived, roots), live shapes."""
     numbers: Array
     tolerance: Array
-    """Of each equation, (equations,)."""
+    """Tolerance of each equation, (equations,)."""
     limits: Array
     """Largest step of each state solved for, (equations,)."""
     nodes: Nodes | None = None
-    """Their equations and unknowns come after all others."""
+    """Nodes, whose equations and unknowns come after all others."""
     memory: Callable[[Array, Any], Memory] | None = None
     """Channels and the data of the grid → how forces follow channels at other azimuths; None where they do not."""
 
@@ -162,8 +162,8 @@ class Point:
     @cached_property
     def memory(self) -> Memory | None:
         """How forces follow channels at other azimuths."""
-        found = self.system.memory
-        return None if found is None else found(self.channels, self.grid.data)
+        memory = self.system.memory
+        return None if memory is None else memory(self.channels, self.grid.data)
 
     @cached_property
     def remembered(self) -> Array:
@@ -199,13 +199,13 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     nodes = system.nodes
     if nodes is not None:
         channels[nodes.channel] += nodes.field(y).reshape(channels.shape[1:])
-    forces, found, s = system.section(channels, grid.data, slopes, flow)
+    forces, balanced, s = system.section(channels, grid.data, slopes, flow)
     q = np.concatenate([[1.0], _means(system, grid, forces)])
     residual = structure.residual.value(z, q)
     if nodes is not None:
         missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
         residual = np.concatenate([residual, missing.ravel()])
-    return Point(system, grid, x, z, by_roots, phi, channels, forces, found, s, q, residual)
+    return Point(system, grid, x, z, by_roots, phi, channels, forces, balanced, s, q, residual)
 
 
 def _coefficients(structure: Structure, z: Array) -> Array:
@@ -216,9 +216,9 @@ def _coefficients(structure: Structure, z: Array) -> Array:
 
 
 @_compile
-def _add_times(factor: float, one: Any, out: Any) -> None:
+def _add_times(factor: float, times: Any, out: Any) -> None:
     for j in range(len(out)):
-        out[j] += factor * one[j]
+        out[j] += factor * times[j]
 
 
 @_compile
@@ -263,20 +263,20 @@ def _between(
     """Means of Ψ D Φ w_p w_q from the Fourier coefficients of Σ Ψ D Φ, (coefficients, measures), see `Blocks`."""
     n = phi.shape[1]
     for b in range(len(blocks)):
-        slope, first, end, own, last, waves, start, stop = blocks[b]
-        pairs = np.empty(((end - first) * (last - own), n))
+        slope, first, end, begin, last, waves, start, stop = blocks[b]
+        pairs = np.empty(((end - first) * (last - begin), n))
         for i in range(first, end):
-            for k in range(own, last):
-                pairs[(i - first) * (last - own) + k - own] = psi[i] * phi[k]
+            for k in range(begin, last):
+                pairs[(i - first) * (last - begin) + k - begin] = psi[i] * phi[k]
         around = products[:waves].T
         if len(pairs) > n:  # The order of the two products that takes less.
-            found = np.dot(pairs, np.dot(slopes[slope], around))
+            product = np.dot(pairs, np.dot(slopes[slope], around))
         else:
-            found = np.dot(np.dot(pairs, slopes[slope]), around)
-        flat = found.reshape(-1)
+            product = np.dot(np.dot(pairs, slopes[slope]), around)
+        flat = product.reshape(-1)
         for e in range(start, stop):
-            one = factors[0, e] * flat[places[2, e]] + factors[1, e] * flat[places[3, e]]
-            out[places[0, e], places[1, e]] = one
+            value = factors[0, e] * flat[places[2, e]] + factors[1, e] * flat[places[3, e]]
+            out[places[0, e], places[1, e]] = value
 
 
 def jacobian(point: Point, further: Terms = NOTHING) -> tuple[Array, Array]:
@@ -303,9 +303,9 @@ _MANY_ENTRIES = 20_000
 """Size from which a matrix with few measures in each equation is multiplied as a sparse one. Our choice."""
 
 
-def _sparse_times(one: Array, other: Array) -> Array:
+def _sparse_times(array: Array, other: Array) -> Array:
     """A product whose first factor is mostly zero."""
-    return np.asarray(csr_matrix(one) @ other) if one.size > _MANY_ENTRIES else one @ other
+    return np.asarray(csr_matrix(array) @ other) if array.size > _MANY_ENTRIES else array @ other
 
 
 def response(point: Point, fields: Mapping[int, Array], given: Array) -> tuple[Array, Array]:
@@ -433,22 +433,22 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     spread.ravel()[structure.measure_places] = on_q[1:]
     forces = np.zeros_like(point.forces)
     _add_along_blade(psi, structure.first_weight, spread @ waves.mean.T, forces)
-    for force, own in measure.forces.items():
-        forces[force] += own
+    for force, weights in measure.forces.items():
+        forces[force] += weights
     if nodes is not None:
         forces[nodes.force] -= on_nodes.reshape(forces.shape[1:])
     channels = np.zeros_like(point.channels) if point.memory is None else point.memory.transposed(forces)
-    for channel, own in measure.channels.items():
-        channels[channel] += own
+    for channel, weights in measure.channels.items():
+        channels[channel] += weights
     used = {*measure.forces, *(() if nodes is None else (nodes.force,))}
     _add_by_channels(
         point.slopes, structure.slope_rows(used, () if nodes is None else (nodes.channel,)), forces, channels
     )
     around = np.zeros((len(point.phi), waves.azimuths))
     _add_around(point.phi, structure.first_row, channels, around)
-    for channel, names, own in measure.parts:
+    for channel, names, weights in measure.parts:
         rows = structure.rows_of(channel, names)
-        around[rows] += point.phi[rows] @ own
+        around[rows] += point.phi[rows] @ weights
     on_z[first:] += _coefficient_slopes(point) @ (around @ waves.at.T).ravel()[structure.coefficient_places]
     by_free = _by_free(structure, on_z[None, first:], point.by_roots)[0]
     if nodes is not None:

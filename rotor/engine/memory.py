@@ -81,6 +81,6 @@ class Memory:
                     continue
                 between = by_inputs[:, force].reshape(elements, count, -1) @ onto
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
-                found = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
-                own, shape = weight[measures] - first, (row[columns] - begin)[:, None]
-                out[np.ix_(columns, 1 + measures)] += found[own, shape, other[measures], wave[columns][:, None]]
+                product = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
+                place, shape = weight[measures] - first, (row[columns] - begin)[:, None]
+                out[np.ix_(columns, 1 + measures)] += product[place, shape, other[measures], wave[columns][:, None]]

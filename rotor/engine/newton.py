@@ -52,14 +52,14 @@ class Factors:
 
     @classmethod
     def of(cls, point: Point) -> "Factors":
-        """Of the Jacobian at a point with slopes."""
+        """Factors of the Jacobian at a point with slopes."""
         matrix = jacobian(point)[0]
         scaled = matrix / point.system.tolerance[:, None]
         return cls.of_matrix(matrix, np.einsum("ij,ij->j", scaled, scaled))
 
     @classmethod
     def of_matrix(cls, matrix: Array, weight: Array | None = None) -> "Factors":
-        """Of a Jacobian, which is spent; without W where no steps are made with them."""
+        """Factors of a Jacobian, which is spent; without W where no steps are made with them."""
         if len(matrix) < _MANY:
             lu, pivots, singular = dgetrf(matrix.T, overwrite_a=True)
         else:
@@ -86,7 +86,7 @@ class NewtonLimits:
     """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
     as much as two to four, and one or two steps follow them."""
     most_steps_on_few: float = 2.0
-    """The same on few azimuths: these derivatives serve all later steps."""
+    """Most steps with derivatives on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
     """Factors are kept for the next solution where the last step left less than this part of the residual."""
 
@@ -102,7 +102,7 @@ class Solved:
     passes: int
     """Evaluations of the equations."""
     factors: Factors | None
-    """Those of the last step, where they left little of the residual."""
+    """Factors of the last step, where they left little of the residual."""
 
 
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
@@ -115,11 +115,11 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         return transposed(point, v)[0]
 
     shape = len(right), len(right)
-    found, unfinished = gmres(
+    solution, unfinished = gmres(
         LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-9, restart=20, maxiter=2,
         M=LinearOperator(shape, matvec=partial(near.solve, transposed=True), dtype=np.float64),
     )  # fmt: skip
-    return None if unfinished else found
+    return None if unfinished else solution
 
 
 class _Corrected:
@@ -139,19 +139,19 @@ class _Corrected:
 
     def step(self, residual: Array) -> Array:
         """−H R, after the correction by the last step."""
-        found = self.factors.solve(residual)
+        step = self.factors.solve(residual)
         for change, along in self._updates:
-            found += change * (along @ found)
+            step += change * (along @ step)
         if self._before is not None and self.taken is not None:
-            shown = found - self._before  # H y
+            shown = step - self._before  # H y
             along = self.factors.weight * self.taken
             length = float(along @ shown)
             if length:
                 change = (self.taken - shown) / length
                 self._updates.append((change, along))
-                found = found + change * (along @ found)
-        self._before = found
-        return -found
+                step = step + change * (along @ step)
+        self._before = step
+        return -step
 
 
 def solve(system: System, x: Array, factors: Factors | None = None, limits: NewtonLimits = DEFAULT_LIMITS) -> Solved:
@@ -221,7 +221,7 @@ class _Steps:
         return point
 
     def _length(self, step: Array) -> float:
-        """Of a step, in units of the largest allowed."""
+        """Length of a step, in units of the largest allowed."""
         return float((np.abs(step) / self._system.limits).max())
 
     def _at(self, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:

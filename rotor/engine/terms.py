@@ -37,12 +37,12 @@ def _slopes(
 ) -> None:  # fmt: skip
     """`Terms.slopes`; skipped: atoms before the first."""
     for k in range(len(row)):
-        i, j, own = first[k], second[k], q[measure[k]]
+        i, j, value = first[k], second[k], q[measure[k]]
         by_q[row[k], measure[k]] += factor[k] * z[i] * z[j]
         if i >= skipped:
-            by_z[row[k], i - skipped] += factor[k] * z[j] * own
+            by_z[row[k], i - skipped] += factor[k] * z[j] * value
         if j >= skipped:
-            by_z[row[k], j - skipped] += factor[k] * z[i] * own
+            by_z[row[k], j - skipped] += factor[k] * z[i] * value
 
 
 Term = tuple[int, int, int, int, float] | tuple[int, int, int, int, float, int]
@@ -73,7 +73,7 @@ class Terms:
 
     @classmethod
     def of(cls, terms: Sequence[Term], rows: int) -> "Terms":
-        """Their list; rows: number of equations."""
+        """Terms from their list; rows: number of equations."""
         places = [(*term[:4], term[5] if len(term) > 5 else ONE) for term in terms]
         columns = np.array(places, dtype=np.int64).reshape(-1, 5).T.copy()
         return cls(*columns, factor=np.array([term[4] for term in terms], dtype=np.float64), rows=rows)
@@ -96,7 +96,7 @@ class Terms:
         return np.unique(self.row[self.measure > 0])
 
     def stacked(self, other: "Terms") -> "Terms":
-        """Its rows, then those of another."""
+        """The rows of these terms, then those of others."""
         names = "measure", "first", "second", "number", "factor"
         pairs = ((getattr(self, name), getattr(other, name)) for name in names)
         row = np.concatenate([self.row, other.row + self.rows])
@@ -105,8 +105,10 @@ class Terms:
     def transposed(self, v: Array, z: Array, q: Array) -> tuple[Array, Array]:
         """`slopes` times weights on the rows from the left, (rows,) → (measures,), (atoms,)."""
         weights = self.factor * z[self.number] * v[self.row]
-        first, second, own = z[self.first], z[self.second], q[self.measure]
-        by_z = summed(self.first, weights * second * own, len(z)) + summed(self.second, weights * first * own, len(z))
+        first, second, value = z[self.first], z[self.second], q[self.measure]
+        by_z = summed(self.first, weights * second * value, len(z)) + summed(
+            self.second, weights * first * value, len(z)
+        )
         return summed(self.measure, weights * first * second, len(q)), by_z
 
 
@@ -119,12 +121,12 @@ class Blocks:
     """Where the derivatives of the measures by the wave coefficients stand, for each pair of force and channel."""
 
     arrays: Integers
-    """Of each block: row of the section's partial derivatives, first and last weight, first and last shape, how many
+    """By block: row of the section's partial derivatives, first and last weight, first and last shape, how many
     waves their products have, and where its entries begin and end, (blocks, 8)."""
     places: Integers
-    """Of each entry: coefficient and measure, and places of the two waves of their product, (4, entries)."""
+    """By entry: coefficient and measure, and places of the two waves of their product, (4, entries)."""
     factors: Array
-    """Of these two, (2, entries)."""
+    """Factors of the two waves of each entry, (2, entries)."""
 
 
 def _kind_of(name: Hashable) -> Hashable:
@@ -175,18 +177,18 @@ class Structure:
         self, channel: int, shape: Shape, wave: int, factor: float, i: int, j: int = ONE, times: int = STEADY
     ) -> None:  # fmt: skip
         """Add factor · z_i z_j · Φ(r) w_wave(ψ) w_times(ψ) to a channel."""
-        own = self.shapes[channel]
-        row = own.setdefault(shape, len(own))
+        shapes = self.shapes[channel]
+        row = shapes.setdefault(shape, len(shapes))
         for product, share in times_wave(wave, times):
             if factor * share:
                 self.columns.append((channel, row, product, i, j, factor * share))
 
     def measure(self, force: int, shape: Shape, wave: int) -> int:
         """Q_k: the mean of Σ Ψ w F Δr; of a finished structure one that it has."""
-        own = self.weights[force]
+        weights = self.weights[force]
         if self.finished:
-            return self.measures[force, own[shape], wave]
-        key = force, own.setdefault(shape, len(own)), wave
+            return self.measures[force, weights[shape], wave]
+        key = force, weights.setdefault(shape, len(weights)), wave
         return self.measures.setdefault(key, 1 + len(self.measures))
 
     def equation(self, name: Hashable) -> int:
@@ -202,7 +204,9 @@ class Structure:
     def sum(self, name: str, terms: Sequence[Addend]) -> None:
         """A further measure."""
         numbers = [term[4] if len(term) > 4 else ONE for term in terms]
-        self.sums[name] = Terms.of([(0, t[3], t[1], t[2], t[0], own) for t, own in zip(terms, numbers, strict=True)], 1)
+        self.sums[name] = Terms.of(
+            [(0, t[3], t[1], t[2], t[0], number) for t, number in zip(terms, numbers, strict=True)], 1
+        )
 
     def finish(self, free: Sequence[int]) -> "Structure":
         """free: the atoms solved for, as many as there are equations."""
@@ -229,10 +233,10 @@ class Structure:
 
     @fixed_property
     def kinds(self) -> tuple[list[Hashable], list[Hashable]]:
-        """Of every equation and of every state solved for: the first word of its name, or the name."""
+        """Kind of every equation and of every state solved for: the first word of its name, or the name."""
         by_atom = {atom: name for name, atom in self.states.items()}
         names = list(self.equations), [by_atom[atom] for atom in self.free.tolist()]
-        equations, states = ([_kind_of(name) for name in own] for own in names)
+        equations, states = ([_kind_of(name) for name in kind] for kind in names)
         return equations, states
 
     def equations_of(self, kind: Hashable) -> Integers:
@@ -246,17 +250,17 @@ class Structure:
     @fixed_property
     def first_row(self) -> Integers:
         """Row of the first shape of each channel among all shapes, (channels + 1,)."""
-        return np.cumsum([0, *(len(own) for own in self.shapes)])
+        return np.cumsum([0, *(len(shapes) for shapes in self.shapes)])
 
     def rows_of(self, channel: int, names: Sequence[Shape]) -> Integers:
         """Rows of some shapes of a channel among all shapes."""
-        own = self.shapes[channel]
-        return self.first_row[channel] + np.array([own[name] for name in names], dtype=np.int64)
+        shapes = self.shapes[channel]
+        return self.first_row[channel] + np.array([shapes[name] for name in names], dtype=np.int64)
 
     @fixed_property
     def first_weight(self) -> Integers:
-        """The same of the measures by force, (forces + 1,)."""
-        return np.cumsum([0, *(len(own) for own in self.weights)])
+        """First measure of each force among all measures, (forces + 1,)."""
+        return np.cumsum([0, *(len(weights) for weights in self.weights)])
 
     @fixed_property
     def column_arrays(self) -> tuple[Integers, Integers, Integers, Array]:
@@ -320,16 +324,16 @@ class Structure:
         keys, arrays, places, factors = self.measure_keys, list[list[int]](), list[Array](), list[Array]()
         entries = 0
         for slope, (o, c) in enumerate(self.pairs):
-            own = np.flatnonzero(keys[:, 0] == o)
+            rows = np.flatnonzero(keys[:, 0] == o)
             mine = np.flatnonzero((row >= self.first_row[c]) & (row < self.first_row[c + 1]) & changing)
-            if not len(own) or not len(mine):
+            if not len(rows) or not len(mine):
                 continue
             shapes = int(row[mine].max()) + 1 - int(self.first_row[c])  # Those that do not change come last.
-            pair = keys[own, 1] * shapes + (row[mine] - self.first_row[c])[:, None]
-            both = slice(None), keys[own, 2][None, :], wave[mine][:, None]
-            spectrum = 1 + 2 * int((keys[own, 2].max() + 1) // 2 + (wave[mine].max() + 1) // 2)
+            pair = keys[rows, 1] * shapes + (row[mine] - self.first_row[c])[:, None]
+            both = slice(None), keys[rows, 2][None, :], wave[mine][:, None]
+            spectrum = 1 + 2 * int((keys[rows, 2].max() + 1) // 2 + (wave[mine].max() + 1) // 2)
             at = pair * spectrum + number[both]
-            ends = np.broadcast_arrays(mine[:, None], 1 + own[None, :])
+            ends = np.broadcast_arrays(mine[:, None], 1 + rows[None, :])
             places.append(np.stack([*ends, *at]).reshape(4, -1))
             factors.append(factor[both].reshape(2, -1))
             begin = int(self.first_row[c])

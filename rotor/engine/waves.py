@@ -81,11 +81,11 @@ class WaveGrid:
 
     @fixed_property
     def mean_of_products(self) -> Array:
-        """The same with all waves in products of two, one in a row, (2 waves − 1, azimuths)."""
+        """Means with all waves in products of two, one in a row, (2 waves − 1, azimuths)."""
         return waves_at(2 * self.waves - 1, self.psi) / self.azimuths
 
 
 @lru_cache(maxsize=64)
 def wave_grid(waves: int, azimuths: int) -> WaveGrid:
-    """The same grid for the same numbers."""
+    """The grid of so many waves and azimuths, made once."""
     return WaveGrid(waves, azimuths)

@@ -108,7 +108,7 @@ def load_design(path: str | Path) -> Design:
 
 
 def parse_design(content: bytes, name: str, tell: Tell = warn) -> Design:
-    """The same for the content of an uploaded file, which may not name files of this machine.
+    """The design in the content of an uploaded file, which may not name files of this machine.
 
     `tell` as in `design_from_record`.
     """
@@ -123,7 +123,7 @@ def parse_design(content: bytes, name: str, tell: Tell = warn) -> Design:
 
 
 def _named(record: dict[str, Any], name: str, tell: Tell, *, paths: bool = False) -> Design:
-    """As `design_from_record`, with the name of the file in the message, since several may be read at once."""
+    """The design as of `design_from_record`, with the file's name in the message, since several may be read at once."""
     try:
         return design_from_record(record, paths=paths, tell=tell)
     except ValueError as error:
@@ -144,7 +144,7 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
 
 def _value(record: dict[str, Any], row: Quantity) -> Any:
     """The value of a key of the record; ValueError for one of another kind."""
-    value: Any = record[row.key]
+    value: Any = row.chosen(record[row.key])
     if row.key in _READ_LATER or (record[row.key] is None and row.default is None and row.numeric):
         return value
     if not row.holds(value) or (row.numeric and abs(value) >= _LARGEST_NUMBER):

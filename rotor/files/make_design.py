@@ -5,8 +5,8 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from inspect import cleandoc
-from typing import Any, cast
+from inspect import cleandoc, signature
+from typing import Any, Unpack
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import parse_switches
@@ -22,15 +22,16 @@ from rotor.design.quantities import (
     OPTIONS,
     PRESETS,
     STAND_TRIMS,
-    LossOn,
-    LowSpeed,
+    SWEPT,
+    Flight,
 )
+from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw
-from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
+from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
 from rotor.user_input import Notice, did_you_mean
 
 ADVANCE_RATIO = 0.2
-"""Of a design whose speed is not given."""
+"""Advance ratio of a design whose speed is not given."""
 Tell = Callable[[str], object]
 """Takes a sentence for the user."""
 
@@ -96,6 +97,7 @@ def uh60a_rotor(preset: str) -> Rotor:
     return shipped_aircraft("uh60a").rotor_for(preset)
 
 
+@takes(SWEPT, after="hover")
 def make_design(
     *,
     case: Design | None = None,
@@ -104,12 +106,7 @@ def make_design(
     twist_per_rev: PerRev | None = None,
     pitch_per_rev: PerRev | None = None,
     mu: float | None = None,
-    speed_kt: float | None = None,
     hover: bool = False,
-    mass_kg: float | None = None,
-    altitude_m: float | None = None,
-    climb_m_s: float | None = None,
-    rotor_speed_percent: float | None = None,
     preset: str | None = None,
     inflow: str | None = None,
     low_speed: str | None = None,
@@ -117,22 +114,38 @@ def make_design(
     airfoils: str | None = None,
     off: str | None = None,
     bending: bool = False,
-    dynamic_stall: bool = False,
+    dynamic_stall: str | bool | None = None,
+    unsteady: str | None = None,
     elements: int | None = None,
     azimuths: int | None = None,
     models: Models | None = None,
     trim: str | None = None,
     stand: Stand | Mapping[str, Any] | None = None,
+    **flight: Unpack[Flight[float | None]],
 ) -> Design:
     """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
     The command line has a flag for each argument but `models`, with the same words.
 
-    {arguments}
+    Parameters:
+        {arguments}
 
-    Raises TypeError or ValueError with one sentence that names the value and the remedy.
+    Returns:
+        The design, which `solve`, `sweep` and `optimise` take. Nothing is solved yet.
+
+    Raises:
+        TypeError: a value is of another kind than the argument takes.
+        ValueError: a value is outside its range, a name is not known, or two arguments exclude each other.
+
+    Example:
+        >>> design = rotor.make_design(mu=0.3, twist="linear:-12", mass_kg=8000)
+        >>> design
+        Design(UH-60A, twist linear:-12, mu=0.3, 8000 kg, 0 m, preset flight, inflow lifting-line)
+        >>> high = rotor.make_design(case=design, altitude_m=1500)
+        >>> high.condition.altitude, high.twist == design.twist
+        (1500.0, True)
     """
-    asked = locals()
+    asked = {"mu": mu, "hover": hover, "bending": bending, "dynamic_stall": dynamic_stall, **flight}
     name = preset or (case.preset if case else PRESETS[0])
     check_preset(name)
     aircraft = _aircraft(rotor, case)
@@ -143,7 +156,7 @@ def make_design(
     models = replace(models, **{option: True for option in OPTIONS if asked[option]})
     blades = aircraft.rotor_for(name)
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
-    own = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
+    overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -152,10 +165,22 @@ def make_design(
         aircraft=aircraft,
         rotor=blades,
         twist=blade.twist if blade else aircraft.twist_for(name),
-        condition=changed_condition(before, blades.tip_speed, asked, **own),
+        condition=changed_condition(before, blades.tip_speed, asked, **overrides),
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=with_grid(_changed(models, inflow, low_speed, loss_on, off), elements, azimuths),
+        models=with_grid(
+            _changed(
+                models,
+                inflow,
+                off,
+                low_speed=low_speed,
+                loss_on=loss_on,
+                unsteady=unsteady,
+                dynamic_stall=dynamic_stall,
+            ),
+            elements,
+            azimuths,
+        ),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
@@ -167,35 +192,38 @@ def make_design(
 
 
 if make_design.__doc__:  # Python drops docstrings when it is asked to.
-    words = (f"{row.name}: {row.help}." for row in ARGUMENTS.values())
-    make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n".join(words))
+    rows = ((name, ARGUMENTS[name]) for name in signature(make_design).parameters)
+    listed = (
+        (name, row.help, row.choices if name != "inflow" else (*INFLOW_MODELS, *HOVER_INFLOWS)) for name, row in rows
+    )
+    words = (f"{name}: {'; '.join(filter(None, (said, ', '.join(choices))))}." for name, said, choices in listed)
+    make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))
 
 
 def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     if rotor is None:
         return case.aircraft if case else shipped_aircraft(SHIPPED_ROTORS[0])
     if isinstance(rotor, str):
-        return shipped_aircraft(rotor)
+        return find_aircraft(rotor)
     if not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or rotor.load_rotor("mine.toml")')
+        raise TypeError(
+            f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or the path of a rotor file, "mine.toml"'
+        )
     return rotor
 
 
-def _changed(models: Models, inflow: str | None, low_speed: str | None, loss_on: str | None, off: str | None) -> Models:
-    """The models with an inflow model by name, a way to low speed, Prandtl's factors, and without some effects."""
+def _changed(models: Models, inflow: str | None, off: str | None, **chosen: str | bool | None) -> Models:
+    """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
         options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
         current = {option: current_model(option, inflow) for option in options}
-        chosen = [option for option, names in options.items() if current[option] in names]
-        if not chosen:
-            known = [one for names in options.values() for one in names]
+        chosen_options = [option for option, names in options.items() if current[option] in names]
+        if not chosen_options:
+            known = [name for names in options.values() for name in names]
             hint = did_you_mean(inflow, known) or ":"
             raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
-        models = replace(models, **{chosen[0]: current[chosen[0]]})
-    if low_speed is not None:
-        models = replace(models, low_speed=cast(LowSpeed, low_speed))  # Which it checks.
-    if loss_on is not None:
-        models = replace(models, loss_on=cast(LossOn, loss_on))
+        models = replace(models, **{chosen_options[0]: current[chosen_options[0]]})
+    models = replace(models, **{field: value for field, value in chosen.items() if value is not None})
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 
 

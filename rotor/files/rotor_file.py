@@ -27,6 +27,7 @@ from rotor.design.aircraft import (
 )
 from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
+from rotor.design.uncertain import UNCERTAIN
 from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
 from rotor.files.section_file import check_section_name, read_section
 from rotor.files.toml_table import TomlTable, read_toml
@@ -75,9 +76,9 @@ def named_files(top: TomlTable) -> list[str]:
     """
     names: list[str] = []
     sections = _as_table(top.values.get("sections"))
-    for own in _in_use(top):
+    for section in _in_use(top):
         for key in ("deck", "polars", "outline"):
-            value: Any = _as_table(sections.get(own)).get(key, [])
+            value: Any = _as_table(sections.get(section)).get(key, [])
             names += [item for item in _as_list(value) if isinstance(item, str)]
     names = list(dict.fromkeys(names))
     if len(names) > MOST_NAMED:
@@ -91,11 +92,11 @@ def _in_use(top: TomlTable) -> list[str]:
     used: set[str] = set()
     for given in (main, *(_as_table(main.get(key)) for key in ("flown", "document"))):
         spans = [_as_table(span).get("section") for span in _as_list(given.get("spans", []))]
-        used |= {one for one in (given.get("section"), *spans) if isinstance(one, str)}
-    own = [name for name in _as_table(top.values.get("sections")) if name in used]
-    if len(own) > MOST_SECTIONS:
-        raise top.fail("sections", f"the blade uses {len(own)} sections of its own: {MOST_SECTIONS} are allowed")
-    return own
+        used |= {name for name in (given.get("section"), *spans) if isinstance(name, str)}
+    sections = [name for name in _as_table(top.values.get("sections")) if name in used]
+    if len(sections) > MOST_SECTIONS:
+        raise top.fail("sections", f"the blade uses {len(sections)} sections of its own: {MOST_SECTIONS} are allowed")
+    return sections
 
 
 def _as_table(value: Any) -> dict[str, Any]:
@@ -117,12 +118,12 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         raise top.fail("name", f"name is {name[:60]!r}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -")
     remarks: list[str] = []
     used = {main: texts[main]}
-    own = _own_sections(top, texts, used, remarks)
+    sections = _own_sections(top, texts, used, remarks)
     rotor_table = top.table("main_rotor")
     hub: Hub = rotor_table.string("hub", "articulated", choices=HUBS)
     flown = rotor_table.table("flown", None)
-    rotor = _rotor(name, rotor_table, flown or rotor_table, own, key or "builtin", hub)
-    stated = _stated(name, rotor_table, rotor, own, hub)
+    rotor = _rotor(name, rotor_table, flown or rotor_table, sections, key or "builtin", hub)
+    stated = _stated(name, rotor_table, rotor, sections, hub)
     tail = top.table("tail_rotor", None)
     airframe = top.table("airframe", None)
     aircraft = Aircraft(
@@ -137,6 +138,7 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         key=key,
         files=None if key else RotorFiles(main, tuple(sorted(used.items()))),
         remarks=tuple(remarks),
+        doubt=_doubt(top.table("doubt", None)),
         isolated=airframe is None,
     )
     if flown:
@@ -163,6 +165,15 @@ def _fuselage(airframe: TomlTable) -> Fuselage:
     return Fuselage(area, airframe.number("hover_download", 0.0, low=0.0, high=0.3), band)
 
 
+def _doubt(given: TomlTable | None) -> tuple[tuple[str, float], ...]:
+    """Sizes of uncertain inputs, by the names of `assets/doubt.toml`."""
+    if given is None:
+        return ()
+    sizes = {row.name: given.number(row.name, None, low=0.0, high=row.largest, unit=row.unit) for row in UNCERTAIN}
+    given.finish()
+    return tuple((name, size) for name, size in sizes.items() if size is not None)
+
+
 def _installed_power(airframe: TomlTable | None) -> float | None:
     if not airframe or not airframe.has("installed_power_kw"):
         return None
@@ -176,7 +187,7 @@ def _carried(rotor: Rotor) -> float:
 
 
 def _rotor(
-    name: str, main: TomlTable, given: TomlTable, own: tuple[OwnSection, ...], twist_name: str, hub: Hub
+    name: str, main: TomlTable, given: TomlTable, sections: tuple[OwnSection, ...], twist_name: str, hub: Hub
 ) -> Rotor:
     radius = main.number("radius_m", low=0.1, high=30.0, unit="m")
     blades = main.count("blades", low=2, high=12)
@@ -192,7 +203,7 @@ def _rotor(
     sprung = hub == "hingeless" or (hub == "articulated" and given.has("flap_spring_nm_rad"))
     if precone is not None and not sprung and hub not in ("gimballed", "teetering"):
         raise main.fail("precone_deg", f"precone_deg on a hub that is {hub!r}: its blades cone freely, so leave it out")
-    blade = _blade(main, given, radius, own, hub)
+    blade = _blade(main, given, radius, sections, hub)
     chord = float(blade.chord(0.75))
     return Rotor(
         name=name,
@@ -206,11 +217,11 @@ def _rotor(
     )
 
 
-def _stated(name: str, main: TomlTable, flown: Rotor, own: tuple[OwnSection, ...], hub: Hub) -> Stated | None:
+def _stated(name: str, main: TomlTable, flown: Rotor, sections: tuple[OwnSection, ...], hub: Hub) -> Stated | None:
     document = main.table("document", None)
     if document is None:
         return None
-    blade = _blade(main, document, flown.radius, own, hub)
+    blade = _blade(main, document, flown.radius, sections, hub)
     twist = _twist(document, "document")
     document.finish()
     return Stated(replace(flown, name=name, blade=blade), twist)
@@ -227,7 +238,7 @@ def _angular_speed(main: TomlTable, radius: float) -> float:
     return main.number("angular_speed_rad_s", low=1.0, high=1000.0, unit="rad/s")
 
 
-def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSection, ...], hub: Hub) -> Blade:
+def _blade(main: TomlTable, given: TomlTable, radius: float, sections: tuple[OwnSection, ...], hub: Hub) -> Blade:
     root = main.number("root_cutout_r", low=0.02, high=0.8, unit="r/R")
     hinge = given.number("flap_hinge_m", 0.0, low=0.0, high=0.3 * radius, unit="m")
     if hub not in ("articulated", "hingeless") and hinge:
@@ -251,7 +262,7 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         root_cutout=root,
         chord_stations=stations,
         chords=chords,
-        spans=_spans(given, root, own),
+        spans=_spans(given, root, sections),
         flap_hinge=hinge / radius,
         flap_inertia=inertia,
         flap_static_moment=moment,
@@ -262,7 +273,7 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         tip_sweep=math.radians(sweep),
         tip_sweep_start=given.number("tip_sweep_start_r", *(() if sweep else (1.0,)), low=0.3, high=1.0, unit="r/R"),
         surface_drag=given.number("surface_drag", 1.0, low=0.5, high=3.0),
-        own_sections=own,
+        own_sections=sections,
         structure=_structure(given, radius, hinge),
     )
 
@@ -284,6 +295,8 @@ def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure 
     if len(bending) == 1:
         raise table.fail(bending[0], f"{bending[0]} alone: give flap_stiffness_nm2 and lag_stiffness_nm2, or neither")
     columns |= {key: table.numbers(key, low=1e-3, high=1e10) for key in bending}
+    if table.has("mass_offset_m"):
+        columns["mass_offset_m"] = table.numbers("mass_offset_m", low=-1.0, high=1.0)
     for key, values in columns.items():
         _ascending(table, "r_m", stations, key, values)
     structure = BladeStructure(
@@ -302,6 +315,7 @@ def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure 
         lag_spring=table.number("lag_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad")
         if table.has("lag_spring_nm_rad")
         else None,
+        mass_offset=columns.get("mass_offset_m", ()),
     )
     table.finish()
     return structure
@@ -321,12 +335,12 @@ def _masses(given: TomlTable, length: float) -> tuple[float, float, float]:
     )
 
 
-def _spans(given: TomlTable, root: float, own: tuple[OwnSection, ...]) -> tuple[Span, ...]:
+def _spans(given: TomlTable, root: float, sections: tuple[OwnSection, ...]) -> tuple[Span, ...]:
     if given.has("section"):
-        return (Span(root, 1.0, _known(given, given.string("section"), own)),)
+        return (Span(root, 1.0, _known(given, given.string("section"), sections)),)
     spans: list[Span] = []
     for table in given.tables("spans", '{ start_r = 0.2, end_r = 1.0, section = "naca0012" }'):
-        section = _known(table, table.string("section"), own)
+        section = _known(table, table.string("section"), sections)
         start, end = (table.number(name, low=0.0, high=1.0, unit="r/R") for name in ("start_r", "end_r"))
         if start >= end or (spans and start < spans[-1].end):
             raise table.fail(
@@ -338,12 +352,16 @@ def _spans(given: TomlTable, root: float, own: tuple[OwnSection, ...]) -> tuple[
     return tuple(spans)
 
 
-def _known(table: TomlTable, section: str, own: tuple[OwnSection, ...]) -> str:
-    if section in TABLE_NAMES or section.startswith(f"{THESIS_NAME}:") or any(section == one.name for one in own):
+def _known(table: TomlTable, section: str, sections: tuple[OwnSection, ...]) -> str:
+    if (
+        section in TABLE_NAMES
+        or section.startswith(f"{THESIS_NAME}:")
+        or any(section == known.name for known in sections)
+    ):
         return section
     raise table.fail(
         "section",
-        f"section {section!r} is not known: use one of {', '.join((*(one.name for one in own), *TABLE_NAMES))}, "
+        f"section {section!r} is not known: use one of {', '.join((*(each.name for each in sections), *TABLE_NAMES))}, "
         f"or add a table [sections.{section}] that names its deck or polars",
     )
 
@@ -394,11 +412,11 @@ def _own_sections(
         return ()
     for name in sections.values:
         check_section_name(sections.table(name), name)
-    own = _in_use(top)
-    if spare := [name for name in sections.values if name not in own]:
+    in_use = _in_use(top)
+    if spare := [name for name in sections.values if name not in in_use]:
         more = f" and {len(spare) - 1} more" if len(spare) > 1 else ""
         remarks.append(f"Section {shorten(spare[0])}{more} is left out: no span of the blade uses it.")
-    return tuple(read_section(sections.table(name), name, texts, used, remarks) for name in own)
+    return tuple(read_section(sections.table(name), name, texts, used, remarks) for name in in_use)
 
 
 @cache

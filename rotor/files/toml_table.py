@@ -140,10 +140,10 @@ def read_toml(file: str, text: str) -> TomlTable:
         return TomlTable(file, text, (), tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         what = str(error)
-        found = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", what)
-        line = found[1] if found else None
-        reason = what[: found.start()] if found else what
-        place = f", line {line}" if line else ", at its end" if found else ""
+        match = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", what)
+        line = match[1] if match else None
+        reason = what[: match.start()] if match else what
+        place = f", line {line}" if line else ", at its end" if match else ""
         raise ValueError(f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes") from None
     except RecursionError:
         raise ValueError(f"{file}: this is not a file of this program (too many brackets): write key = value") from None

@@ -26,7 +26,7 @@ class Parameter:
     name: str
     """Short and stable, for scripts."""
     title: str
-    """As on the page."""
+    """Title on the page."""
     unit: Unit
     low: float
     high: float
@@ -75,12 +75,12 @@ class Concept(Protocol):
 
     @property
     def name(self) -> str:
-        """As on the command line."""
+        """Name on the command line."""
         ...
 
     @property
     def title(self) -> str:
-        """As on the page."""
+        """Title on the page."""
         ...
 
     @property
@@ -127,8 +127,8 @@ def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
     span = high - low
 
     def gap(x: Array) -> Array:
-        made = concept.twist((low + span * x).tolist())(r)
-        return made - made.mean() - wanted
+        angles = concept.twist((low + span * x).tolist())(r)
+        return angles - angles.mean() - wanted
 
     def slope(x: Array) -> Array:
         by = concept.slopes((low + span * x).tolist(), r)
@@ -139,8 +139,8 @@ def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
     inside = np.asarray(middle + np.clip(step, -0.5, 0.5), dtype=np.float64)
     if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:  # A law that is linear in its values, within the bounds.
         return tuple((low + span * inside).tolist())
-    found = scipy.optimize.least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
-    return tuple((low + span * np.clip(found.x, 0.0, 1.0)).tolist())
+    fit = scipy.optimize.least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
+    return tuple((low + span * np.clip(fit.x, 0.0, 1.0)).tolist())
 
 
 @dataclass(frozen=True)

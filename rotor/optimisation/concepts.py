@@ -203,8 +203,8 @@ class SegmentsConcept:
         if self.airfoils:
             places = tuple(float(value) for value in values[len(self.segments) :])
             # SC1095 by whichever data the design has it: the document's polynomials, or the decks.
-            own = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
-            rotor = with_airfoils(rotor, [own.get(name, name) for name in self.airfoils], places)
+            sections = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
+            rotor = with_airfoils(rotor, [sections.get(name, name) for name in self.airfoils], places)
         return replace(design, twist=law, rotor=rotor)
 
 

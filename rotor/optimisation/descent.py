@@ -70,18 +70,18 @@ class Quadratic:
         return self.value + float((self.slope + 0.5 * bent) @ step), self.slope + bent
 
 
-def _known(made: Measured) -> tuple[float, Array]:
+def _known(measured: Measured) -> tuple[float, Array]:
     """The objective and its slope by pitch [1/rad] of a blade that trims."""
-    assert made.value is not None
-    assert made.by_pitch is not None
-    return made.value, made.by_pitch
+    assert measured.value is not None
+    assert measured.by_pitch is not None
+    return measured.value, measured.by_pitch
 
 
 _Measure = Callable[[Array], tuple[Any, Array]]
 """Value or values at x, and slopes by x."""
 _MODEL_ITERATIONS = 40
 _MODEL_TOLERANCE = 1e-6
-"""Of the least of the model, in units of 2 BAND of the objective."""
+"""Tolerance of the least of the model, in units of 2 BAND of the objective."""
 
 
 class Model:
@@ -94,10 +94,10 @@ class Model:
         value, by_pitch = _known(measured)
         metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
         pairs = [
-            (one.measured, step, length)
-            for one in others
-            if one.rotor == centre.rotor and _known(one.measured)[0] < 1.5 * value
-            for step in [(one.pitch - centre.pitch) * metric]
+            (other.measured, step, length)
+            for other in others
+            if other.rotor == centre.rotor and _known(other.measured)[0] < 1.5 * value
+            for step in [(other.pitch - centre.pitch) * metric]
             if (length := float(np.linalg.norm(step))) > _SAME
         ]
         steps = np.array([step for _, step, _ in pairs]).reshape(-1, len(metric))
@@ -123,7 +123,7 @@ class Model:
         return self._cost(x)[0]
 
     def _cost(self, x: Array) -> tuple[float, Array]:
-        """The same, and its slope by x."""
+        """The cost, and its slope by x."""
         cost, slope = self.objective.at(self.evaluate.pitch(x))
         return cost, self.evaluate.pitch_slopes(x) @ slope
 
@@ -138,9 +138,9 @@ class Model:
         """Margins of all limits, positive inside, and slopes by x."""
         margins, slopes = self.evaluate.cheap_margins(x)
         pitch, by = self.evaluate.pitch(x), self.evaluate.pitch_slopes(x)
-        for one, largest in zip(self.limited, self.evaluate.largest, strict=True):
-            found, slope = one.at(pitch)
-            margins = np.append(margins, largest - found)
+        for limit, largest in zip(self.limited, self.evaluate.largest, strict=True):
+            value, slope = limit.at(pitch)
+            margins = np.append(margins, largest - value)
             slopes = np.vstack([slopes, -by @ slope])
         return margins, slopes
 
@@ -189,14 +189,14 @@ class Model:
             return {"type": "ineq", "fun": margins, "jac": slopes}
 
         def both(y: Array) -> tuple[float, Array]:
-            found, slope = value(centre + stretch @ y)
-            return found, slope @ stretch
+            cost, slope = value(centre + stretch @ y)
+            return cost, slope @ stretch
 
         limits = [self.margins] if len(self.margins(centre)[0]) else []
         end = slsqp(
             both,
             np.linalg.solve(stretch, np.clip(start, low, high) - centre),
-            constraints=[inequality(one) for one in (box, *limits, *more)],
+            constraints=[inequality(limit) for limit in (box, *limits, *more)],
             options={"maxiter": _MODEL_ITERATIONS, "ftol": _MODEL_TOLERANCE},
         )
         return np.asarray(np.clip(centre + stretch @ end.x, low, high), dtype=np.float64)
@@ -246,7 +246,7 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
             reach = 0.3 * length
         elif share > 0.5:
             reach = max(reach, 2.0 * length)
-        centre = min(centre, trial, key=lambda one: one.rank)
+        centre = min(centre, trial, key=lambda point: point.rank)
     return Descent(centre if centre.feasible else None, converged=centre.feasible and reach < _LEAST_REACH)
 
 
@@ -259,12 +259,12 @@ _BAND_EVALUATIONS = 3
 def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[ParameterBand, ...]:
     """The band of every parameter, SI."""
     edge = best.cost * (1.0 + BAND)
-    found: list[ParameterBand] = []
+    bands: list[ParameterBand] = []
     for k, parameter in enumerate(evaluate.concept.parameters):
         low, high = (_side(evaluate, best, edge, k, side) for side in (-1.0, 1.0))
         low, high = (float(evaluate.low[k] + evaluate.span[k] * end) for end in (low, high))
-        found.append(ParameterBand(parameter.name, low, high))
-    return tuple(found)
+        bands.append(ParameterBand(parameter.name, low, high))
+    return tuple(bands)
 
 
 def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: float) -> float:
@@ -279,5 +279,5 @@ def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: floa
         x = Model(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
         if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
             break
-    inside = [one.x for one in evaluate.records if one.feasible and one.cost <= edge]
-    return side * max(side * float(one[k]) for one in (*inside, x))
+    inside = [record.x for record in evaluate.records if record.feasible and record.cost <= edge]
+    return side * max(side * float(point[k]) for point in (*inside, x))

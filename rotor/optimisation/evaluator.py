@@ -44,7 +44,7 @@ class TrimmedBlades:
 
     def known(self, rotor: Rotor, pitch: Array) -> TrimmedBlade | None:
         """What is known of this very blade."""
-        return next((one for one in self.all if np.array_equal(one.pitch, pitch) and one.rotor == rotor), None)
+        return next((point for point in self.all if np.array_equal(point.pitch, pitch) and point.rotor == rotor), None)
 
     def starts(self, pitch: Array, r: Array) -> tuple[Solution, ...]:
         """The trims of the nearest blade."""
@@ -116,7 +116,7 @@ class Evaluator:
         self.low, self.high = np.array(limits.bounds_of(concept)).T
         self.span = self.high - self.low
         self.largest = limits.largest(len(objective.conditions))
-        """Of what the limits hold beside, [%]."""
+        """The largest of what the limits hold beside, [%]."""
         self.phase: Phase = "baseline"
         self.start, self.starts = 0, starts
         self.count = 0
@@ -154,7 +154,7 @@ class Evaluator:
         return margins, slopes * self.span
 
     def baseline(self) -> Measured:
-        """Of the design as given; its trim is where the first start begins."""
+        """Evaluation of the design as given; its trim is where the first start begins."""
         self._check()
         return self._trim(self.design).measured
 

@@ -227,7 +227,7 @@ class Bound:
     any_circulation: float
     """Any circulation that varies smoothly over the disk, none in reverse flow."""
     lift_limited: float
-    """The same within `LIFT_LIMIT`; infinite where none was found."""
+    """Circulation within `LIFT_LIMIT`; infinite where none was found."""
     steady_twist: float
     """Any fixed twist."""
     linear_twist: float
@@ -252,8 +252,8 @@ def find_bound(design: Design) -> Bound:
     shapes = chebvander(across, TWIST_SHAPES).T[1:].astype(float)
     straight = r - 0.75
 
-    def factor(found: InducedPower) -> float:
-        return found.coefficient / momentum
+    def factor(power: InducedPower) -> float:
+        return power.coefficient / momentum
 
     linear = least_twisted_power(lines, ct, chord, 0.0 * r, straight[None])
     try:

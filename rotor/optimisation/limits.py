@@ -82,7 +82,7 @@ class Limits:
         if rate_deg is not None:
             if isinstance(rate_deg, int | float | str) or len(rate_deg) != 2:
                 raise TypeError(f"rate_deg is {rate_deg!r}: give the steepest and the flattest, for example (-20, 0)")
-            given["rate"] = tuple(math.radians(number("rate_deg", one, "(-20, 0)")) for one in rate_deg)
+            given["rate"] = tuple(math.radians(number("rate_deg", end, "(-20, 0)")) for end in rate_deg)
         if stalled_percent is not None:
             given["stalled"] = PERCENT * number("stalled_percent", stalled_percent, "2")
         if index_percent is not None:
@@ -108,16 +108,16 @@ class Limits:
         return replace(self, change=even_change_limit(twist, math.radians(self.change_deg), root), change_deg=None)
 
     def largest(self, conditions: int) -> Array:
-        """Of what `Measured.limited` has [%]."""
-        found: Array = np.zeros(0)
-        for own in (None if self.stalled is None else self.stalled / PERCENT, self.index):
-            found = found if own is None else np.append(found, np.full(conditions, own))
-        return found
+        """Largest value of each quantity in `Measured.limited` [%]."""
+        values: Array = np.zeros(0)
+        for limit in (None if self.stalled is None else self.stalled / PERCENT, self.index):
+            values = values if limit is None else np.append(values, np.full(conditions, limit))
+        return values
 
     def bounds_of(self, concept: Concept) -> tuple[tuple[float, float], ...]:
         """Low and high of each parameter; ValueError for a name the concept lacks or a range that is empty."""
         known = {parameter.name: parameter for parameter in concept.parameters}
-        found = {name: (parameter.low, parameter.high) for name, parameter in known.items()}
+        bounds = {name: (parameter.low, parameter.high) for name, parameter in known.items()}
         for name, low, high in self.bounds:
             if name not in known:
                 raise ValueError(f"concept {concept.name} has no parameter {name!r}: it has {', '.join(known)}")
@@ -127,8 +127,8 @@ class Limits:
                     f"bounds {parameter.shown(low):g}…{parameter.shown(high):g} of {name} are empty: "
                     "give low, then high"
                 )
-            found[name] = (low, high)
-        return tuple(found.values())
+            bounds[name] = (low, high)
+        return tuple(bounds.values())
 
 
 def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float) -> tuple[Array, Array]:

@@ -21,7 +21,7 @@ from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import solve_alike
 from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
@@ -170,7 +170,7 @@ def measure(
     power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
-        solution = solve(replace(design, condition=condition.flight), start, options)
+        solution = solve_alike(replace(design, condition=condition.flight), start, options)
         solutions.append(solution)
         if not solution.converged:
             return Measured(None, tuple(solutions))
@@ -182,8 +182,8 @@ def measure(
         if vibration or indexed:
             indices.append(index_along(adjoint))
             index += share * indices[-1][0]
-        own = indices[-1][1] if vibration else power_along(adjoint, kind).by_element
-        slopes.append(share * own)
+        by_pitch = indices[-1][1] if vibration else power_along(adjoint, kind).by_element
+        slopes.append(share * by_pitch)
         if limits.stalled is not None:
             area, slope = stalled_share(adjoint)
             stalled.append((area / PERCENT, slope / PERCENT))
@@ -233,8 +233,8 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
 
 def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:
     try:
-        own = design.condition.numbers | {"mu": None}
-        numbers = {row.field: _number(cells, name, own[name]) for name, row in CONDITION.items()}
+        base = design.condition.numbers | {"mu": None}
+        numbers = {row.field: _number(cells, name, base[name]) for name, row in CONDITION.items()}
         condition = replace(design.condition, **numbers)
         replace(design, condition=condition)  # Refuses a climb where the models are those of level flight.
         return WeightedCondition(condition, _number(cells, "hours", 1.0))

@@ -6,6 +6,7 @@ from typing import Literal
 
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.trim.doubt import Doubt
 
 Phase = Literal["baseline", "search", "band"]
 
@@ -64,11 +65,13 @@ class Minimum:
 
 @dataclass(frozen=True)
 class ParameterBand:
-    """Range of one parameter, the others re-optimised, within BAND of the least power or index."""
+    """Range of one parameter: the others re-optimised, within BAND of the least power or index; or by doubt."""
 
     parameter: str
     low: float
     high: float
+    causes: tuple[tuple[str, float], ...] = ()
+    """Uncertain inputs that move it most, in words, and by how much where they are larger by their size."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,7 +90,7 @@ class Optimum:
     band: tuple[ParameterBand, ...]
     """One per parameter, within 0.1 % of the least power or index; empty when not requested, or not found."""
     baseline_power: float | None
-    """Of the design given, by the same objective [W]; None when it does not trim."""
+    """Power of the design given, by the same objective [W]; None when it does not trim."""
     evaluations: int
     starts: int
     seed: int
@@ -95,6 +98,10 @@ class Optimum:
     """[s]"""
     baseline_index: float | None = None
     """Vibration index of the design given [%] where objective or limits ask for it."""
+    doubt: Doubt | None = None
+    """How sure the saving is; None where the band was not requested, or the objective is not total power."""
+    doubt_band: tuple[ParameterBand, ...] = ()
+    """Where each parameter may lie by what is uncertain; empty where that is not known."""
 
     def __repr__(self) -> str:
         head = f"Optimum({self.concept}, {self.status.value}"
@@ -120,3 +127,30 @@ class Optimum:
         if self.best is None or self.baseline_power is None:
             return None
         return 1.0 - self.best.power / self.baseline_power
+
+
+@dataclass(frozen=True)
+class TwistRange:
+    """Where the best linear twist lies over a range of what it depends on."""
+
+    cause: str
+    """`flat`, `doubt`, `mass`, `drag area` or `wake`."""
+    rates: tuple[float, float]
+    """At the lower and the upper end [rad/R]."""
+    ends: tuple[float, float] | None = None
+    """Mass [kg] or drag area [m²]; None for the others."""
+
+    @property
+    def width(self) -> float:
+        """Difference of the rates [rad/R]."""
+        return abs(self.rates[1] - self.rates[0])
+
+
+@dataclass(frozen=True)
+class BestTwist:
+    """The best linear twist of a design at its own flight condition."""
+
+    rate: float
+    """[rad/R]"""
+    ranges: tuple[TwistRange, ...]
+    """Without those where one end has no trim."""

@@ -16,12 +16,15 @@ from typing import Any, cast
 
 from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
+from rotor.optimisation.doubt import mean_doubt
 from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
 from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.processes import Processes, WorkerLost, run_tasks
+from rotor.trim.doubt import Doubt
+from rotor.trim.solve import solve
 from rotor.user_input import read_text
 
 CHUNK = 4
@@ -84,7 +87,7 @@ class InFlightGain:
 
     @property
     def share(self) -> float:
-        """The same relative to the best fixed blade's power."""
+        """The gain relative to the best fixed blade's power."""
         return self.gain / self.fixed
 
 
@@ -113,6 +116,18 @@ class Schedule:
         """Whether every cell is there and was found."""
         return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
 
+    def gain_doubt(self, concept: str) -> Doubt | None:
+        """How sure the gain of in-flight twist is: every condition is solved with both blades; None without a gain."""
+        fixed, shares = self.at(None, concept), Objective(self.plan.quantity, self.plan.conditions).shares
+        if self.in_flight_gain(concept) is None or fixed is None or self.plan.quantity != "total":
+            return None
+        moving = [self.at(k, concept) for k in range(len(shares))]
+        designs = [cell.design for cell in moving if cell is not None]
+        flights = [condition.flight for condition in self.plan.conditions]
+        here = [solve(replace(design, condition=flight)) for design, flight in zip(designs, flights, strict=True)]
+        there = [solve(replace(fixed.design, condition=flight)) for flight in flights]
+        return mean_doubt(shares, here, there)
+
     def in_flight_gain(self, concept: str) -> InFlightGain | None:
         """Gain of in-flight twist; None while an optimum of the concept is missing."""
         fixed = self.at(None, concept)
@@ -120,16 +135,16 @@ class Schedule:
             return None
         moving = 0.0
         for k, share in enumerate(Objective(self.plan.quantity, self.plan.conditions).shares):
-            found = self.at(k, concept)
-            if found is None or found.best is None:
+            optimum = self.at(k, concept)
+            if optimum is None or optimum.best is None:
                 return None
-            moving += share * found.best.power
+            moving += share * optimum.best.power
         return InFlightGain(concept, fixed.baseline_power, fixed.best.power, moving)
 
 
 def run_plan(
     plan: Plan,
-    found: Sequence[Cell] = (),
+    known: Sequence[Cell] = (),
     keep: Callable[[Cell], None] | None = None,
     stop: Callable[[], bool] | None = None,
     processes: int = 1,
@@ -138,7 +153,7 @@ def run_plan(
 
     `stop` is called several times a second; True ends the run with the results so far.
     """
-    cells = {(cell.condition, cell.concept): cell for cell in found}
+    cells = {(cell.condition, cell.concept): cell for cell in known}
 
     def add(cell: Cell) -> None:
         if (cell.condition, cell.concept) not in cells:
@@ -189,10 +204,10 @@ def _work_fixed(
     def mean(concept: Concept) -> list[tuple[float, ...]]:
         shares = Objective(plan.quantity, plan.conditions).shares
         bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(shares)]
-        found = [(share, cell.optimum.best) for share, cell in bests if cell and cell.optimum.best]
-        total, count = sum(share for share, _ in found), len(concept.parameters)
-        middle = (sum(share * best.parameters[k] for share, best in found) / (total or 1.0) for k in range(count))
-        return [tuple(middle)] if found else []
+        optima = [(share, cell.optimum.best) for share, cell in bests if cell and cell.optimum.best]
+        total, count = sum(share for share, _ in optima), len(concept.parameters)
+        middle = (sum(share * best.parameters[k] for share, best in optima) / (total or 1.0) for k in range(count))
+        return [tuple(middle)] if optima else []
 
     yield from _searches(plan, None, concepts, known, mean, stop)
 
@@ -206,7 +221,7 @@ def _searches(
     stop: Callable[[], bool] | None,
 ) -> Iterator[Cell]:
     """The missing cells of a condition, or of the fixed blade; they are added to those known."""
-    trimmed, missing = TrimmedBlades(), [one for one in concepts if (condition, one.name) not in known]
+    trimmed, missing = TrimmedBlades(), [concept for concept in concepts if (condition, concept.name) not in known]
     for concept in concepts[: concepts.index(missing[-1]) + 1] if missing else ():
         guesses = guesses_of(concept)
         search = Search(
@@ -239,7 +254,7 @@ def _guesses(
     here = [known.get((condition, other.name)) for other in before]
     simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
     if simpler:
-        _, design = min(simpler, key=lambda one: one[0])
+        _, design = min(simpler, key=lambda pair: pair[0])
         guesses.append(nearest(concept, design.twist))
     return guesses
 
@@ -297,27 +312,27 @@ def open_cells(path: str | Path, plan: Plan) -> Callable[[Cell], None]:
 
 
 def _record(cell: Cell) -> dict[str, Any]:
-    one = cell.optimum
+    optimum = cell.optimum
     return {
         "condition": cell.condition,
         "concept": cell.concept,
-        "status": one.status.value,
-        "message": one.message,
+        "status": optimum.status.value,
+        "message": optimum.message,
         "minima": [
             [list(m.parameters), m.power, list(m.starts), list(m.active), m.index]
-            for m in (one.minima or ((one.best,) if one.best is not None else ()))
+            for m in (optimum.minima or ((optimum.best,) if optimum.best is not None else ()))
         ],
-        "baseline_power": one.baseline_power,
-        "baseline_index": one.baseline_index,
-        "evaluations": one.evaluations,
-        "starts": one.starts,
-        "seed": one.seed,
-        "elapsed": one.elapsed,
+        "baseline_power": optimum.baseline_power,
+        "baseline_index": optimum.baseline_index,
+        "evaluations": optimum.evaluations,
+        "starts": optimum.starts,
+        "seed": optimum.seed,
+        "elapsed": optimum.elapsed,
     }
 
 
 def _cell(entry: dict[str, Any], plan: Plan) -> Cell:
-    concept = next(one for one in plan.concepts if one.name == entry["concept"])
+    concept = next(concept for concept in plan.concepts if concept.name == entry["concept"])
     minima = tuple(
         Minimum(tuple(values), power, concept.twist(values).spec(), tuple(starts), tuple(active), index)
         for values, power, starts, active, index in entry["minima"]

@@ -4,11 +4,12 @@ the best.
 The thesis uses fmincon with GlobalSearch (§2.7). Here descents on the exact gradient begin at a seeded low-discrepancy
 set of starting points (Halton). One whose next step leads to a minimum known already ends there. Minima are grouped,
 and the band gives the flatness of the best.
-`optimise` runs the search for one design in one call.
+`optimise` runs the search for one design in one call, `best_linear_twist` says how far a best twist can move.
 """
 
+import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
@@ -19,10 +20,12 @@ from rotor.design.design import Design, require_design
 from rotor.design.quantity import number
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_band
+from rotor.optimisation.doubt import best_twist_doubt, saving_doubt
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index, over_conditions
-from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
+from rotor.optimisation.results import BestTwist, Minimum, Optimum, ParameterBand, Progress, SearchStatus, TwistRange
+from rotor.trim.doubt import Doubt, other_models
 
 STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""
@@ -34,6 +37,10 @@ _PLACES = 12
 """Points from which the model is searched for further minima."""
 _RISE = 1e-6
 """Relative rise allowed half-way between two ends of one minimum."""
+MASSES = (0.8, 1.2)
+"""Masses of the flights beside the design's, over its own."""
+DRAG_AREAS = (0.0, 1.25)
+"""Drag areas of the flights beside, over the design's: 0 to 4.1 m² for the UH-60A."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +104,7 @@ def run_search(
         if run.best is not None and search.band:
             evaluate.phase = "band"
             run.band = measure_band(evaluate, run.best)
+            run.ask_how_sure(objective)
     except SearchStopped:
         return run.result(stopped=True)
     return run.result()
@@ -112,6 +120,8 @@ class _Run:
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
         self.band: tuple[ParameterBand, ...] = ()
+        self.doubt: Doubt | None = None
+        self.doubt_band: tuple[ParameterBand, ...] = ()
 
     @property
     def best(self) -> Evaluation | None:
@@ -161,6 +171,13 @@ class _Run:
                 return
             self.groups.append((end, []))
 
+    def ask_how_sure(self, objective: Objective) -> None:
+        """What is uncertain of the saving and of the best twist."""
+        assert self.best is not None
+        search, values = self.search, self.evaluate.values(self.best.x)
+        self.doubt = saving_doubt(objective, search.concept.apply(search.design, values), search.design)
+        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values)
+
     def _leads_to(self, lead: Evaluation, x: Array) -> bool:
         """Whether a point is so near a minimum that a descent from there ends in it."""
         if np.abs(lead.x - x).max() < _SAME_PLACE:
@@ -172,7 +189,7 @@ class _Run:
         """Add an end to its minimum, or begin a new one."""
         for k, (lead, members) in enumerate(self.groups):
             if self._same(lead, end):
-                self.groups[k] = (min(lead, end, key=lambda one: one.cost), [*members, start])
+                self.groups[k] = (min(lead, end, key=lambda point: point.cost), [*members, start])
                 return
         self.groups.append((end, [start]))
 
@@ -208,7 +225,7 @@ class _Run:
                 message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
             status = SearchStatus.NOT_CONVERGED
-            trimmed = any(one.power is not None for one in evaluate.records)
+            trimmed = any(record.power is not None for record in evaluate.records)
             message = (
                 "No design found meets the limits: relax them."
                 if trimmed
@@ -234,6 +251,8 @@ class _Run:
             best=best,
             minima=minima,
             band=self.band,
+            doubt=self.doubt,
+            doubt_band=self.doubt_band,
             baseline_power=self.baseline.power,
             baseline_index=self.baseline.index,
             evaluations=evaluate.count,
@@ -338,3 +357,61 @@ def optimise(
         seed=seed,
     )
     return run_search(search)
+
+
+def best_linear_twist(design: Design) -> BestTwist:
+    """The linear twist of least total power, and how far it can move.
+
+    By what power allows, by what is uncertain, and with mass, drag area or wake. Mass and drag area are known, but not
+    the same in every flight and on every airframe: they move the best twist further than what is uncertain. In hover
+    the wake does: annuli and a lifting line want different twists.
+
+    Raises:
+        ValueError: the trim has no total power, or no linear twist trims; in one sentence.
+
+    Example:
+        >>> best = best_linear_twist(rotor.make_design(mu=0.35))
+        >>> {each.cause: each.width for each in best.ranges}["drag area"] > 0.08  # [rad/R]
+        True
+    """
+    concept = find_concept("linear")
+    result = run_search(Search(design, concept, starts=1))
+    if result.best is None:
+        raise ValueError(result.message)
+    ranges = [
+        TwistRange(cause, (band[0].low, band[0].high))
+        for cause, band in (("flat", result.band), ("doubt", result.doubt_band))
+        if band
+    ]
+
+    def rate(other: Design) -> float:
+        best = run_search(Search(other, concept, guesses=(result.best.parameters,), starts=1, band=False)).best  # type: ignore[union-attr]
+        return math.nan if best is None else best.parameters[0]
+
+    for cause, ends, designs in nearby_flights(design):
+        ranges.append(TwistRange(cause, (rate(designs[0]), rate(designs[1])), ends))
+    if design.hovering:
+        ranges += [
+            TwistRange("wake", (result.best.parameters[0], rate(line))) for line in other_models(design).values()
+        ]
+    return BestTwist(result.best.parameters[0], tuple(each for each in ranges if math.isfinite(each.width)))
+
+
+def nearby_flights(design: Design) -> list[tuple[str, tuple[float, float], tuple[Design, Design]]]:
+    """The cause, its ends [kg] or [m²] and the designs there: lighter and heavier, sleek and with more drag.
+
+    Empty on a test stand, where neither counts.
+    """
+    condition, fuselage = design.condition, design.fuselage
+    if condition.stand is not None:
+        return []
+    low, high = (share * condition.mass for share in MASSES)
+    masses = replace(condition, mass=low), replace(condition, mass=high)
+    flights = [("mass", (low, high), (replace(design, condition=masses[0]), replace(design, condition=masses[1])))]
+    if fuselage.drag_area and not design.hovering:
+        low, high = (share * fuselage.drag_area for share in DRAG_AREAS)
+        bodies = replace(fuselage, drag_area=low), replace(fuselage, drag_area=high)
+        flights.append(
+            ("drag area", (low, high), (replace(design, fuselage=bodies[0]), replace(design, fuselage=bodies[1])))
+        )
+    return flights

@@ -17,10 +17,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.problem import given_torsion
 from rotor.aero.section import RATE, TH
+from rotor.aero.unsteady_section import DTH
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
 from rotor.columns.bending import LOADS
@@ -38,7 +38,7 @@ from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.hub_loads import BAND, hub_index, index_of, load_terms, scaled_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import solve_alike
 
 STEP = math.radians(0.5)
 """Amplitude of the trims that give the second order. Our choice, half of what actuators reach."""
@@ -67,37 +67,28 @@ class TMatrix:
     base: Array
     """Cosine and sine at N_b ψ of fx, fy, fz [N], mx, my [N m], then total power [W], without active twist, (11,)."""
     slopes: Array
-    """Their slopes [1/rad], (11, 2 H)."""
+    """Slopes of `base` [1/rad], (11, 2 H)."""
     second: Array
-    """Their second derivatives [1/rad²], (11, 2 H, 2 H)."""
+    """Second derivatives of `base` [1/rad²], (11, 2 H, 2 H)."""
 
     def __repr__(self) -> str:
         design = self.solution.design
         return f"TMatrix({design.rotor.name}, mu {design.condition.advance_ratio:g}, harmonics {self.harmonics})"
 
-    @property
-    def complex_loads(self) -> NDArray[np.complex128]:
-        """T: amplitude and phase of each load by a degree of each harmonic at phase 0 [N/°, N m/°], (5, H), complex.
-
-        At another phase a load is not that times a rotation: it has a part that turns with φ and one against it.
-        """
-        slopes = self.slopes[:-1].reshape(len(LOADS), 2, -1, 2)[..., 0]
-        return (slopes[:, 0] + 1j * slopes[:, 1]) * math.radians(1.0)
-
     def response(self, twist_per_rev: PerRev) -> Response:
-        """Of an active twist, `N:DEG:PHASE[,…]` or as `make_design` takes it. ValueError for other harmonics."""
+        """Response to an active twist, `N:DEG:PHASE[,…]` or as `make_design` takes it; else ValueError."""
         x = np.zeros((len(self.harmonics), 2))
-        for one in read_harmonics(twist_per_rev, "twist_per_rev"):
-            if one.per_rev not in self.harmonics:
+        for harmonic in read_harmonics(twist_per_rev, "twist_per_rev"):
+            if harmonic.per_rev not in self.harmonics:
                 have = ", ".join(map(str, self.harmonics))
-                raise ValueError(f"the matrix has no {one.per_rev}/rev: use {have}, or make it with that harmonic")
-            phase = np.array([math.cos(one.phase), math.sin(one.phase)])
-            x[self.harmonics.index(one.per_rev)] = one.amplitude * phase
+                raise ValueError(f"the matrix has no {harmonic.per_rev}/rev: use {have}, or make it with that harmonic")
+            phase = np.array([math.cos(harmonic.phase), math.sin(harmonic.phase)])
+            x[self.harmonics.index(harmonic.per_rev)] = harmonic.amplitude * phase
         values = self._values(x.ravel())[0]
         loads = values[:-1].reshape(-1, 2)
-        found = [complex(cosine, sine) for cosine, sine in loads.tolist()]
+        amplitudes = [complex(cosine, sine) for cosine, sine in loads.tolist()]
         index = 100.0 * index_of(self.solution.design, loads)[0]
-        return Response(float(values[-1]), index, dict(zip(LOADS, found, strict=True)))
+        return Response(float(values[-1]), index, dict(zip(LOADS, amplitudes, strict=True)))
 
     def twist(self, x: Array) -> tuple[Harmonic, ...]:
         """Active twist of cosines and sines [rad], (2 H,)."""
@@ -137,14 +128,14 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
     waves = read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics")
     shaped = with_harmonics(design, waves)
-    base = solve(replace(design, active_twist=None)).require()
+    base = solve_alike(replace(design, active_twist=None), None).require()
     numbers = tuple(wave.per_rev for wave in waves)
-    found = TMatrix(base, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1)))
-    second = np.zeros((*found.slopes.shape, found.slopes.shape[1]))
-    for k, step in enumerate(STEP * np.eye(found.slopes.shape[1])):
-        moved = solve(with_harmonics(shaped, found.twist(step)), base).require()
-        second[:, :, k] = (_measured(moved, shaped)[1] - found.slopes) / STEP
-    return replace(found, second=0.5 * (second + second.transpose(0, 2, 1)))
+    matrix = TMatrix(base, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1)))
+    second = np.zeros((*matrix.slopes.shape, matrix.slopes.shape[1]))
+    for k, step in enumerate(STEP * np.eye(matrix.slopes.shape[1])):
+        moved = solve_alike(with_harmonics(shaped, matrix.twist(step)), base).require()
+        second[:, :, k] = (_measured(moved, shaped)[1] - matrix.slopes) / STEP
+    return replace(matrix, second=0.5 * (second + second.transpose(0, 2, 1)))
 
 
 def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
@@ -160,16 +151,19 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
         moved, direct = list[Array](), list[Array]()
         twist = shaped.active_twist
         assert twist is not None
-        for one in twist.harmonics:
+        for harmonic in twist.harmonics:
             for phase in (0.0, 0.5 * math.pi):
-                wave = replace(twist, harmonics=(Harmonic(one.per_rev, 1e-3, phase),))
+                wave = replace(twist, harmonics=(Harmonic(harmonic.per_rev, 1e-3, phase),))
                 fields = [1e3 * wave(disk.r, disk.psi, order) for order in range(3)]
                 given = np.zeros(len(structure.equations))
                 if torsion is not None:
                     added = given_torsion(torsion, np.zeros(len(disk.r)), fields[0], fields[2])
                     for (k, h), value in np.ndenumerate(added):
                         given[structure.equations["twist", k, h]] = value
-                on_equations, on_measures = linear_response(point, {TH: fields[0], RATE: fields[1]}, given)
+                moves = {TH: fields[0], RATE: fields[1]}
+                if problem.unsteady:
+                    moves[problem.inflow_terms.interface.channels + DTH] = fields[2]
+                on_equations, on_measures = linear_response(point, moves, given)
                 moved.append(on_equations)
                 direct.append(on_measures)
         states = np.linalg.solve(matrix, np.stack(moved, axis=1))
@@ -192,8 +186,8 @@ class FrontPoint:
     preview: tuple[float, float] | None = None
     """Power [W] and index [%] that the T-matrix foresaw; None where there is none."""
     band: tuple[float, float] | None = None
-    """Least and largest index over the wakes of `hub_loads.BAND` with which it trims [%]."""
-    over_wakes: tuple[float, float] | None = None
+    """Least and largest index over the inflow models of `hub_loads.BAND` with which it trims [%]."""
+    over_inflows: tuple[float, float] | None = None
     """Least and largest change of the index from the start, each with the same wake [%]; None for the start."""
 
 
@@ -217,16 +211,16 @@ class VibrationFront:
     def changes(self) -> tuple[tuple[float, float], ...]:
         """Change of power and of index from the start [%], point by point."""
         return tuple(
-            (100.0 * (one.power / self.start.power - 1.0), 100.0 * (one.index / self.start.index - 1.0))
-            for one in self.points
+            (100.0 * (point.power / self.start.power - 1.0), 100.0 * (point.index / self.start.index - 1.0))
+            for point in self.points
         )
 
     @property
     def preview_error(self) -> tuple[float, float] | None:
         """Largest errors of the preview, of power and of index, in per cent of those of the start."""
-        pairs = [(one.preview, one) for one in self.points]
-        power = [abs(seen[0] - one.power) / self.start.power for seen, one in pairs if seen is not None]
-        index = [abs(seen[1] - one.index) / self.start.index for seen, one in pairs if seen is not None]
+        pairs = [(point.preview, point) for point in self.points]
+        power = [abs(seen[0] - point.power) / self.start.power for seen, point in pairs if seen is not None]
+        index = [abs(seen[1] - point.index) / self.start.index for seen, point in pairs if seen is not None]
         return (100.0 * max(power), 100.0 * max(index)) if power else None
 
 
@@ -257,15 +251,15 @@ def vibration_front(
     if concept is not None:
         return _static_front(design, concept, points)
     matrix = t_matrix(design, harmonics)
-    start, found, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
+    start, front, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
     for x in _active_twists(matrix, math.radians(reach_deg), points):
-        solution = solve(with_harmonics(design, matrix.twist(x)), matrix.solution)
+        solution = solve_alike(with_harmonics(design, matrix.twist(x)), matrix.solution)
         power, index = matrix.power_and_index(x)[0].tolist()
-        found += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
+        front += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
         lost += not solution.converged
     reached = f"at most {reach_deg:g}° each of {', '.join(map(str, matrix.harmonics))}/rev"
     words = f"Active twist, {reached}; every point is trimmed again."
-    return _over_wakes(VibrationFront(start, tuple(found), words + (f" {lost} did not trim." if lost else "")))
+    return _over_inflows(VibrationFront(start, tuple(front), words + (f" {lost} did not trim." if lost else "")))
 
 
 def _trimmed(solution: Solution) -> FrontPoint:
@@ -273,24 +267,26 @@ def _trimmed(solution: Solution) -> FrontPoint:
     return FrontPoint(solution.design, solution.power.total, hub_index(Adjoint(solution)))
 
 
-def _over_wakes(front: VibrationFront) -> VibrationFront:
-    """With band and changes of the index over wakes."""
+def _over_inflows(front: VibrationFront) -> VibrationFront:
+    """With band and changes of the index over inflow models."""
     every = (front.start, *front.points)
-    indices = np.array([[_index_with(one, inflow) for inflow in BAND] for one in every])
+    indices = np.array([[_index_with(point, inflow) for inflow in BAND] for point in every])
     changes = 100.0 * (indices / indices[0] - 1.0)
-    found = [
-        replace(one, band=_ends([*own, one.index]), over_wakes=_ends(change) if one is not front.start else None)
-        for one, own, change in zip(every, indices.tolist(), changes.tolist(), strict=True)
+    points = [
+        replace(
+            point, band=_ends([*index, point.index]), over_inflows=_ends(change) if point is not front.start else None
+        )
+        for point, index, change in zip(every, indices.tolist(), changes.tolist(), strict=True)
     ]
-    return replace(front, start=found[0], points=tuple(found[1:]))
+    return replace(front, start=points[0], points=tuple(points[1:]))
 
 
-def _index_with(one: FrontPoint, inflow: str) -> float:
-    """The index with another wake [%]; NaN where it does not trim."""
-    models = one.design.models
+def _index_with(point: FrontPoint, inflow: str) -> float:
+    """The index with another inflow model [%]; NaN where it does not trim."""
+    models = point.design.models
     if inflow == models.inflow:
-        return one.index
-    other = solve(replace(one.design, models=replace(models, inflow=inflow)))
+        return point.index
+    other = solve_alike(replace(point.design, models=replace(models, inflow=inflow)), None)
     return hub_index(Adjoint(other)) if other.converged else math.nan
 
 
@@ -317,7 +313,7 @@ def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
         return np.stack([np.where(np.arange(size) // 2 == k, pairs.ravel(), 0.0) for k in range(len(pairs))])
 
     def least(which: int, starts: Sequence[Array], limit: float | None = None) -> Array:
-        """Of power (0) or index (1), with the index at most `limit`."""
+        """Twist of least power (0) or index (1), with the index at most `limit`."""
 
         def cost(u: Array) -> tuple[float, Array]:
             values, slopes = seen(u)
@@ -332,39 +328,39 @@ def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
         limits: list[dict[str, Any]] = [{"type": "ineq", "fun": within, "jac": within_slopes}]
         limits += [] if limit is None else [{"type": "ineq", "fun": room, "jac": room_slopes}]
         options = {"maxiter": 200, "ftol": 1e-9}
-        found = [slsqp(cost, u, constraints=limits, options=options) for u in starts]
-        ends = [*(np.asarray(one.x, dtype=np.float64) for one in found), *starts]
+        descents = [slsqp(cost, u, constraints=limits, options=options) for u in starts]
+        ends = [*(np.asarray(descent.x, dtype=np.float64) for descent in descents), *starts]
         return min((u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0])
 
     sides = [np.zeros(size), *(0.7 * np.eye(size)), *(-0.7 * np.eye(size))]
     ends = least(0, sides), least(1, sides)
     high, low = (float(seen(u)[0][1]) for u in ends)
-    found = [ends[0]]
+    twists = [ends[0]]
     for limit in np.linspace(high, low, points)[1:-1].tolist():
         share = (high - limit) / (high - low)
-        found.append(least(0, [ends[1], found[-1], (1.0 - share) * ends[0] + share * ends[1]], limit))
-    return [reach * u for u in (*found, ends[1])]
+        twists.append(least(0, [ends[1], twists[-1], (1.0 - share) * ends[0] + share * ends[1]], limit))
+    return [reach * u for u in (*twists, ends[1])]
 
 
 def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
-    """The same of static twist, by searches."""
+    """Front of static twist, by searches."""
     here, family = (WeightedCondition(design.condition),), find_concept(concept)
-    start = _trimmed(solve(design))
+    start = _trimmed(solve_alike(design, None))
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
     least = run_search(replace(plain, limits=Limits(index=_ANY)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
     searches, trimmed = [least, calm], TrimmedBlades()
-    found, (high, low) = [_best(least)], (_best(one).index or 0.0 for one in searches)
+    front, (high, low) = [_best(least)], (_best(search).index or 0.0 for search in searches)
     for limit in np.linspace(high, low, points)[1:-1].tolist():
-        guesses = found[-1].parameters, _best(calm).parameters
+        guesses = front[-1].parameters, _best(calm).parameters
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
         searches.append(run_search(held, trimmed=trimmed))
-        found.append(_best(searches[-1]))
-    trims = [solve(family.apply(design, one.parameters)) for one in (*found, _best(calm))]
-    lost = sum(one.status is not SearchStatus.CONVERGED for one in searches)
+        front.append(_best(searches[-1]))
+    trims = [solve_alike(family.apply(design, point.parameters), None) for point in (*front, _best(calm))]
+    lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
     words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""
-    return _over_wakes(VibrationFront(start, tuple(map(_trimmed, trims)), words))
+    return _over_inflows(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 
 _ANY = 1e3

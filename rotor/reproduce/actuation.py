@@ -34,9 +34,9 @@ PPM, KV_MM = 1e6, 1e-6
 
 def sheet(id: str) -> PiezoPly:
     """A ply of the catalogue."""
-    found = find_actuator(id)
-    assert isinstance(found, PiezoPly)
-    return found
+    actuator = find_actuator(id)
+    assert isinstance(actuator, PiezoPly)
+    return actuator
 
 
 def fitted_blade(plies: int, host: Host) -> InstalledActuator:
@@ -49,14 +49,14 @@ def figure_5_5() -> Report:
     curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
-    known = [one for one in actuators().values() if isinstance(one, PiezoPly)]
+    known = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
     # Variants for heat or cut into strips strain as their own kind does.
-    for one in (one for one in known if one.id not in ("MFC_P1_HT", "PZT5H_strips")):
-        field, (along, across) = electric_field(one, one.voltage_range), free_strain(one, one.voltage_range)
-        label = f"{one.name} ({'d33' if one.electrodes == 'interdigitated' else 'd31'})"
+    for shown in (shown for shown in known if shown.id not in ("MFC_P1_HT", "PZT5H_strips")):
+        field, (along, across) = electric_field(shown, shown.voltage_range), free_strain(shown, shown.voltage_range)
+        label = f"{shown.name} ({'d33' if shown.electrodes == 'interdigitated' else 'd31'})"
         curves.append(curve(label, KV_MM * field, PPM * along))
-        rows.append((one.id, *one.voltage_range, *PPM * along, *PPM * across))
-        numbers[one.id] = float(np.ptp(along))
+        rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
+        numbers[shown.id] = float(np.ptp(along))
     return card(
         "5.5",
         "Free strain along the fibres over the whole voltage range, against the field: interdigitated (d33) and "
@@ -79,9 +79,9 @@ def figure_5_5() -> Report:
 
 def figure_5_7() -> Report:
     """Field over voltage: a line each, whose slope is 1 over the gap between electrodes."""
-    known = [one for one in map(sheet, ("MFC_P1", "MFC_P2")) if one]
-    ends = [(one, np.array(one.voltage_range)) for one in known]
-    fields = {one.id: KV_MM * electric_field(one, volts) for one, volts in ends}
+    known = [sheet_data for sheet_data in map(sheet, ("MFC_P1", "MFC_P2")) if sheet_data]
+    ends = [(actuator, np.array(actuator.voltage_range)) for actuator in known]
+    fields = {actuator.id: KV_MM * electric_field(actuator, volts) for actuator, volts in ends}
     return card(
         "5.7",
         "Electric field over the whole voltage range: interdigitated electrodes (P1) and continuous ones (P2).",
@@ -91,9 +91,9 @@ def figure_5_7() -> Report:
         ) + ".",
         f"Voltage over gap; between interdigitated electrodes that is the mean, and the field is not even. {SOURCE}",
         table("field", ("actuator", "lowest_v", "highest_v", "low_kv_mm", "high_kv_mm"),
-              [(one.id, *volts, *fields[one.id]) for one, volts in ends]),
+              [(actuator.id, *volts, *fields[actuator.id]) for actuator, volts in ends]),
         (Chart("", Axis("voltage [V]"), Axis("field [kV/mm]"),
-               tuple(curve(one.name, volts, fields[one.id], "both") for one, volts in ends)),),
+               tuple(curve(actuator.name, volts, fields[actuator.id], "both") for actuator, volts in ends)),),
         {id: float(np.ptp(row)) for id, row in fields.items()},
     )  # fmt: skip
 
@@ -129,13 +129,13 @@ def figure_5_10() -> Report:
 
 def table_5_1() -> Report:
     """Properties of actuators."""
-    made = actuator_tables.table_5_1()
+    rows = actuator_tables.table_5_1()
     return card(
         "5.1",
         "Properties of the actuators in this package; columns and choice are ours.",
-        f"{len(made.rows)} actuators. " + " ".join(made.notes),
+        f"{len(rows.rows)} actuators. " + " ".join(rows.notes),
         "Each number carries its source and grade in assets/actuators.toml.",
-        table("properties", made.columns, made.rows),
+        table("properties", rows.columns, rows.rows),
     )
 
 
@@ -150,25 +150,25 @@ COMPARED: Call = (compared, ("flight",))
 
 def table_5_2() -> Report:
     """Actuators and concepts compared."""
-    made = compared("flight")
-    net = made.columns.index("net kW")
-    best = made.rows[0]
-    gains = [float(row[net]) for row in made.rows]
-    fitted = next(row for row in made.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
+    rows = compared("flight")
+    net = rows.columns.index("net kW")
+    best = rows.rows[0]
+    gains = [float(row[net]) for row in rows.rows]
+    fitted = next(row for row in rows.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
     return card(
         "5.2",
         f"Actuators and twist concepts compared between hover and µ {SPEEDS[1]:g}, half the time each, on the flown "
         "blade (flight preset); best net saving first.",
         f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} have a net benefit. The best is {best[0]} with the "
-        f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
-        made.notes[0],
-        table("verdicts", made.columns, made.rows),
+        f"{best[1]} concept: {best[net]} kW net. {rows.notes[1]}",
+        rows.notes[0],
+        table("verdicts", rows.columns, rows.rows),
         numbers={
             "rows": float(len(gains)),
             "best_kw": gains[0],
-            "actuators": float(len({row[0].partition(",")[0] for row in made.rows})),
+            "actuators": float(len({row[0].partition(",")[0] for row in rows.rows})),
             **{
-                key: float(fitted[made.columns.index(column)])
+                key: float(fitted[rows.columns.index(column)])
                 for key, column in (
                     ("needed", "needed °"),
                     ("reach", "nominal °"),

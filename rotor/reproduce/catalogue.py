@@ -205,13 +205,13 @@ def _tail_rotor(report: Report) -> TrustSet:
 
 def _statements(reports: Sequence[Report]) -> TrustSet:
     rows: list[TrustRow] = []
-    for one in filter(lambda report: report.checkable, reports):
-        chapter = one.number[0] if one.number[0].isdigit() else "3"
-        name = one.title.lower().replace(" ", "_").replace(".", "_")
-        test = _TESTS.get(one.title, f"test_chapter_{chapter}.py::test_{name}")
+    for checked in filter(lambda report: report.checkable, reports):
+        chapter = checked.number[0] if checked.number[0].isdigit() else "3"
+        name = checked.title.lower().replace(" ", "_").replace(".", "_")
+        test = _TESTS.get(checked.title, f"test_chapter_{chapter}.py::test_{name}")
         rows.append(
-            TrustRow("thesis", "document", one.title, one.statement, one.verdict.value, None, 0.0,
-                     f"rotor/reproduce/{test}", one.ours)
+            TrustRow("thesis", "document", checked.title, checked.statement, checked.verdict.value, None, 0.0,
+                     f"rotor/reproduce/{test}", checked.ours)
         )  # fmt: skip
     count = Counter(row.shown for row in rows)
     places = tuple(map(float, range(len(count))))
@@ -231,7 +231,7 @@ def _chart(report: Report, place: int = 0) -> Chart:
     """A panel as a chart of the trust page: what the thesis says in ink."""
     panel = report.panels[place]
     series = tuple(
-        replace(one, colour=INK if isinstance(one, Points) or (isinstance(one, Line) and one.dashes) else k)
-        for k, one in enumerate(panel.series, start=1)
+        replace(series, colour=INK if isinstance(series, Points) or (isinstance(series, Line) and series.dashes) else k)
+        for k, series in enumerate(panel.series, start=1)
     )
     return replace(panel, title=report.caption, series=series)

@@ -213,11 +213,11 @@ def elements_figure(number: str) -> Report:
     errors: dict[str, list[float]] = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
-        found = powers[name] = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
-        order = convergence_order(found)
+        row = powers[name] = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
+        order = convergence_order(row)
         # Richardson's limit with the order found; the finest grid where the differences hardly fall.
-        limit = found[-1] + ((found[-1] - found[-2]) / (2.0**order - 1.0) if order > 1.0 else 0.0)
-        errors[name] = [abs(power / limit - 1.0) for power in found]
+        limit = row[-1] + ((row[-1] - row[-2]) / (2.0**order - 1.0) if order > 1.0 else 0.0)
+        errors[name] = [abs(power / limit - 1.0) for power in row]
         numbers |= {
             f"{name}_order": order, f"{name}_limit_kw": limit,
             f"{name}_error_at_40": errors[name][ELEMENTS.index(40)], f"{name}_needed": _needed(ELEMENTS, errors[name]),

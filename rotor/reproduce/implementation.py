@@ -52,7 +52,7 @@ def error_figure(number: str) -> Report:
     studies = {low_high: fit_error_study(polar, low_high) for low_high in RANGES}
     numbers: dict[str, float] = {}
     for low, high in RANGES:
-        errors = {one.order: _rms(one, which) for one in studies[low, high]}
+        errors = {study.order: _rms(study, which) for study in studies[low, high]}
         name = f"{low:g}_{high:g}"
         numbers |= {
             f"at_{name}": errors[chosen],
@@ -62,10 +62,10 @@ def error_figure(number: str) -> Report:
         }
     spread = _spread(which)
     share = numbers["at_-10_15"] / spread
-    knee = knee_of([(one.order, _rms(one, which)) for one in studies[RANGES[0]]])
-    enough = next(one.order for one in studies[RANGES[0]] if _rms(one, which) < GOOD * spread)
+    knee = knee_of([(study.order, _rms(study, which)) for study in studies[RANGES[0]]])
+    enough = next(study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD * spread)
     rows = [
-        (one.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, one in enumerate(studies[RANGES[0]])
+        (study.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, study in enumerate(studies[RANGES[0]])
     ]
     symbol = "Cl" if which == "lift" else "Cd"
     panel = Chart(
@@ -119,10 +119,10 @@ def fit_figure(number: str) -> Report:
     alpha_deg = polar.alpha_deg[keep]
     which_one, symbol = (0, "Cl") if which == "lift" else (1, "Cd")
     data = (polar.cl, polar.cd)[which_one][keep]
-    made = fit(np.deg2rad(alpha_deg))[which_one]
-    rms = float(np.sqrt(np.mean((made - data) ** 2)))
+    fitted = fit(np.deg2rad(alpha_deg))[which_one]
+    rms = float(np.sqrt(np.mean((fitted - data) ** 2)))
     attached = (alpha_deg >= ATTACHED_DEG[0]) & (alpha_deg <= ATTACHED_DEG[1])
-    relative = made[attached] / data[attached] - 1.0 if which == "drag" else np.zeros(1)
+    relative = fitted[attached] / data[attached] - 1.0 if which == "drag" else np.zeros(1)
     fine = np.linspace(low, high, 401)
     smooth = fit(np.deg2rad(fine))[which_one]
     # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
@@ -144,7 +144,7 @@ def fit_figure(number: str) -> Report:
         "which the thesis does not mention and a trim needs from µ 0.15.",
         tables=(
             table(
-                "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, made, strict=True)
+                "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, fitted, strict=True)
             ),
         ),
         panels=(

@@ -21,7 +21,6 @@ from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.runs import CachedFunction, Call
 from rotor.trim.solve import solve
-from rotor.validation.sensitivity import with_blades
 from rotor.validation.uh60a import SLOWEST
 
 RUNGS = {
@@ -93,9 +92,9 @@ class MovingTwist:
     fixed_deg: float
     """[°/R]"""
     fixed_kw: float
-    """Its mean total power."""
+    """Mean total power of the best fixed twist."""
     baseline_kw: float
-    """That of a fixed −16°."""
+    """Mean total power of a fixed −16°."""
     gain: float
     """What moving saves, as a part of the fixed blade's power."""
 
@@ -107,13 +106,13 @@ def least(on: tuple[str, ...], mu: float, inflow: str | None) -> Least:
 
 
 def _least(design: Design) -> Least:
-    found = run_search(Search(design, _LINEAR, starts=2))
+    optimum = run_search(Search(design, _LINEAR, starts=2))
     mu = design.condition.advance_ratio
-    if found.best is None:
+    if optimum.best is None:
         raise ValueError(f"no linear twist trims at advance ratio {mu:g} with {design.models.inflow}: leave it out")
-    band = (found.band[0].low, found.band[0].high) if found.band else (math.nan, math.nan)
+    band = (optimum.band[0].low, optimum.band[0].high) if optimum.band else (math.nan, math.nan)
     low, high = map(math.degrees, band)
-    return Least(mu, math.degrees(found.best.parameters[0]), (low, high), found.best.power / 1e3)
+    return Least(mu, math.degrees(optimum.best.parameters[0]), (low, high), optimum.best.power / 1e3)
 
 
 @CachedFunction
@@ -122,13 +121,13 @@ def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | N
     moving = [least(on, mu, inflow) for mu in speeds]
     design = built(on, speeds[0], inflow=inflow)
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds)
-    guess = (math.radians(sum(one.rate_deg for one in moving) / len(moving)),)
+    guess = (math.radians(sum(least.rate_deg for least in moving) / len(moving)),)
     search = Search(design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False)
-    found = run_search(search)
-    fixed, baseline = found.best, found.baseline_power
+    optimum = run_search(search)
+    fixed, baseline = optimum.best, optimum.baseline_power
     if fixed is None or baseline is None:
         raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
-    mean = 1e3 * sum(one.power_kw for one in moving) / len(moving)
+    mean = 1e3 * sum(least.power_kw for least in moving) / len(moving)
     return MovingTwist(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
 
 
@@ -153,7 +152,35 @@ def without_drag(mu: float) -> Least:
 def twice_the_blades(mu: float) -> Least:
     """The best twist of a rigid blade, as one of eight of half the chord and mass."""
     design = built(_without("elastic"), mu)
-    return _least(with_blades(2 * design.rotor.blades)(design))
+    return _least(_with_blades(design, 2 * design.rotor.blades))
+
+
+def _with_blades(design: Design, count: int) -> Design:
+    """The solidity kept on another number of blades; flap inertia and mass go with the chord."""
+    rotor, share, structure = design.rotor, design.rotor.blades / count, design.rotor.blade.structure
+    if structure is not None:
+        stiffness, inertia, mass = (
+            tuple(factor * value for value in values)
+            for factor, values in (
+                (share**2, structure.torsional_stiffness),
+                (share**2, structure.torsional_inertia),
+                (share, structure.mass_per_length),
+            )
+        )
+        structure = replace(
+            structure, torsional_stiffness=stiffness, torsional_inertia=inertia, mass_per_length=mass,
+            control_stiffness=share**2 * structure.control_stiffness,
+        )  # fmt: skip
+    blade = replace(
+        rotor.blade,
+        chords=tuple(share * chord for chord in rotor.blade.chords),
+        flap_inertia=share * rotor.blade.flap_inertia,
+        flap_static_moment=share * rotor.blade.flap_static_moment,
+        mass=share * rotor.blade.mass,
+        structure=structure,
+    )
+    chord = share * rotor.reference_chord
+    return replace(design, rotor=replace(rotor, blades=count, blade=blade, reference_chord=chord))
 
 
 PARTS = (least, moving_twist, strong_over_weak, twice_the_blades, without_drag)
@@ -192,7 +219,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class WakeRow:
+class InflowRow:
     """The preset `flight` with another inflow model."""
 
     inflow: str
@@ -202,11 +229,11 @@ class WakeRow:
 
 @dataclass(frozen=True)
 class Ladder:
-    """All rungs, the trim as one, and other wakes and blades at the top."""
+    """All rungs, the trim as one, and other inflow models and blades at the top."""
 
     speeds: tuple[float, ...]
     named: tuple[float, ...]
-    """Those of `NAMED` among the speeds; without any, the fastest."""
+    """Values of `NAMED` among the speeds; without any, the fastest."""
     steps: tuple[Step, ...]
     trim: Step
     """Both of `TRIM` as one change."""
@@ -214,11 +241,11 @@ class Ladder:
     """Best twist of eight rigid blades less that of four, at the fastest speed."""
     without_drag_deg: float
     """Best twist of `flight` without fuselage drag, at the fastest speed [°/R]."""
-    wakes: tuple[WakeRow, ...]
+    inflows: tuple[InflowRow, ...]
 
     def step(self, name: str) -> Step:
         """A rung by name; `trim` is both of `TRIM`."""
-        return next(one for one in (*self.steps, self.trim) if one.name == name)
+        return next(step for step in (*self.steps, self.trim) if step.name == name)
 
     def at(self, name: str, mu: float) -> Least:
         """The best twist of a rung at a speed of the ladder."""
@@ -272,7 +299,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
         twice_the_blades(fast).rate_deg - least(_without("elastic"), fast, None).rate_deg,
         without_drag(fast).rate_deg,
         tuple(
-            WakeRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
+            InflowRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
             for name in INFLOW_MODELS
         ),
     )  # fmt: skip
@@ -282,11 +309,11 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
     """What `climb` needs, in lists that can be made in different processes."""
     names = tuple(RUNGS)
     ladder = [names[:count] for count in range(len(names) + 1)]
-    alone = [on for changed in (*((one,) for one in names), TRIM) for on in (changed, _without(*changed))]
+    alone = [on for changed in (*((name,) for name in names), TRIM) for on in (changed, _without(*changed))]
     return [
         *(
-            [(least, (names, mu, wake)) for mu in speeds] + [(moving_twist, (names, speeds, wake))]
-            for wake in INFLOW_MODELS
+            [(least, (names, mu, inflow)) for mu in speeds] + [(moving_twist, (names, speeds, inflow))]
+            for inflow in INFLOW_MODELS
         ),
         *(
             [(least, (on, mu, None)) for mu in speeds]

@@ -171,11 +171,11 @@ MISPRINTS: tuple[Misprint, ...] = (
 )  # fmt: skip
 
 
-def shown_values(one: Misprint) -> tuple[float, float]:
+def shown_values(misprint: Misprint) -> tuple[float, float]:
     """Run the two lines: the value as printed and ours."""
     names = dict(_names())
-    exec(one.setting, names)
-    printed, ours = eval(one.showing, names)
+    exec(misprint.setting, names)
+    printed, ours = eval(misprint.showing, names)
     return float(printed), float(ours)
 
 
@@ -196,17 +196,19 @@ def _names() -> dict[str, Any]:
         hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve, polynomial_section, polynomial_table,
         load_section,
     )  # fmt: skip
-    return {"np": np, "reading": THESIS_READING, **{one.__name__: one for one in helpers}}
+    return {"np": np, "reading": THESIS_READING, **{helper.__name__: helper for helper in helpers}}
 
 
 def misprint_table() -> ReportTable:
     """Every misprint with its lines and what they give."""
     rows: list[tuple[str, ...]] = []
-    for one in MISPRINTS:
-        unit = f" {one.unit}" if one.unit else ""
-        where = ", ".join(filter(None, (one.equation, f"p. {one.page}" if one.page else "", one.kind)))
-        values = (f"{_short(value)}{unit}" for value in shown_values(one))
-        rows.append((where, one.printed, one.ours, f"{one.setting}\n{one.showing}", *values))
+    for misprint in MISPRINTS:
+        unit = f" {misprint.unit}" if misprint.unit else ""
+        where = ", ".join(
+            filter(None, (misprint.equation, f"p. {misprint.page}" if misprint.page else "", misprint.kind))
+        )
+        values = (f"{_short(value)}{unit}" for value in shown_values(misprint))
+        rows.append((where, misprint.printed, misprint.ours, f"{misprint.setting}\n{misprint.showing}", *values))
     return table("misprints", ("Equation", "As printed", "Ours, and why", "Python", "Printed", "Ours"), rows)
 
 

@@ -38,7 +38,7 @@ NAMES = {
     "outboard_rate_deg": "outboard rate [°/R]",
 }
 BOUND_DEG = 30.0
-"""Of every rate in the search [°/R]."""
+"""Bound of every rate in the search [°/R]."""
 _TWO = ("inboard_rate_deg", "outboard_rate_deg")
 FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
     "4.1": ("linear", ("rate_deg",), ""),
@@ -63,36 +63,36 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
 def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
     concept, shown, note = FIGURES[number]
-    found = {name: [best(name, concept, mu, speeds) for mu in speeds] for name in VARIANTS}
-    largest = {name: max(one.saving for one in row) for name, row in found.items()}
-    widths = [high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])]]
+    optima = {name: [best(name, concept, mu, speeds) for mu in speeds] for name in VARIANTS}
+    largest = {name: max(optimum.saving for optimum in row) for name, row in optima.items()}
+    widths = [high - low for row in optima.values() for optimum in row for low, high in [_band(optimum, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
-    settled = all(one.converged for row in found.values() for one in row)
+    settled = all(optimum.converged for row in optima.values() for optimum in row)
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
     return card(
         number,
         f"Twist of least total power over speed: {CONCEPTS[concept][0]}. Shaded: within 0.1 % of that power.",
         f"Against a fixed linear −16° it saves at most {by_name(largest)}; up to {widest:.0f}° of twist cost 0.1 %.",
         "The other parameters are re-optimised along the band." + note + (_induced(0.2) if number == "4.1" else "")
-        + _on_bound(found, shown)
+        + _on_bound(optima, shown)
         + ("" if settled else " Not every search converged."),
         table(
             "optimum",
             ("variant", "mu", *columns, "total_kw", "saving_percent"),
             [
-                (name, one.mu, *(cell for key in shown for cell in (_value(one, key), *_band(one, key))), one.power_kw,
-                 100.0 * one.saving)
-                for name, row in found.items()
-                for one in row
+                (name, optimum.mu, *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
+                 optimum.power_kw, 100.0 * optimum.saving)
+                for name, row in optima.items()
+                for optimum in row
             ],
         ),
-        tuple(_panel(name, row, shown) for name, row in found.items()),
+        tuple(_panel(name, row, shown) for name, row in optima.items()),
         summary=table(
             "best",
             ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)),
             [
-                (f"{name}, {NAMES[key]}", *(f"{_value(one, key):.1f}" for one in row))
-                for name, row in found.items()
+                (f"{name}, {NAMES[key]}", *(f"{_value(optimum, key):.1f}" for optimum in row))
+                for name, row in optima.items()
                 for key in shown
             ],
         ),
@@ -103,22 +103,22 @@ def _induced(mu: float) -> str:
     """What the abstract minimises beside what chapter 4 shows."""
     design = variant("flight", mu=mu)
     linear = find_concept("linear")
-    found = (run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS)
-    total, induced = (math.degrees(one.best.parameters[0]) for one in found if one.best is not None)
+    searches = (run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS)
+    total, induced = (math.degrees(optimum.best.parameters[0]) for optimum in searches if optimum.best is not None)
     return (
         f" The abstract and the objectives minimise induced power, the captions of chapter 4 do not say: in the flight "
         f"preset at µ {mu:g} the best twist is {induced:.1f}° for induced and {total:.1f}° for total power."
     )
 
 
-def _on_bound(found: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> str:
+def _on_bound(optima: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> str:
     """Names the optima that lie on the bound of the search, where the true optimum may lie beyond."""
     places = [
-        f"{_word(key)} at {'hover' if one.mu == 0.0 else f'µ {one.mu:g}'} ({name})"
-        for name, row in found.items()
-        for one in row
+        f"{_word(key)} at {'hover' if optimum.mu == 0.0 else f'µ {optimum.mu:g}'} ({name})"
+        for name, row in optima.items()
+        for optimum in row
         for key in shown
-        if key.endswith("rate_deg") and abs(_value(one, key)) > BOUND_DEG - 0.05
+        if key.endswith("rate_deg") and abs(_value(optimum, key)) > BOUND_DEG - 0.05
     ]
     if not places:
         return ""
@@ -127,12 +127,12 @@ def _on_bound(found: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> s
 
 def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> Chart:
     curves: list[Series] = []
-    speeds = [one.mu for one in row]
+    speeds = [optimum.mu for optimum in row]
     for k, key in enumerate(shown):
-        low, high = zip(*(_band(one, key) for one in row), strict=True)
+        low, high = zip(*(_band(optimum, key) for optimum in row), strict=True)
         curves += with_gap("", speeds, low, "band", upper=high, colour=k)
         curves += with_gap(
-            _word(key) if len(shown) > 1 else "optimum", speeds, [_value(one, key) for one in row], colour=k
+            _word(key) if len(shown) > 1 else "optimum", speeds, [_value(optimum, key) for optimum in row], colour=k
         )
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
     return Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(y_label), tuple(curves))
@@ -142,12 +142,12 @@ def _word(key: str) -> str:
     return NAMES[key].partition(" [")[0]
 
 
-def _value(one: ConceptOptimum, key: str) -> float:
-    return one.values[one.names.index(key)]
+def _value(optimum: ConceptOptimum, key: str) -> float:
+    return optimum.values[optimum.names.index(key)]
 
 
-def _band(one: ConceptOptimum, key: str) -> tuple[float, float]:
-    return one.band[one.names.index(key)]
+def _band(optimum: ConceptOptimum, key: str) -> tuple[float, float]:
+    return optimum.band[optimum.names.index(key)]
 
 
 def figure_4_11() -> Report:
@@ -197,11 +197,11 @@ def three_segment_rows(preset: str, most: int | None) -> tuple[SpeedRow, ...]:
             continue
         design = variant(preset, twist="uh60a", mu=mu, mass=forward["mass_kg"])
         design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
-        found = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
-        assert found.best is not None, f"{preset}, µ {mu:g}: {found.message}"
-        guess = (found.best.parameters,)
-        flown, moved = (solve(one).require().power.main_rotor / 1e3 for one in (design, found.design))
-        rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
+        optimum = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
+        assert optimum.best is not None, f"{preset}, µ {mu:g}: {optimum.message}"
+        guess = (optimum.best.parameters,)
+        flown, moved = (solve(flight).require().power.main_rotor / 1e3 for flight in (design, optimum.design))
+        rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, optimum.best.twist))
     return tuple(rows)
 
 
@@ -280,15 +280,19 @@ def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
     numbers: dict[str, float] = {}
     more: dict[str, float] = {}
     for name in VARIANTS:
-        one = moving_twist(tuple(RUNGS) if name == "flight" else (), speeds, None)
+        variable = moving_twist(tuple(RUNGS) if name == "flight" else (), speeds, None)
         mean = {
             concept: sum(comparable_kw(name, concept, mu, speeds) for mu in speeds) / len(speeds)
             for concept in CONCEPTS
         }
-        saving = {concept: 1.0 - power / one.baseline_kw for concept, power in mean.items()}
-        fixed, moving = 1.0 - one.fixed_kw / one.baseline_kw, 1.0 - mean["linear"] / one.fixed_kw
+        saving = {concept: 1.0 - power / variable.baseline_kw for concept, power in mean.items()}
+        fixed, moving = 1.0 - variable.fixed_kw / variable.baseline_kw, 1.0 - mean["linear"] / variable.fixed_kw
         rows.append(
-            (name, *(f"{100.0 * part:.2f}" for part in saving.values()), f"{100.0 * fixed:.2f} ({one.fixed_deg:.1f}°)")
+            (
+                name,
+                *(f"{100.0 * part:.2f}" for part in saving.values()),
+                f"{100.0 * fixed:.2f} ({variable.fixed_deg:.1f}°)",
+            )
         )
         numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
         # Beyond one linear twist that moves; kept of the last, the flight preset.

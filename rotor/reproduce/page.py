@@ -51,7 +51,7 @@ FEW = 3
 
 def _same_key(panels: tuple[Chart, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
-    keys = [tuple(one.label for one in panel.series) for panel in panels]
+    keys = [tuple(series.label for series in panel.series) for panel in panels]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
@@ -104,14 +104,14 @@ TALK = "today.html"
 MISPRINTS_PAGE = "misprints.html"
 
 
-def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> None:
+def write_talk(entries: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> None:
     """Write the last chapter as a page of one screen, where it was made."""
-    report = _talk_of(made)
+    report = _talk_of(entries)
     if report is None:
         return
     answer, *others = report.tables
     rows = [(tag("dt", typographic(str(words))), tag("dd", typographic(str(text)))) for words, text in answer.rows]
-    files = [tag("a", f"CSV {typographic(one.name)}", href=csv_name(report, one)) for one in others]
+    files = [tag("a", f"CSV {typographic(other.name)}", href=csv_name(report, other)) for other in others]
     picture = tag("div", _image(report, folder), tag("p.small", typographic(report.caption)))
     body = (
         tag("p.lead", typographic(report.ours)),
@@ -152,19 +152,23 @@ def _page(title: str, *content: Content, kind: str | None = None) -> str:
 
 def _listed(parts: Sequence[Markup]) -> list[Content]:
     """With dots between them."""
-    return [part for one in parts for part in (" · ", one)][1:]
+    return [part for link in parts for part in (" · ", link)][1:]
 
 
-def _talk_of(made: Sequence[tuple[CatalogueEntry, Report]]) -> Report | None:
-    return next((report for entry, report in made if entry.number == "today"), None)
+def _talk_of(entries: Sequence[tuple[CatalogueEntry, Report]]) -> Report | None:
+    return next((report for entry, report in entries if entry.number == "today"), None)
 
 
-def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
-    counts = Counter(report.verdict for _, report in made)
+def _head(entries: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
+    counts = Counter(report.verdict for _, report in entries)
     summary = ", ".join(
-        f"{one.value} {counts[one]}" for one in Agreement if counts[one] and one is not Agreement.NO_REFERENCE
+        f"{agreement.value} {counts[agreement]}"
+        for agreement in Agreement
+        if counts[agreement] and agreement is not Agreement.NO_REFERENCE
     )
-    checkable, captions = (sum(getattr(report, name) for _, report in made) for name in ("checkable", "caption_only"))
+    checkable, captions = (
+        sum(getattr(report, name) for _, report in entries) for name in ("checkable", "caption_only")
+    )
     drawings = "; ".join(f"{number}, {words}" for number, words in DRAWINGS.items())
     rows = [
         tag(
@@ -173,9 +177,9 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
             tag("td", _chip(report.verdict)),
             tag("td", typographic(report.statement)),
         )
-        for _, report in made
+        for _, report in entries
     ]
-    talk = (" ", tag("a", "Its main results then and now, on one page", href=TALK), ".") if _talk_of(made) else None
+    talk = (" ", tag("a", "Its main results then and now, on one page", href=TALK), ".") if _talk_of(entries) else None
     return group(
         tag("h1", "The thesis, rebuilt"),
         tag(
@@ -195,8 +199,8 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
         tag(
             "p",
             f"{checkable} checkable against the thesis{f' ({summary})' if summary else ''}; {captions} ours under its "
-            f"captions; {len(made) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures of "
-            "the thesis that show nothing of its model, not rebuilt. ",
+            f"captions; {len(entries) - checkable - captions} without a statement to check; {len(DRAWINGS)} pictures "
+            "of the thesis that show nothing of its model, not rebuilt. ",
             tag("a", "What the thesis omits or misprints", href=MISPRINTS_PAGE),
             ".",
             talk,
@@ -214,7 +218,8 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]]) -> Markup:
 def _article(report: Report, folder: Path) -> Markup:
     image = _image(report, folder) if report.panels else None
     files = [
-        tag("a", f"CSV {typographic(one.name.replace('_', ' '))}", href=csv_name(report, one)) for one in report.tables
+        tag("a", f"CSV {typographic(table.name.replace('_', ' '))}", href=csv_name(report, table))
+        for table in report.tables
     ]
     if image:
         files += [tag("a", end.upper(), href=f"{report.stem}.{end}") for end in ("svg", "png")]
@@ -229,10 +234,10 @@ def _article(report: Report, folder: Path) -> Markup:
         tag("h3", typographic(report.title), " ", _chip(report.verdict)),
         tag("div", typographic(report.caption)),
         image,
-        [tag(f"div.{_shown_as(one)}", _rows(one)) for one in report.tables if one.shown],
+        [tag(f"div.{_shown_as(table)}", _rows(table)) for table in report.tables if table.shown],
         said,
         tag("div.small.files", _listed(files)),
-        [_details(one) for one in report.tables if not one.shown],
+        [_details(table) for table in report.tables if not table.shown],
         id=report.stem,
     )
 
@@ -244,16 +249,16 @@ def _image(report: Report, folder: Path) -> Markup:
     return tag(f"img.{kind}", alt=typographic(report.title), src=f"data:image/svg+xml;base64,{data}")
 
 
-def _details(one: ReportTable) -> Markup:
-    left = tag("p.small", f"{len(one.rows) - ROWS} more rows in the CSV.") if len(one.rows) > ROWS else None
-    title = tag("summary", typographic(one.name.replace("_", " ")))
-    return tag("details", title, tag("div.scroll", _rows(one)), left)
+def _details(table: ReportTable) -> Markup:
+    left = tag("p.small", f"{len(table.rows) - ROWS} more rows in the CSV.") if len(table.rows) > ROWS else None
+    title = tag("summary", typographic(table.name.replace("_", " ")))
+    return tag("details", title, tag("div.scroll", _rows(table)), left)
 
 
-def _rows(one: ReportTable) -> Markup:
+def _rows(table: ReportTable) -> Markup:
     """The first rows of a table, for the page."""
-    head = tag("tr", [tag("th", typographic(column)) for column in one.columns])
-    return tag("table", head, [tag("tr", map(_cell, row)) for row in one.rows[:ROWS]])
+    head = tag("tr", [tag("th", typographic(column)) for column in table.columns])
+    return tag("table", head, [tag("tr", map(_cell, row)) for row in table.rows[:ROWS]])
 
 
 def _cell(cell: TableCell) -> Markup:
@@ -264,9 +269,9 @@ def _cell(cell: TableCell) -> Markup:
     return tag("td.yes" if cell.startswith("yes ") else "td", typographic(cell))
 
 
-def _shown_as(one: ReportTable) -> str:
+def _shown_as(table: ReportTable) -> str:
     """Classes of an open table: sentences may be broken into lines, numbers not."""
-    longest = max(len(cell) for row in one.rows for cell in row if isinstance(cell, str))
+    longest = max(len(cell) for row in table.rows for cell in row if isinstance(cell, str))
     return "shown.text" if longest > LONG else "shown"
 
 
@@ -284,32 +289,32 @@ def written(number: str, folder: Path) -> Report:
 
 def write_report(report: Report, folder: Path) -> None:
     """CSV per table, SVG and PNG."""
-    for one in report.tables:
-        write_csv(folder / csv_name(report, one), report, one)
+    for table in report.tables:
+        write_csv(folder / csv_name(report, table), report, table)
     draw(report, folder)
 
 
-def csv_name(report: Report, one: ReportTable) -> str:
+def csv_name(report: Report, table: ReportTable) -> str:
     """`figure-3_11-thesis_kw.csv`; without the table's name where it is the only one."""
-    return f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
+    return f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{table.name}.csv"
 
 
-def write_csv(path: Path, report: Report, one: ReportTable) -> None:
+def write_csv(path: Path, report: Report, table: ReportTable) -> None:
     """One table with a heading of comments."""
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n")
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(one.columns)
+        writer.writerow(table.columns)
         # Six significant digits are more than the accuracy of any.
-        writer.writerows([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in one.rows)
+        writer.writerows([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)
 
 
-def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
+def write_all(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
     write_misprints(folder)
-    write_talk(made, folder)
-    parts = [_head(made)]
-    for chapter, entries in groupby(made, key=lambda pair: pair[0].chapter):
+    write_talk(reports, folder)
+    parts = [_head(reports)]
+    for chapter, entries in groupby(reports, key=lambda pair: pair[0].chapter):
         parts.append(tag("h2", typographic(chapter)))
         parts += [_article(report, folder) for _, report in entries]
     path = folder / "index.html"

@@ -136,16 +136,18 @@ def described(section: str) -> str:
     return f"{transition}, M {reading.mach:g}, {low:g}…{high:g}°"
 
 
-def shortfall(one: Judgement) -> float:
+def shortfall(judgement: Judgement) -> float:
     """The sum of what the statements that do not hold miss the tolerance by, as a part of power."""
-    return sum(abs(value - TOLERANCE) for value, held in zip(one.excess, one.holds, strict=True) if not held)
+    return sum(
+        abs(value - TOLERANCE) for value, held in zip(judgement.excess, judgement.holds, strict=True) if not held
+    )
 
 
 def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
     """Reading × statement."""
-    found = {one.reading: one for pair in product(sections, LOSS_ON) for one in judge(*pair)}
-    held = {reading: sum(one.holds) for reading, one in found.items()}
-    best = min(found, key=lambda reading: (-held[reading], shortfall(found[reading])))
+    judgements = {judgement.reading: judgement for pair in product(sections, LOSS_ON) for judgement in judge(*pair)}
+    held = {reading: sum(judgement.holds) for reading, judgement in judgements.items()}
+    best = min(judgements, key=lambda reading: (-held[reading], shortfall(judgements[reading])))
     most = held[best]
     several = sum(count == most for count in held.values())
     ways = [*product(LOSS_ON, UNITS, COUNTS)]
@@ -153,12 +155,12 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
     per_radius = best._replace(unit=UNITS[0])
 
     def statements(reading: ThesisReading) -> tuple[TableCell, ...]:
-        one = found[reading]
+        judgement = judgements[reading]
         cells = [f"{'yes' if yes else 'no'} {100 * value:.2f} %"
-                 for yes, value in zip(one.holds, one.excess, strict=True)]  # fmt: skip
-        overtakes = f"{one.overtakes:.3f}" if np.isfinite(one.overtakes) else "–"
+                 for yes, value in zip(judgement.holds, judgement.excess, strict=True)]  # fmt: skip
+        overtakes = f"{judgement.overtakes:.3f}" if np.isfinite(judgement.overtakes) else "–"
         words = f"{described(reading.section)}; F on {reading.loss_on}; {reading.unit}; {reading.counted}"
-        return words, f"{one.optimum_deg:.1f}", *cells, overtakes
+        return words, f"{judgement.optimum_deg:.1f}", *cells, overtakes
 
     return Report(
         number="Readings",
@@ -171,10 +173,10 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
         " effects” averaged over azimuth (p. 24); power from torque (3.10), but “the code calculates the main rotor "
         "induced power, main rotor profile power and fuselage parasitic power” (p. 25). Transition, Mach number, range "
         "of the fit and unit of twist are not stated.",
-        ours=f"The most is {most} of 5, by {several} of {len(found)} readings. Of these {statements(best)[0]} misses "
-        f"least: by {100 * shortfall(found[best]):.2f} % of power. Read per radius it gives {held[per_radius]}; −8° "
-        f"then overtakes −12° at µ {found[per_radius].overtakes:.3f}. The preset's reading of before gives "
-        f"{held[before]}.",
+        ours=f"The most is {most} of 5, by {several} of {len(judgements)} readings. Of these {statements(best)[0]} "
+        f"misses least: by {100 * shortfall(judgements[best]):.2f} % of power. Read per radius it gives "
+        f"{held[per_radius]}; −8° then overtakes −12° at µ {judgements[per_radius].overtakes:.3f}. The preset's "
+        f"reading of before gives {held[before]}.",
         verdict=Agreement.INDICATIVE,
         because="The preset takes section data, F and power of the reading that holds most; twist stays per radius, as "
         "in figure 4.11. F on the inflow is what (3.3) says, the sum of parts what p. 25 says. The section data are "
@@ -185,18 +187,19 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
             table(
                 "held",
                 ("section data", *(f"{on}, {unit}, {count}" for on, unit, count in ways)),
-                [(described(one), *(held[ThesisReading(one, *way)] for way in ways)) for one in sections], shown=True,
+                [(described(section), *(held[ThesisReading(section, *way)] for way in ways)) for section in sections],
+                shown=True,
             ),
             table(
                 "statements", ("reading", "optimum in hover [°]", *STATEMENTS, "−8° overtakes −12° at µ"),
-                [statements(one) for one in (best, per_radius, before)], shown=True,
+                [statements(choice) for choice in (best, per_radius, before)], shown=True,
             ),
             table(
                 "readings",
                 (*ThesisReading._fields, "optimum_deg", "cost_13_5", "cost_16", "excess_low", "cost_8", "cost_4",
                  "overtakes_mu", "holds"),
-                [(*reading, one.optimum_deg, *one.excess, one.overtakes, held[reading])
-                 for reading, one in found.items()],
+                [(*reading, judgement.optimum_deg, *judgement.excess, judgement.overtakes, held[reading])
+                 for reading, judgement in judgements.items()],
             ),
         ),
         numbers={"most": float(most), **{" ".join(reading): float(count) for reading, count in held.items()}},

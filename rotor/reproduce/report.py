@@ -67,7 +67,7 @@ class Report:
     """One rebuilt figure or table of the thesis."""
 
     number: str
-    """As the thesis numbers it, for example 3.11; or a word for what it does not number."""
+    """Number in the thesis, for example 3.11; or a word for what it does not number."""
     kind: Literal["figure", "table", "claim"] = "figure"
     caption: str
     """In our own words."""
@@ -131,7 +131,7 @@ def with_gap(
     """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
     parts: list[Series] = []
     for words, flying in ((label, True), ("", False)):
-        keep = [k for k, one in enumerate(mu) if (one > 0.0) is flying]
+        keep = [k for k, mu in enumerate(mu) if (mu > 0.0) is flying]
         top = [upper[k] for k in keep] if upper else None
         parts.append(curve(words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour))
     return parts

@@ -89,7 +89,7 @@ FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
 
 VARIANTS = ("thesis", "flight")
-"""Those whose optima chapter 4 shows."""
+"""Variants whose optima chapter 4 shows."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the lifting line",
@@ -188,22 +188,22 @@ def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> Con
         near.append(best(preset, "linear", mu, speeds).twist)
     guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
-    found = run_search(Search(design, family, starts=max(2 if place > 0 else 3, len(guesses)), guesses=guesses))
-    least, parameters = found.best, family.parameters
-    assert least is not None, f"{preset}, µ {mu:g}: {found.message}"
-    assert found.baseline_power is not None, f"{preset}, µ {mu:g}: the baseline blade does not trim"
+    optimum = run_search(Search(design, family, starts=max(2 if place > 0 else 3, len(guesses)), guesses=guesses))
+    least, parameters = optimum.best, family.parameters
+    assert least is not None, f"{preset}, µ {mu:g}: {optimum.message}"
+    assert optimum.baseline_power is not None, f"{preset}, µ {mu:g}: the baseline blade does not trim"
     # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
-    bands = {one.parameter: (one.low, one.high) for one in found.band if one.high > one.low}
+    bands = {band.parameter: (band.low, band.high) for band in optimum.band if band.high > band.low}
     edges = [bands.get(p.name, (math.nan, math.nan)) for p in parameters]
     return ConceptOptimum(
         mu=mu,
-        converged=found.status is SearchStatus.CONVERGED,
+        converged=optimum.status is SearchStatus.CONVERGED,
         names=tuple(p.label for p in parameters),
         values=tuple(p.shown(value) for p, value in zip(parameters, least.parameters, strict=True)),
         band=tuple((p.shown(low), p.shown(high)) for p, (low, high) in zip(parameters, edges, strict=True)),
         twist=least.twist,
         power_kw=least.power / 1e3,
-        baseline_kw=found.baseline_power / 1e3,
+        baseline_kw=optimum.baseline_power / 1e3,
     )
 
 
@@ -213,11 +213,11 @@ def comparable_kw(preset: str, concept: str, mu: float, speeds: tuple[float, ...
     In the `thesis` preset two airfoils are computed with decks. What the second airfoil gains there, as a part of
     power, is taken off the two-segment blade with the document's polynomials.
     """
-    found = best(preset, concept, mu, speeds)
+    optimum = best(preset, concept, mu, speeds)
     if concept != "two airfoils" or preset != "thesis":
-        return found.power_kw
+        return optimum.power_kw
     decks, polynomials = best(preset, SC1095_DECKS, mu, speeds), best(preset, "two 50-50", mu, speeds)
-    return polynomials.power_kw * found.power_kw / decks.power_kw
+    return polynomials.power_kw * optimum.power_kw / decks.power_kw
 
 
 def searches(concepts: Collection[str]) -> list[Call]:

@@ -56,44 +56,43 @@ def needed() -> list[Call]:
 
 def today() -> Report:
     """One picture, five sentences and their numbers."""
-    found = climb()
+    ladder = climb()
     slow, middle, fast = SHOWN
-    first, last = (found.step(name) for name in ("thesis", tuple(RUNGS)[-1]))
-    places = range(len(found.steps))
+    first, last = (ladder.step(name) for name in ("thesis", tuple(RUNGS)[-1]))
+    places = range(len(ladder.steps))
     curves: list[Series] = []
     for k, mu in enumerate(SHOWN):
-        row = [found.at(one.name, mu) for one in found.steps]
-        low, high = zip(*(one.band_deg for one in row), strict=True)
+        row = [ladder.at(step.name, mu) for step in ladder.steps]
+        low, high = zip(*(least.band_deg for least in row), strict=True)
         curves += [
             curve("", places, low, "band", upper=high, colour=k),
-            curve("hover" if mu == 0.0 else f"µ {mu:g}", [one.rate_deg for one in row], places, "both", colour=k),
+            curve("hover" if mu == 0.0 else f"µ {mu:g}", [least.rate_deg for least in row], places, "both", colour=k),
         ]
-    gains = [one.moving.gain for one in found.wakes]
+    gains = [row.moving.gain for row in ladder.inflows]
     keys, tested = last.strong_over_weak, keys_1987().numbers
     concepts, actuators, pair = table_4_1().numbers, table_5_2().numbers, compared("flight").rows[0]
-    wakes_fast = [one.best[-1].rate_deg for one in found.wakes]
+    others = [row.best[-1].rate_deg for row in ladder.inflows]
 
     def best(name: str) -> str:
-        there = [found.at(name, mu).rate_deg for mu in SHOWN]
+        there = [ladder.at(name, mu).rate_deg for mu in SHOWN]
         return f"{there[0]:.1f}° in hover, {there[1]:.1f}° at µ {middle:g}, {there[2]:.1f}° at µ {fast:g}"
 
     def moves(mu: float) -> str:
-        rows = {words: found.moves(name, mu) for name, words in MOVED.items()}
+        rows = {words: ladder.moves(name, mu) for name, words in MOVED.items()}
         ordered = sorted(rows.items(), key=lambda row: -abs(row[1].in_ladder))
         return ", ".join(f"{words} {ways.in_ladder:+.1f}°" for words, ways in ordered)
 
     rows = (
         (
             "How should twist change with speed?",
-            f"It should weaken from hover, {found.at(last.name, slow).rate_deg:.1f}° per radius, to "
-            f"{found.at(last.name, middle).rate_deg:.1f}° at µ {middle:g} and hardly change beyond: "
-            f"{found.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}, {min(wakes_fast):.1f} to {max(wakes_fast):.1f}° "
-            f"over {len(gains)} inflow models, {found.without_drag_deg:.1f}° without fuselage drag. A blade that "
+            f"It should weaken from hover, {ladder.at(last.name, slow).rate_deg:.1f}° per radius, to "
+            f"{ladder.at(last.name, middle).rate_deg:.1f}° at µ {middle:g} and hardly change beyond: "
+            f"{ladder.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}, {min(others):.1f} to {max(others):.1f}° "
+            f"over {len(gains)} inflow models, {ladder.without_drag_deg:.1f}° without fuselage drag. A blade that "
             "follows "
             f"saves {_saves(last.moving.gain)} beyond the best fixed one, {last.moving.fixed_deg:.1f}° "
-            f"({100 * min(gains):.1f} to {_saves(max(gains))} over the models). Differences between twists are known "
-            "to "
-            "a few tenths of a per cent, so that it saves anything cannot be told.",
+            f"({100 * min(gains):.1f} to {_saves(max(gains))} over the models): the models differ by as much as it is "
+            "worth. What uncertain inputs leave of it: python -m rotor schedule.",
         ),
         (
             "Which concept has advantages?",
@@ -113,9 +112,8 @@ def today() -> Report:
             "twist, "
             f"costs {-actuators['best_kw']:.0f} kW on balance. Macro fibre composite (MFC P1, 2 plies) reaches "
             f"{actuators['reach']:.1f}° of the {actuators['needed']:.1f}° wanted. The gain with unlimited twist, "
-            f"{actuators['ideal_kw']:.0f} kW, is within the uncertainty of a few tenths of a per cent; the cost of "
-            "mass "
-            "is not. No measured gain of a moving twist in flight is known to us.",
+            f"{actuators['ideal_kw']:.0f} kW, is far below the cost of mass. No measured gain of a moving twist in "
+            "flight is known to us.",
         ),
         (
             "The thesis says",
@@ -127,7 +125,7 @@ def today() -> Report:
             "Its assumptions give",
             f"{best('thesis')}; a twist that moves saves {_saves(first.moving.gain)}.",
         ),
-        *((f"What moves it at µ {mu:g}", f"One after another: {moves(mu)}.") for mu in found.named),
+        *((f"What moves it at µ {mu:g}", f"One after another: {moves(mu)}.") for mu in ladder.named),
         (
             "Measured",
             f"Another rotor (Keys et al.), −17.3° over −11.5°: {100 * FAST:+.0f} % power at {FAST_KMH:.0f} km/h, "
@@ -142,8 +140,8 @@ def today() -> Report:
         caption="Best linear twist, as the assumptions of the thesis are changed one after another to today's. "
         "UH-60A, 8322.4 kg, sea level; degrees per radius, as built; shaded: within 0.1 % of the power.",
         statement="Twist should fall from hover to fast flight (§3.3), and a blade that moves it saves power.",
-        ours=f"The best twist falls from {found.at(last.name, slow).rate_deg:.1f}° in hover to "
-        f"{found.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}; one that moves saves {_saves(last.moving.gain)} "
+        ours=f"The best twist falls from {ladder.at(last.name, slow).rate_deg:.1f}° in hover to "
+        f"{ladder.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}; one that moves saves {_saves(last.moving.gain)} "
         f"beyond the best fixed blade ({_saves(first.moving.gain)} with the thesis' assumptions), less than the "
         "difference between two twists is known to.",
         verdict=Agreement.NO_REFERENCE,
@@ -152,27 +150,27 @@ def today() -> Report:
             table("answer", ("", ""), rows, shown=True),
             table(
                 "ladder",
-                ("change", *(f"mu_{mu:g}" for mu in found.speeds),
-                 *(f"{way} at µ {mu:g}" for mu in found.named
+                ("change", *(f"mu_{mu:g}" for mu in ladder.speeds),
+                 *(f"{way} at µ {mu:g}" for mu in ladder.named
                    for way in ("moves", "alone on thesis", "alone off flight")),
                  "moving saves [%]", "−17.3/−11.5 [%]"),
                 [
-                    (one.words, *(x.rate_deg for x in one.best),
-                     *(x for ways in one.moves or ((("",) * 3),) * len(found.named) for x in ways),
-                     100 * one.moving.gain, 100 * one.strong_over_weak[1])
-                    for one in (*found.steps, found.trim)
+                    (step.words, *(x.rate_deg for x in step.best),
+                     *(x for ways in step.moves or ((("",) * 3),) * len(ladder.named) for x in ways),
+                     100 * step.moving.gain, 100 * step.strong_over_weak[1])
+                    for step in (*ladder.steps, ladder.trim)
                 ],
             ),
         ),
         panels=(
             Chart(
-                "", Axis("best linear twist [°/R]"), Axis(names=tuple(one.words for one in found.steps)),
+                "", Axis("best linear twist [°/R]"), Axis(names=tuple(step.words for step in ladder.steps)),
                 tuple(curves),
             ),
         ),
         numbers={
-            "thesis_hover": found.at("thesis", slow).rate_deg,
-            "flight_fast": found.at(last.name, fast).rate_deg,
+            "thesis_hover": ladder.at("thesis", slow).rate_deg,
+            "flight_fast": ladder.at(last.name, fast).rate_deg,
             "thesis_beyond_fixed": first.moving.gain,
             "flight_beyond_fixed": last.moving.gain,
         },
@@ -200,7 +198,7 @@ def gain_of_2_per_rev(amplitude_deg: float, mu: float = SPEED) -> tuple[float, f
 
     Power over phase is nearly one cosine; its least is found by the cosine and sine of six phases, and solved there.
     """
-    design = make_design(mu=mu)
+    design = make_design(mu=mu, unsteady="on")  # With and without 2/rev alike.
     start = solve(design).require()
 
     def power(phase_deg: float) -> float:
@@ -230,7 +228,7 @@ def mass_for_equal_power() -> float:
 
 
 FUSELAGE_WIDTH = 2.36
-"""Of the UH-60 [m]: 7 ft 9 in, specification by Army and manufacturer."""
+"""Width of the fuselage of the UH-60 [m]: 7 ft 9 in, specification by Army and manufacturer."""
 
 
 @lru_cache(maxsize=1)
@@ -247,9 +245,9 @@ def download_of_twist() -> tuple[float, float]:
         download = share * design.fuselage.hover_download
         return solve(replace(design, fuselage=replace(design.fuselage, hover_download=download))).require()
 
-    def pressed(one: Solution) -> float:
-        r, half = one.disk.r, 0.5 * FUSELAGE_WIDTH / one.design.rotor.radius
-        return float((one.disk.dr * r * np.arcsin(np.minimum(half / r, 1.0))) @ one.disk.induced[:, 0] ** 2)
+    def pressed(solution: Solution) -> float:
+        r, half = solution.disk.r, 0.5 * FUSELAGE_WIDTH / solution.design.rotor.radius
+        return float((solution.disk.dr * r * np.arcsin(np.minimum(half / r, 1.0))) @ solution.disk.induced[:, 0] ** 2)
 
     weak, strong = hover(WEAK), hover(STRONG)
     share = pressed(strong) / pressed(weak)
@@ -271,8 +269,8 @@ def shear_tube() -> tuple[float, float]:
     assert blade.structure is not None
     median = float(np.median(blade.structure.torsional_stiffness))
     free = SHEAR["d15_m_per_v"] * SHEAR["field_v_per_m"] * (1.0 - blade.root_cutout) * radius / SHEAR["radius_m"]
-    own = SHEAR["shear_modulus_pa"] * 2.0 * math.pi * SHEAR["radius_m"] ** 3 * SHEAR["wall_m"]
-    return math.degrees(free), math.degrees(free * own / (own + median))
+    stiffness = SHEAR["shear_modulus_pa"] * 2.0 * math.pi * SHEAR["radius_m"] ** 3 * SHEAR["wall_m"]
+    return math.degrees(free), math.degrees(free * stiffness / (stiffness + median))
 
 
 def literature() -> Report:

@@ -4,6 +4,7 @@ One file, because all of them compare the same five twists: the powers are solve
 cost of a twist and the crossings of two are used by every figure.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -78,8 +79,10 @@ def figure_3_11() -> Report:
     for name in ("thesis", "flight"):
         sigma = make_design(preset=name).rotor.solidity
         powers = {rate: [solved(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES}
-        loading = [one.ct / sigma for one in powers[0]]
-        least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
+        loading = [solution.ct / sigma for solution in powers[0]]
+        least = [
+            min(row) for row in zip(*([solution.cp for solution in powers[rate]] for rate in FIVE_RATES), strict=True)
+        ]
         title = f"{name} preset"
         panels += [
             Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
@@ -212,17 +215,23 @@ SLOWER = 90.0
 
 @lru_cache(maxsize=64)
 def slower_kw(rate: float, mu: float) -> float:
-    """Main-rotor power of a linear twist at the lower rotor speed, at the airspeed that µ means at 100 % [kW]."""
+    """Main-rotor power of a linear twist at the lower rotor speed, at the airspeed that µ means at 100 % [kW].
+
+    NaN where so much of the disk is stalled that there is none.
+    """
     design = make_design(twist=f"linear:{rate:g}", mu=100.0 * mu / SLOWER, rotor_speed_percent=SLOWER)
-    return solve(design).require().power.main_rotor / 1e3
+    solution = solve(design)
+    return solution.power.main_rotor / 1e3 if solution.converged else math.nan
 
 
 def figure_3_15() -> Report:
     """Five twists from hover to fast flight, at two rotor speeds."""
     best = [best_of_five("flight", mu) for mu in FULL]
-    slow = [min(FIVE_RATES, key=lambda rate, mu=mu: slower_kw(rate, mu)) for mu in FULL]
-    gain = {mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", own, mu)
-            for mu, rate, own in zip(FULL, slow, best, strict=True)}  # fmt: skip
+    flown = tuple(mu for mu in FULL if all(math.isfinite(slower_kw(rate, mu)) for rate in FIVE_RATES))
+    slow = [min(FIVE_RATES, key=lambda rate, mu=mu: slower_kw(rate, mu)) for mu in flown]
+    gain = {mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
+            for mu, rate, saving in zip(flown, slow, best, strict=False)}  # fmt: skip
+    beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return Report(
         number="3.15",
@@ -231,15 +240,15 @@ def figure_3_15() -> Report:
         statement="“The result is presented in Figure 3.15” (p. 29): the text has no number.",
         ours=f"Best of five {_path(best, FULL)}. The worst costs {spread[0]:.1f} % in hover, "
         f"{min(spread[1:]):.1f} to {max(spread[1:]):.1f} % in flight. At {SLOWER:.0f} % rotor speed "
-        f"{_path(slow, FULL)}; "
-        f"power changes by {-100 * gain[0.2]:+.1f} % at µ 0.2 and {-100 * gain[FULL[-1]]:+.1f} % at µ {FULL[-1]:g}.",
+        f"{_path(slow, flown)};{beyond} "
+        f"power changes by {-100 * gain[0.2]:+.1f} % at µ 0.2 and {-100 * gain[flown[-1]]:+.1f} % at µ {flown[-1]:g}.",
         verdict=Agreement.NO_REFERENCE,
         because="Beside the best, the next weaker and the next stronger cost "
         + ", ".join(f"{_neighbours(mu)} % at µ {mu:g}" for mu in (0.2, 0.35)) + ".",
         tables=(
             table("flight_kw", ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-                  [(mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), one)
-                   for mu, one in zip(FULL, best, strict=True)]),
+                  [(mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
+                   for mu, saving in zip(FULL, best, strict=True)]),
         ),
         panels=tuple(
             Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))
@@ -294,10 +303,10 @@ def _best_words(best: dict[str, list[int]]) -> str:
 def crossings(name: str, first: int, second: int, speeds: tuple[float, ...]) -> list[float]:
     """Advance ratios where two twists need the same power, linear between the speeds."""
     gap = np.array([main_rotor_kw(name, first, mu) - main_rotor_kw(name, second, mu) for mu in speeds])
-    found: list[float] = []
+    crossed: list[float] = []
     for k in np.flatnonzero(gap[:-1] * gap[1:] < 0.0):
-        found.append(float(speeds[k] + (speeds[k + 1] - speeds[k]) * gap[k] / (gap[k] - gap[k + 1])))
-    return found
+        crossed.append(float(speeds[k] + (speeds[k + 1] - speeds[k]) * gap[k] / (gap[k] - gap[k + 1])))
+    return crossed
 
 
 def _speeds(
@@ -406,10 +415,10 @@ def keys_1987() -> Report:
     rotor = make_design().rotor
     force = [area / ((2.0 * rotor.radius) ** 2 * rotor.solidity) for area in AREAS]
     over = {words: [over_drag_area(area, *model) for area in AREAS] for words, model in FORCE_MODELS.items()}
-    ratio = {words: [100.0 * one[0] for one in row] for words, row in over.items()}
+    ratio = {words: [100.0 * point[0] for point in row] for words, row in over.items()}
     lowest, highest = (np.array([f(column) for column in zip(*ratio.values(), strict=True)]) for f in (min, max))
     usual, low, high = (float(np.interp(USUAL_FORCE, force, row)) for row in (ratio["flight"], lowest, highest))
-    slower = float(np.interp(USUAL_FORCE, force, [one[1] for one in over["flight"]]))
+    slower = float(np.interp(USUAL_FORCE, force, [point[1] for point in over["flight"]]))
     return Report(
         number="Keys 1987",
         kind="claim",

@@ -135,8 +135,8 @@ def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     arrow, parquet = arrow_modules()
     kinds = {"number": arrow.float64(), "count": arrow.int64(), "text": arrow.string()}
     fields = [
-        arrow.field(one.name, kinds[one.kind], metadata={"unit": one.unit} if one.unit else None)
-        for one in columns_of(study)
+        arrow.field(name.name, kinds[name.kind], metadata={"unit": name.unit} if name.unit else None)
+        for name in columns_of(study)
     ]
     texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
     table = arrow.Table.from_pylist(rows, schema=arrow.schema(fields, metadata=texts))
@@ -158,7 +158,7 @@ class Store:
         try:
             make_folder(self.folder)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
-            if known is None and any(one.name != _LOCK for one in self.folder.iterdir()):
+            if known is None and any(path.name != _LOCK for path in self.folder.iterdir()):
                 raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
             if known is not None:
                 self._check(known, provenance)
@@ -181,15 +181,15 @@ class Store:
         A file of another study, or one that cannot be read, counts as missing.
         """
         _, parquet = arrow_modules()
-        found: set[int] = set()
+        present: set[int] = set()
         for path in self.folder.glob("chunk-*.parquet"):
             with suppress(Exception):  # A damaged file counts as missing.
                 about = parquet.read_metadata(path)
                 number = int(about.metadata[b"chunk"])
                 first, last = self.study.span(number)
                 if about.metadata[b"study"].decode() == self.study.fingerprint and about.num_rows == last - first:
-                    found.add(number)
-        left = [chunk for chunk in range(self.study.chunks) if chunk not in found]
+                    present.add(number)
+        left = [chunk for chunk in range(self.study.chunks) if chunk not in present]
         random.Random(0).shuffle(left)
         return left
 

@@ -23,8 +23,9 @@ from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft, told
 from rotor.design.design import Design, check_preset, preset_models
-from rotor.design.quantities import ARGUMENTS, OPTIONS, STAND, SWITCHES
+from rotor.design.quantities import ARGUMENTS, CHOSEN, OPTIONS, STAND, SWITCHES
 from rotor.files.make_design import Tell, current_model, make_design, warn
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import at_condition, hover_and_cruise
@@ -40,7 +41,7 @@ from rotor.trim.solve import solve
 _KEPT = 500
 """Trims kept, 1 kB each."""
 _KEPT_FACTORS = 64
-"""Of them the last, with their factors, 0.15 MB each."""
+"""How many of the last solutions are kept with their factors, 0.15 MB each."""
 _AMPLE = 1.8
 """Trims that a quadratic is made of, over the number of its terms."""
 _FIRM = 1e-8
@@ -144,7 +145,7 @@ def _weights(steps: Array) -> Array:
 
 
 _GRID = ("elements", "azimuths")
-_MODELS = ("inflow", *SWITCHES, *OPTIONS, *_GRID)
+_MODELS = ("inflow", *SWITCHES, *OPTIONS, *CHOSEN, *_GRID)
 """Quantities that are fields of `Models`."""
 _ARGUMENTS = tuple(name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS))
 """Quantities that are arguments of `make_design`."""
@@ -173,7 +174,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = war
     arguments: dict[str, Any] = {name: values[name] for name in _ARGUMENTS if name in values}
     return make_design(
         preset=preset,
-        rotor=aircraft.get(rotor, rotor),
+        rotor=aircraft.get(rotor) or shipped_aircraft(rotor),  # No path: results may come from others.
         **arguments,
         models=replace(models, **changed) if changed else models,
         stand=stand or None,
@@ -240,13 +241,13 @@ def _bladed(design: Design, values: Values) -> Design:
     if "twist" in values:
         raise ValueError("twist and concept are both given: omit one")
     concept, held = concept_with_breaks(str(values["concept"]), given)
-    missing = [one.label for one in concept.parameters if one.name not in held]
+    missing = [parameter.label for parameter in concept.parameters if parameter.name not in held]
     if missing:
         raise ValueError(
             f"the concept {concept.name} needs a value of {missing[0]}: add it to [axes] or [fixed], "
             "or add [optimum] to search for it"
         )
-    return concept.apply(design, [held[one.name] for one in concept.parameters])
+    return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
 
 def _search(design: Design, values: Values, searching: OptimumSettings, warm: WarmStarts) -> Search:

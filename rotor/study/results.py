@@ -52,8 +52,8 @@ class Results:
 
     def row_of(self, point: int) -> int | None:
         """Row of a point by its number; None if it is missing."""
-        found = np.flatnonzero(self.columns["point"] == point)
-        return int(found[0]) if found.size else None
+        rows = np.flatnonzero(self.columns["point"] == point)
+        return int(rows[0]) if rows.size else None
 
     def unit(self, column: str) -> str:
         return str(self.about.get("units", {}).get(column, ""))
@@ -69,12 +69,12 @@ class Results:
         return tuple(name for name in self.axes if isinstance(ranges.get(name), dict))
 
     def codes(self, names: tuple[str, ...]) -> Integers:
-        """The same number for rows that agree in all these columns, 0 upward, (rows,)."""
+        """One number for rows that agree in all these columns, 0 upward, (rows,)."""
         code = np.zeros(self.rows, dtype=np.int64)
         for name in names:
             values = self.columns[name]
-            _, own = np.unique(values if self.numeric(name) else values.astype(str), return_inverse=True)
-            code = np.unique(code * (int(own.max(initial=0)) + 1) + own, return_inverse=True)[1].astype(np.int64)
+            _, levels = np.unique(values if self.numeric(name) else values.astype(str), return_inverse=True)
+            code = np.unique(code * (int(levels.max(initial=0)) + 1) + levels, return_inverse=True)[1].astype(np.int64)
         return code
 
 
@@ -87,10 +87,36 @@ def read_results(folder: str | Path, *, texts: bool = True) -> Results:
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
-    _, parquet = arrow_modules()
+    arrow, parquet = arrow_modules()
     axes = tuple(str(name) for name in about["axes"])
-    names = _wanted(parquet.read_schema(paths[0]), axes, texts)
-    return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=names)))
+    try:
+        names = _wanted(parquet.read_schema(paths[0]), axes, texts)
+        table = parquet.read_table([str(path) for path in paths], columns=names)
+    except MemoryError:  # One of Arrow's exceptions too.
+        raise
+    except (OSError, ValueError, arrow.ArrowException):
+        raise _damaged(paths) from None
+    return Results(about, axes, columns_from(table))
+
+
+def _damaged(paths: list[Path]) -> ValueError:
+    """The first chunk that cannot be read by itself, and what to do."""
+    arrow, parquet = arrow_modules()
+    schema = None
+    for path in paths:
+        try:
+            table = parquet.read_table(str(path))
+        except (OSError, ValueError, arrow.ArrowException) as error:
+            return ValueError(
+                f"{path.name} of {str(path.parent)!r} is damaged ({shorten(str(error))}): delete it and run the study "
+                "again, which computes what is missing"
+            )
+        if schema is not None and table.schema.names != schema.names:
+            return ValueError(f"{path.name} of {str(path.parent)!r} is of another study: move it elsewhere")
+        schema = table.schema
+    return ValueError(
+        f"the chunks of {str(paths[0].parent)!r} do not fit together: delete them and run the study again"
+    )
 
 
 def read_file(content: bytes, name: str) -> Results:
@@ -134,22 +160,26 @@ def read_file(content: bytes, name: str) -> Results:
 def _wanted(schema: Any, axes: tuple[str, ...], texts: bool) -> list[str]:
     """Names of the columns to read: numbers, axes and status, and the other texts on demand."""
     arrow, _ = arrow_modules()
-    return [one.name for one in schema if texts or not arrow.types.is_string(one.type) or one.name in (*axes, "status")]
+    return [
+        column.name
+        for column in schema
+        if texts or not arrow.types.is_string(column.type) or column.name in (*axes, "status")
+    ]
 
 
 def columns_from(table: Any) -> dict[str, NDArray[Any]]:
     """An Arrow table's columns as arrays; equal texts are one object."""
     arrow, _ = arrow_modules()
-    made: dict[str, NDArray[Any]] = {}
+    columns: dict[str, NDArray[Any]] = {}
     for name in table.column_names:
         column = table.column(name)
         if arrow.types.is_string(column.type) or arrow.types.is_dictionary(column.type):
             coded = column.dictionary_encode().combine_chunks()
             words = np.array([*coded.dictionary.to_pylist(), None], dtype=object)
-            made[name] = words[coded.indices.fill_null(len(words) - 1).to_numpy()]
+            columns[name] = words[coded.indices.fill_null(len(words) - 1).to_numpy()]
         else:
-            made[name] = column.cast(arrow.float64()).to_numpy()
-    return made
+            columns[name] = column.cast(arrow.float64()).to_numpy()
+    return columns
 
 
 def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
@@ -171,7 +201,7 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
     concept, held = concept_with_breaks(str(values["concept"]), blade)
     if len(held) < len(concept.parameters):
         raise ValueError(f"point {row} found no blade: choose another one")
-    return concept.apply(design, [held[one.name] for one in concept.parameters])
+    return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
 
 def design_at(place: str, tell: Tell = warn) -> Design:
@@ -270,11 +300,11 @@ def effects(results: Results, column: str) -> tuple[Effect, ...]:
     known = results.good & np.isfinite(values)
     if known.sum() < 2 or float(np.var(values[known])) == 0.0:
         return ()
-    found = [
+    shares = [
         _effect(axis, *_levels(results.columns[axis][known], axis in results.sampled), values[known])
         for axis in results.axes
     ]
-    return tuple(sorted(found, key=lambda one: -one.share))
+    return tuple(sorted(shares, key=lambda effect: -effect.share))
 
 
 def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> Effect:

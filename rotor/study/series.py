@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Unpack, cast
 
 from rotor.aero.switches import SWITCHES, no_effect, with_switches
 from rotor.chart import Axis, Chart, Line
@@ -18,8 +18,8 @@ from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
 from rotor.design.aircraft import told
 from rotor.design.design import Design, require_design
-from rotor.design.quantities import ARGUMENTS, CONDITION
-from rotor.design.quantity import Quantity
+from rotor.design.quantities import CONDITION, SWEPT, Flight
+from rotor.design.quantity import Quantity, takes
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity as Objective
@@ -37,12 +37,12 @@ VIBRATION = (
     "index_percent", "least_index_percent", "largest_index_percent", *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev",
     "torsion_1_per_rev",
 )  # fmt: skip
-"""Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over wakes, their
-amplitudes, and frequencies of the blade."""
+"""Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over inflow models,
+their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 POWERS = ("total", "main_rotor", *PARTS)
-SHARED_COLUMNS = ("rotor", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
+SHARED_COLUMNS = ("rotor", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
 """Columns of a sweep that are the same in all rows of one rotor at one weight and altitude."""
 
 
@@ -51,6 +51,8 @@ class SweepTable:
     """The solutions of a sweep in order. It iterates over them, and shows them as rows of `columns`."""
 
     solutions: tuple[Solution, ...]
+    over: str = ""
+    """What was swept, as the argument of `sweep`; empty where that is not known."""
 
     def __len__(self) -> int:
         return len(self.solutions)
@@ -106,20 +108,12 @@ class SweepTable:
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 
-SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *CONDITION)}
-"""What a sweep may go over, as in `Design.at`."""
-
-
+@takes(SWEPT, after="start")
 def sweep(
     design: Design | Iterable[Design],
     mu: Iterable[float] | None = None,
     start: Solution | None = None,
-    *,
-    speed_kt: Iterable[float] | None = None,
-    mass_kg: Iterable[float] | None = None,
-    altitude_m: Iterable[float] | None = None,
-    climb_m_s: Iterable[float] | None = None,
-    rotor_speed_percent: Iterable[float] | None = None,
+    **others: Unpack[Flight[Iterable[float] | None]],
 ) -> SweepTable:
     """Solve the design, or each of several, over one quantity of the flight condition, in order.
 
@@ -127,13 +121,9 @@ def sweep(
 
     Parameters:
         design: one design, or several.
-        mu: advance ratios. Give this or one of the five that follow `start`; all else stays as in the design.
+        mu: advance ratios. Give this or one of those that follow `start`; all else stays as in the design.
         start: an earlier solution to begin from, for designs of the same rotor.
-        speed_kt: airspeeds [kt].
-        mass_kg: masses of the aircraft [kg].
-        altitude_m: pressure altitudes [m].
-        climb_m_s: rates of climb, negative in descent [m/s].
-        rotor_speed_percent: rotor speeds, as parts of the rotor's own [%].
+        {arguments}
 
     Returns:
         The solutions in order, also those that did not converge, as a table.
@@ -149,24 +139,29 @@ def sweep(
         >>> [solution.converged for solution in table]
         [True, True, True]
     """
-    asked = locals()
-    axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked[name] is not None}
+    asked = {"mu": mu, **others}
+    axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked.get(name) is not None}
     if len(axes) != 1:
         raise TypeError(f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(SWEPT)}")
     ((name, values),) = axes.items()
     if isinstance(values, str) or not hasattr(values, "__iter__"):
         raise TypeError(f"{name} is {values!r}: give a list, for example {name}={list(SWEPT[name].examples)}")
     several, steps = hasattr(design, "__iter__") and not isinstance(design, str), list(values)
-    designs = [require_design(one) for one in cast(Iterable[Design], design if several else (design,))]
+    designs = [require_design(item) for item in cast(Iterable[Design], design if several else (design,))]
     solutions: list[Solution] = []
-    for points in [[one.at(**cast(Any, {name: step})) for step in steps] for one in designs]:
+    for points in [[design.at(**cast(Any, {name: step})) for step in steps] for design in designs]:
         last = start if start and points and start.design.rotor == points[0].rotor else None
         for point in points:
             solution = solve(point, last)
             if solution.converged:
                 last = solution
             solutions.append(solution.without_factors())
-    return SweepTable(tuple(solutions))
+    return SweepTable(tuple(solutions), name)
+
+
+if sweep.__doc__:  # Python drops docstrings when it is asked to.
+    words = (f"{name}: {row.what} [{row.symbol}]." for name, row in SWEPT.items() if name != "mu")
+    sweep.__doc__ = sweep.__doc__.replace("{arguments}", "\n        ".join(words))
 
 
 def schedule(
@@ -215,7 +210,8 @@ def schedule(
     if len(times) != len(speeds):
         raise ValueError(f"{len(times)} hours for {len(speeds)} advance ratios: give one for each")
     flights = [
-        WeightedCondition(design.at(mu=one).condition, time) for one, time in sorted(zip(speeds, times, strict=True))
+        WeightedCondition(design.at(mu=speed).condition, time)
+        for speed, time in sorted(zip(speeds, times, strict=True))
     ]
     plan = Plan(
         design, tuple(find_concept(name) for name in concepts), tuple(flights), quantity,
@@ -238,7 +234,8 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
             "give what rotor.sweep returns, one table or several"
         )
     solutions = [solution for table in tables for solution in table]
-    axis = _swept(solutions)
+    over = {table.over for table in tables}
+    axis = SWEPT[over.pop()] if len(over) == 1 and over <= set(SWEPT) else _swept(solutions)
     curves: dict[str, list[Solution]] = {}
     for solution in solutions:
         curves.setdefault(_label(solution.design), []).append(solution)
@@ -247,14 +244,14 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
         shown = [(part, solutions, part) for part in POWERS if climbs or part != "climb"]
     else:
         shown = [(name, curve, "total") for name, curve in curves.items()]
-    lines = tuple(Line(name, _values(own, axis), _kilowatts(own, part), dots=True) for name, own, part in shown)
+    lines = tuple(Line(name, _values(curve, axis), _kilowatts(curve, part), dots=True) for name, curve, part in shown)
     return draw_chart(Chart("", Axis(axis.axis_title), Axis("Power [kW]"), lines), ax)
 
 
 def _label(design: Design) -> str:
     """Rotor, twist, and what of pitch and twist follows the azimuth."""
     waves = {"pitch": design.pitch_per_rev, "active twist": design.linear_active_twist}
-    parts = [f"{name} {harmonics_text(own)}" for name, own in waves.items() if own]
+    parts = [f"{name} {harmonics_text(harmonics)}" for name, harmonics in waves.items() if harmonics]
     return ", ".join([design.rotor.name, design.twist.spec(), *parts])
 
 
@@ -263,11 +260,13 @@ def _swept(solutions: Sequence[Solution]) -> Quantity:
     rotors: dict[str, list[Solution]] = {}
     for solution in solutions:  # The mass of another rotor is another by itself.
         rotors.setdefault(solution.design.rotor.name, []).append(solution)
-    varied = (row for row in CONDITION.values() if any(len(set(_values(one, row))) > 1 for one in rotors.values()))
+    varied = (row for row in CONDITION.values() if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values()))
     return next(varied, CONDITION["mu"])
 
 
 def _values(solutions: Sequence[Solution], row: Quantity) -> list[float]:
+    if row.name == "speed_kt":
+        return [solution.design.airspeed / KNOT for solution in solutions]
     return [row.of(solution.design) for solution in solutions]
 
 
@@ -280,7 +279,17 @@ def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     names = ("speed_kt", *told(design.condition for design in designs))
     condition = (name for name in SWEPT if name in names)
     powers = (f"{part}_kw" for part in POWERS)
-    columns = ("rotor", "twist", "pitch_per_rev", "twist_per_rev", *condition, "status", *powers, "message")
+    columns = (
+        "rotor",
+        "twist",
+        "twist_deg_per_r",
+        "pitch_per_rev",
+        "twist_per_rev",
+        *condition,
+        "status",
+        *powers,
+        "message",
+    )
     return (*columns, *VIBRATION) if any(design.models.bending for design in designs) else columns
 
 
@@ -291,6 +300,7 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
     return {
         "rotor": design.rotor.name,
         "twist": design.twist.spec(),
+        "twist_deg_per_r": _mean_rate(design),
         "pitch_per_rev": harmonics_text(design.pitch_per_rev),
         "twist_per_rev": harmonics_text(design.linear_active_twist),
         "speed_kt": design.airspeed / KNOT,
@@ -300,6 +310,13 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
         **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
     }
+
+
+def _mean_rate(design: Design) -> float:
+    """Twist of the tip less that of the blade's root over the radius between them [°/R]: the rate of a linear twist."""
+    root = design.rotor.blade.root_cutout
+    ends = design.twist([root, 1.0])
+    return math.degrees(ends[1] - ends[0]) / (1.0 - root)
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:
@@ -393,7 +410,7 @@ def waterfall(design: Design) -> Waterfall:
 
 
 def between_drag_areas(solution: Solution) -> tuple[Solution, Solution] | None:
-    """The same flight with the lowest and the highest drag area that the sources of the airframe allow.
+    """A flight with the lowest and the highest drag area that the sources of the airframe allow.
 
     None in hover, on a test stand, where the rotor file states one value only, and where one of the two does not trim.
     """

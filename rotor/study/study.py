@@ -41,11 +41,11 @@ def _quantities() -> Iterator[Quantity]:
     yield from (row for row in QUANTITIES_OF_DESIGN.values() if row.section)
     yield from (replace(row, name=f"stand_{name}", section="fixed") for name, row in STAND.items())
     for concept in CONCEPTS.values():
-        for one in concept.parameters:
-            yield Quantity(one.label, "number", unit=one.shown_unit, section="fixed")
+        for parameter in concept.parameters:
+            yield Quantity(parameter.label, "number", unit=parameter.shown_unit, section="fixed")
 
 
-QUANTITIES: dict[str, Quantity] = {one.name: one for one in _quantities()}
+QUANTITIES: dict[str, Quantity] = {quantity.name: quantity for quantity in _quantities()}
 """By name; the parameters of all twist concepts are among them, angles in degrees with names that end in _deg."""
 
 _SWITCHES = tuple(name for name, row in QUANTITIES.items() if row.kind == "switch")
@@ -67,9 +67,9 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
     Raises ValueError for a concept or a parameter that there is not.
     """
     concept = find_concept(name)
-    if name in _WIDER and any(label not in [one.label for one in concept.parameters] for label in given):
+    if name in _WIDER and any(label not in [parameter.label for parameter in concept.parameters] for label in given):
         concept = _WIDER[name]
-    known = {one.label: one for one in concept.parameters}
+    known = {parameter.label: parameter for parameter in concept.parameters}
     for label in given:
         if label not in known:
             raise ValueError(f"{label} is no parameter of the concept {name}: it has {', '.join(known)}")
@@ -139,7 +139,7 @@ class StudyPoints:
         ]
         if self.sample is not None:
             ranked.append((self.sample.count ** (1.0 / len(self.sample.ranges)), self.sample, self.sample.count))
-        return [(axis, size) for _, axis, size in sorted(ranked, key=lambda one: one[0])]
+        return [(axis, size) for _, axis, size in sorted(ranked, key=lambda ranking: ranking[0])]
 
 
 def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
@@ -241,7 +241,7 @@ class Study:
     def values(self, first: int, last: int) -> list[dict[str, Value]]:
         """All values of the points first … last − 1."""
         shared = dict(self.given)
-        return [{**shared, **own} for own in self.points.at(first, last)]
+        return [{**shared, **values} for values in self.points.at(first, last)]
 
     @property
     def axis_names(self) -> tuple[str, ...]:
@@ -317,7 +317,7 @@ ANSWER = (
 )  # fmt: skip
 """Results of a trim."""
 _VIBRATION = ("index_percent", *HUB_COLUMNS, *(f"{mode}_per_rev" for mode in FREQUENCIES))
-"""Of a study with `bending`: amplitudes at N_b/rev, without the band over wakes, which takes three more trims."""
+"""Columns with `bending`: amplitudes at N_b/rev, without the band over inflow models, which takes three more trims."""
 _SEARCH = (
     "mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent", "local_minima", "active", "evaluations",
 )  # fmt: skip
@@ -330,10 +330,10 @@ def columns_of(study: Study) -> tuple[Column, ...]:
     """All columns of a study's table: point, status, condition, values set or found, results."""
     given = dict.fromkeys(study.parameters, 0.0)
     searched = [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
-    found = [parameter.label for concept in searched for parameter in concept.parameters]
-    own = [name for name in (*study.names, *found) if name not in _SWITCHES]
+    parameters = [parameter.label for concept in searched for parameter in concept.parameters]
+    first = [name for name in (*study.names, *parameters) if name not in _SWITCHES]
     vibration = _VIBRATION if dict(study.given).get("bending") else ()
-    names = (*_HEAD, *own, *ANSWER, *vibration, *(_SEARCH if study.optimum else ()))
+    names = (*_HEAD, *first, *ANSWER, *vibration, *(_SEARCH if study.optimum else ()))
     return tuple(_column(name) for name in dict.fromkeys(names))
 
 

@@ -21,6 +21,7 @@ from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point
 from rotor.study.study import (
+    PLAIN,
     QUANTITIES,
     Method,
     OptimumSettings,
@@ -37,6 +38,8 @@ from rotor.study.study import (
 from rotor.user_input import is_file, parse_range, read_text, refusing, shorten
 
 _MANY = 10**10
+_STEEPEST = 100.0
+"""Twist rates beyond this [°/R] are an error of writing, as in `--twist`."""
 SECTIONS: dict[str, tuple[str, ...]] = {
     "": ("title", "chunk"),
     "axes": (),
@@ -80,7 +83,7 @@ class Reader:
 
     def _line(self, section: str, key: str) -> int | None:
         """The line of a key, or of its section, written as [section], [section.key], section.key = or section = {…}."""
-        here, found = "", None
+        here, heading_at = "", None
         for number, line in enumerate(self._lines, start=1):
             heading = re.match(r"\s*\[+\s*([\w-]+)\s*(?:\.\s*([\w-]+)\s*)?\]", line)
             if heading:
@@ -88,14 +91,14 @@ class Reader:
                 if heading[2] and (here, heading[2]) == (section, key):
                     return number
                 if here == (section or key) and not heading[2]:
-                    found = number
+                    heading_at = number
             elif here == section and key and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*[.=]", line):
                 return number
             elif here == "" and section and (dotted := re.match(rf"\s*{section}\s*(?:\.\s*([\w-]+)\s*)?[.=]", line)):
                 if dotted[1] == key:
                     return number
-                found = number
-        return found
+                heading_at = number
+        return heading_at
 
     def study(self) -> Study:
         sample = self._section("sample")
@@ -105,7 +108,7 @@ class Reader:
             raise self._wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
         searching = self._searching()
-        title = self._read("", "title", Path(self._name).stem, lambda one: isinstance(one, str), "give a text")
+        title = self._read("", "title", Path(self._name).stem, lambda value: isinstance(value, str), "give a text")
         if places.count > _MANY:
             raise self._wrong("axes", "", f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
         chunk = self._whole("", "chunk", default_chunk(places.count, search=searching is not None), 1, 10**6)
@@ -129,8 +132,8 @@ class Reader:
         if key not in QUANTITIES:
             names = [
                 name
-                for name, one in QUANTITIES.items()
-                if (one.kind != "switch" if section == "axes" else one.section == section)
+                for name, quantity in QUANTITIES.items()
+                if (quantity.kind != "switch" if section == "axes" else quantity.section == section)
             ]
             raise self._wrong(section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}")
         if QUANTITIES[key].kind == "switch" and section == "axes":
@@ -140,28 +143,34 @@ class Reader:
         """The values of an axis: a list, or a range written as a text."""
         how = 'give a list, a range such as "0.05:0.40:0.05", or { low = 0.1, high = 0.3 } to sample'
         if not QUANTITIES[key].numeric:
-            if not isinstance(value, list) or not all(isinstance(one, str) for one in cast(list[Any], value)):
+            if not isinstance(value, list) or not all(isinstance(text, str) for text in cast(list[Any], value)):
                 raise self._wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
-            found: list[Any] = [self._portable("axes", key, one) for one in cast(list[str], value)]
+            values: list[Any] = [self._portable("axes", key, text) for text in cast(list[str], value)]
         elif isinstance(value, str):
             try:
-                found = list(parse_range(value))
+                values = list(parse_range(value))
             except ValueError as error:
                 raise self._wrong("axes", key, f"axis {key}: {error}") from None
         elif isinstance(value, list):
-            found = cast(list[Any], value)
+            values = cast(list[Any], value)
         else:
             raise self._wrong("axes", key, f"axis {key} is {value!r}: {how}")
-        if not found:
+        if not values:
             raise self._wrong("axes", key, f"axis {key} has no values: give one at least")
-        for one in found:
-            if QUANTITIES[key].numeric and not _finite(one):
-                raise self._wrong("axes", key, f"axis {key} holds {one!r}: {how}")
-            if QUANTITIES[key].kind == "whole" and float(one) % 1.0:
-                raise self._wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
-        if len(set(found)) < len(found):
+        for entry in values:
+            if QUANTITIES[key].numeric and not _finite(entry):
+                raise self._wrong("axes", key, f"axis {key} holds {entry!r}: {how}")
+            self._check_size("axes", key, entry)
+            if QUANTITIES[key].kind == "whole" and float(entry) % 1.0:
+                raise self._wrong("axes", key, f"axis {key} holds {entry!r}: give whole numbers")
+        if len(set(values)) < len(values):
             raise self._wrong("axes", key, f"axis {key} holds a value twice: remove one")
-        return tuple(float(one) for one in found) if QUANTITIES[key].numeric else tuple(found)
+        return tuple(float(entry) for entry in values) if QUANTITIES[key].numeric else tuple(values)
+
+    def _check_size(self, section: str, key: str, value: Any) -> None:
+        """Parameters of a concept have no limits of their own; those of the other quantities are with the quantity."""
+        if key not in PLAIN and abs(value) > _STEEPEST:
+            raise self._wrong(section, key, f"{key} is {value:g}: give −{_STEEPEST:g}…{_STEEPEST:g}")
 
     def _portable(self, section: str, key: str, text: str) -> str:
         """The value without files, for other machines: reads a rotor file, inlines a twist table.
@@ -184,6 +193,8 @@ class Reader:
             raise self._wrong("axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}")
         if QUANTITIES[key].kind == "whole":
             raise self._wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
+        for end in (low, high):
+            self._check_size("axes", key, end)
         if not cast(float, low) < cast(float, high):
             raise self._wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
         return float(cast(float, low)), float(cast(float, high))
@@ -210,23 +221,24 @@ class Reader:
         for section in ("fixed", "models"):
             for key, value in self._section(section).items():
                 self._known(section, key)
-                one = QUANTITIES[key]
-                if one.section != section:
-                    raise self._wrong(section, key, f"{key} is in [{section}]: move it to [{one.section}]")
+                quantity = QUANTITIES[key]
+                if quantity.section != section:
+                    raise self._wrong(section, key, f"{key} is in [{section}]: move it to [{quantity.section}]")
                 if key in varied:
                     raise self._wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
-                if not one.holds(value) or (one.numeric and not _finite(value)):
-                    raise self._wrong(section, key, f"{key} is {value!r}: give {one.wants}")
+                if not quantity.holds(value) or (quantity.numeric and not _finite(value)):
+                    raise self._wrong(section, key, f"{key} is {value!r}: give {quantity.wants}")
+                self._check_size(section, key, value)
                 if isinstance(value, str):
                     value = self._portable(section, key, value)
-                given[key] = float(value) if one.numeric else value
+                given[key] = float(value) if quantity.numeric else value
         return given
 
     def _searching(self) -> OptimumSettings | None:
         if "optimum" not in self._content:
             return None
         plain, objectives = OptimumSettings(), ", ".join(OBJECTIVES)
-        rate = self._read("optimum", "rate_deg", None, _ascending, "give two numbers, as [-20, 0]")
+        rate = self._read("optimum", "rate_deg", None, _rates, f"give two numbers up to ±{_STEEPEST:g}, as [-20, 0]")
         stalled = self._read("optimum", "stalled_percent", None, _percent, "give 0 to 100")
         return OptimumSettings(
             starts=self._whole("optimum", "starts", plain.starts, 1, 1000),
@@ -235,7 +247,7 @@ class Reader:
             rate=rate and (math.radians(rate[0]), math.radians(rate[1])),
             stalled=None if stalled is None else stalled / 100.0,
             index=self._read(
-                "optimum", "index_percent", None, lambda one: _finite(one) and one > 0, "give more than 0"
+                "optimum", "index_percent", None, lambda value: _finite(value) and value > 0, "give more than 0"
             ),
         )
 
@@ -244,7 +256,7 @@ class Reader:
         remedy = f"name a column, one of {', '.join(numbers)}"
         least = self._read("show", "least", ShowSettings.least, numbers.__contains__, remedy)
         remedy = f"list axes, of {', '.join(study.axis_names)}"
-        uncertain = tuple(self._read("show", "uncertain", [], lambda one: isinstance(one, list), remedy))
+        uncertain = tuple(self._read("show", "uncertain", [], lambda value: isinstance(value, list), remedy))
         try:
             check_uncertain(uncertain, study.axis_names, tuple(study.points.sampled))
         except ValueError as error:
@@ -261,9 +273,9 @@ class Reader:
             ends = axis.values if axis.textual else (min(axis.values), max(axis.values))
             tried.extend((axis.name, {axis.name: value}) for value in ends)
         tried.extend((name, {name: value}) for name, ends in study.points.sampled.items() for value in ends)
-        for key, own in tried:
+        for key, point in tried:
             try:
-                check_point({**shared, **first, **own}, study)
+                check_point({**shared, **first, **point}, study)
             except ValueError as error:
                 section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
                 raise self._wrong(section, at, str(error)) from None
@@ -283,7 +295,7 @@ class Reader:
 
     def _whole(self, section: str, key: str, default: int, low: int, high: int) -> int:
         remedy = f"give a whole number in {low}…{high}"
-        return self._read(section, key, default, lambda one: type(one) is int and low <= one <= high, remedy)
+        return self._read(section, key, default, lambda value: type(value) is int and low <= value <= high, remedy)
 
     def _read(self, section: str, key: str, default: Any, right: Callable[[Any], bool], remedy: str) -> Any:
         """The value of a key, or the default where it is not given."""
@@ -301,10 +313,10 @@ def _percent(value: Any) -> bool:
     return _finite(value) and 0.0 <= value <= 100.0
 
 
-def _ascending(value: Any) -> bool:
-    """Whether it is two numbers, the lower one first."""
+def _rates(value: Any) -> bool:
+    """Whether it is two twist rates [°/R], the lower one first."""
     pair = cast(list[Any], value) if isinstance(value, list) else []
-    return len(pair) == 2 and all(map(_finite, pair)) and pair[0] < pair[1]
+    return len(pair) == 2 and all(_finite(rate) and abs(rate) <= _STEEPEST for rate in pair) and pair[0] < pair[1]
 
 
 @dataclass(frozen=True)
@@ -323,7 +335,7 @@ def read_study(path: str | Path) -> StudyFile:
         try:
             path = asset_path(f"studies/{path.name}")
         except FileNotFoundError:
-            examples = ", ".join(sorted(one.name for one in asset_path("studies").glob("*.toml")))
+            examples = ", ".join(sorted(path.name for path in asset_path("studies").glob("*.toml")))
             raise ValueError(
                 f"study file {path.name!r} does not exist: give a TOML file, or an example of the package: {examples}"
             ) from None

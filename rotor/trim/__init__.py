@@ -4,6 +4,8 @@ from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.hub_loads import deflections, hub_loads, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess
 from rotor.trim.solution import DiskFields, HubLoads
+from rotor.trim.solve import at_rest
+from rotor.trim.stability import stability_boundary
 
 __all__ = (
     "DEFAULT_OPTIONS",
@@ -11,8 +13,10 @@ __all__ = (
     "Guess",
     "HubLoads",
     "PitchGradient",
+    "at_rest",
     "deflections",
     "hub_loads",
     "power_gradient",
+    "stability_boundary",
     "why_no_hub_loads",
 )

@@ -17,10 +17,11 @@ import numpy as np
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow.local_momentum import BALANCED
 from rotor.aero.section import FX, FZ, TH, UP, UR, UT
-from rotor.arrays import Array
+from rotor.arrays import Array, ShortRepr
 from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
+from rotor.design.twist import TwistLaw
 from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import Terms
@@ -33,8 +34,8 @@ from rotor.trim.solution import Solution
 Objective = Literal["total", "induced"]
 
 
-@dataclass(frozen=True, eq=False)
-class PitchGradient:
+@dataclass(frozen=True, eq=False, repr=False)
+class PitchGradient(ShortRepr):
     """Change of power with pitch along the blade; trim and inflow adjust."""
 
     r: Array
@@ -49,9 +50,12 @@ class PitchGradient:
         """∂P/∂θ per unit of r [W/rad], (elements,), independent of the grid."""
         return self.by_element / self.dr
 
-    def along(self, twist_slopes: Array) -> Array:
-        """∂P by twist parameters, from ∂θ_tw(r)/∂p, (parameters, elements) → (parameters,)."""
-        return twist_slopes @ self.by_element
+    def along(self, twist: Array | TwistLaw) -> Array:
+        """∂P by twist parameters, from ∂θ_tw(r)/∂p, (parameters, elements) → (parameters,).
+
+        Of a twist law the change of power [W] if it were added to the blade's twist, to first order, ().
+        """
+        return (twist(self.r) if callable(twist) else twist) @ self.by_element
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,41 +106,60 @@ class _Linear:
         matrix, power = jacobian(self.point, self.power_terms)
         return Factors.of_matrix(matrix), power[0]
 
+    def multipliers(self, measure: Measure) -> Array:
+        """a of Jᵀ a = ∂(measure)/∂x, (equations,)."""
+        point = self.point
+        none = np.zeros(len(point.system.free))
+        if point.system.nodes is not None:
+            return self._by_iteration(transposed(point, none, measure)[0])
+        if not len(none):
+            return none
+        factors, power = self._linearised
+        of_power = measure.terms is self.power_terms and _nothing_else(measure)
+        return factors.solve(power if of_power else transposed(point, none, measure)[0], transposed=True)
+
+    @property
+    def total_terms(self) -> Terms:
+        """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
+        on_stand = self.problem.design.condition.stand is not None
+        return self.point.system.structure.sums["power on a stand"] if on_stand else self.power_terms
+
+    @cached_property
+    def of_total(self) -> Array:
+        """The multipliers of `total_terms`, (equations,)."""
+        return self.multipliers(Measure(terms=self.total_terms))
+
     def slopes(self, measure: Measure) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
-        multipliers = np.zeros(len(point.system.free))
-        if point.system.nodes is not None:
-            multipliers = self._by_iteration(transposed(point, multipliers, measure)[0])
-        elif len(multipliers):
-            factors, power = self._linearised
-            of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
-            slopes = power if of_power else transposed(point, multipliers, measure)[0]
-            multipliers = factors.solve(slopes, transposed=True)
+        of_total = measure.terms is self.total_terms and _nothing_else(measure)
+        multipliers = self.of_total if of_total else self.multipliers(measure)
         by_channel = transposed(point, -multipliers, measure)[1]
-        found, torsion = by_channel[TH], self.problem.torsion
+        by_pitch, torsion = by_channel[TH], self.problem.torsion
         if torsion is None:
-            return found, by_channel
+            return by_pitch, by_channel
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
-        return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
+        return by_pitch - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
     def _by_iteration(self, slopes: Array) -> Array:
         """J⁻ᵀ times slopes, from factors nearby; where there are none, or too far ones, solved directly."""
         near = self._near
-        found = solve_transposed(self.point, slopes, near) if near is not None and near.usable else None
-        if found is None:
-            found = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
-        return found
+        solution = solve_transposed(self.point, slopes, near) if near is not None and near.usable else None
+        if solution is None:
+            solution = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
+        return solution
 
     def flight_measure(self, weights: Weights) -> Measure:
         """Weights as the engine takes them."""
         terms, shape = self.problem.inflow_terms, self.problem.disk.shape
         given = {FZ: weights.fz, FX: weights.fx}
-        forces = {force: np.broadcast_to(own, shape) for force, own in given.items() if not isinstance(own, float)}
+        forces = {
+            force: np.broadcast_to(weight, shape) for force, weight in given.items() if not isinstance(weight, float)
+        }
         channels = dict[int, Array]()
-        for channel, own in ((TH, weights.theta), (UT, weights.u_t), (UP, weights.u_p), (UR, weights.u_r)):
-            if not isinstance(own, float):
-                channels[channel] = np.broadcast_to(own, shape)
+        for channel, weight in ((TH, weights.theta), (UT, weights.u_t), (UP, weights.u_p), (UR, weights.u_r)):
+            if not isinstance(weight, float):
+                channels[channel] = np.broadcast_to(weight, shape)
         parts = list[tuple[int, list[Hashable], Array]]()
         if not isinstance(weights.inflow, float):
             parts.append((UP, list(terms.names), np.broadcast_to(weights.inflow, shape)))
@@ -152,11 +175,11 @@ class _Linear:
         return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes, terms=weights.terms)
 
     def hover_measure(self, weights: Weights) -> Measure:
-        """The same of annuli: U_T and U_P follow the inflow that they balance by themselves."""
+        """Measure of annuli: U_T and U_P follow the inflow that they balance by themselves."""
         shape = self.problem.disk.shape
 
-        def summed(own: Array | float) -> Array:
-            return np.broadcast_to(own, shape).sum(axis=1)[:, None]
+        def summed(weight: Array | float) -> Array:
+            return np.broadcast_to(weight, shape).sum(axis=1)[:, None]
 
         if weights.terms is not None:
             return Measure(terms=weights.terms)
@@ -184,9 +207,9 @@ class Adjoint(_Linear):
         with one_blas_thread():
             if self.solution.design.hovering:
                 return self.slopes(self.hover_measure(weights))[0]
-            found, by_channel = self.slopes(self.flight_measure(weights))
+            gradient, by_channel = self.slopes(self.flight_measure(weights))
             joined = joined_hover(self.solution.design)
-            return found if joined is None else found + self._by_difference(*joined, weights, by_channel)
+            return gradient if joined is None else gradient + self._by_difference(*joined, weights, by_channel)
 
     def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
@@ -198,19 +221,23 @@ class Adjoint(_Linear):
             fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
             u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
         )  # fmt: skip
-        own = _difference_adjoint(difference)
-        return own.slopes(own.hover_measure(hovering))[0]
+        adjoint = _difference_adjoint(difference)
+        return adjoint.slopes(adjoint.hover_measure(hovering))[0]
 
-    @property
-    def total_terms(self) -> Terms:
-        """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
-        on_stand = self.problem.design.condition.stand is not None
-        return self.point.system.structure.sums["power on a stand"] if on_stand else self.power_terms
+
+@lru_cache(maxsize=4)
+def adjoint_of(solution: Solution) -> Adjoint:
+    """One for all that asks for slopes of power at a solution: a page does so three times."""
+    return Adjoint(solution)
+
+
+def _nothing_else(measure: Measure) -> bool:
+    return not (measure.forces or measure.channels or measure.parts)
 
 
 def _linearised(solution: Solution) -> LinearisedTrim:
     """The equations at a solution that came without them, from another process."""
-    problem = trim_problem(solution.design, solution.freedoms)
+    problem = trim_problem(solution.trimmed_design, solution.freedoms)
     if solution.design.hovering:
         return hover(problem, solution.start).linear
     system = flight_system(problem)
@@ -220,7 +247,7 @@ def _linearised(solution: Solution) -> LinearisedTrim:
 
 @lru_cache(maxsize=4)
 def _difference_adjoint(difference: HoverDifference) -> _Linear:
-    """The same for all measures, and for all conditions that share the hovering rotor."""
+    """Adjoint for all measures, and for all conditions that share the hovering rotor."""
     return _Linear(difference.hover.linear)
 
 
@@ -229,11 +256,11 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
-    return power_along(Adjoint(solution), objective)
+    return power_along(adjoint_of(solution), objective)
 
 
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
-    """The same from an adjoint that is used for other measures as well.
+    """Gradient of the power from an adjoint that is used for other measures as well.
 
     Main-rotor power is induced and profile power and D·V, which no twist changes; on a stand it is the shaft's.
     Raises RuntimeError for the total power of a free rotor, which is zero.

@@ -1,5 +1,6 @@
 """Lift, coefficients and flow of one blade along its span and around the disk, in SI units, of a solution."""
 
+import importlib
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -7,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.problem import LOW_MACH, build_problem, on_azimuths
-from rotor.arrays import Array
+from rotor.arrays import Array, ShortRepr
 from rotor.design.design import Design
 from rotor.trim.solution import DiskFields, Solution
 
@@ -15,8 +16,8 @@ _SHOWN = (0.25, 0.4, 0.55, 0.7, 0.8, 0.87, 0.92, 0.96, 0.99)
 """r/R near which rows of the table stand."""
 
 
-@dataclass(frozen=True, eq=False)
-class Distribution:
+@dataclass(frozen=True, eq=False, repr=False)
+class Distribution(ShortRepr):
     """What one blade carries and meets; arrays are (elements, azimuths) unless said otherwise."""
 
     r: Array
@@ -52,6 +53,22 @@ class Distribution:
             "inflow_m_s": self.inflow.tolist(),
         }
 
+    def to_xarray(self) -> Any:
+        """The fields as an xarray Dataset over `r` and `psi_deg`, with names, units and angles in degrees of `to_dict`.
+
+        ImportError with the remedy where xarray is missing.
+        """
+        try:
+            xarray: Any = importlib.import_module("xarray")
+        except ModuleNotFoundError:
+            raise ImportError("xarray is not installed: pip install xarray, or use to_dict()") from None
+        fields = {
+            "lift_n_per_m": (self.lift, "N/m"), "cl": (self.cl, "1"), "cm": (self.cm, "1"), "mach": (self.mach, "1"),
+            "alpha_deg": (np.degrees(self.alpha), "degree"), "inflow_m_s": (self.inflow, "m/s"),
+        }  # fmt: skip
+        values = {name: (("r", "psi_deg"), value, {"units": unit}) for name, (value, unit) in fields.items()}
+        return xarray.Dataset(values, {"r": self.r, "psi_deg": np.degrees(self.psi)})
+
     def table(self) -> str:
         """Mean and greatest lift [N/m] at a few radii, and where the blade then is."""
         lines = [f"{'r/R':>6}{'mean N/m':>10}{'max N/m':>10}{'at ψ':>7}"]
@@ -63,7 +80,7 @@ class Distribution:
 
 
 def distribution(solution: Solution) -> Distribution:
-    """Of one blade, on the elements and azimuths of `solution.disk`; in hover the same at all azimuths.
+    """Loads and flow of one blade, on the elements and azimuths of `solution.disk`; in hover the same at all azimuths.
 
     Raises RuntimeError when the solution did not converge, TypeError for anything but a solution.
     """
@@ -86,17 +103,17 @@ def distribution(solution: Solution) -> Distribution:
 def _moments(design: Design, flow: DiskFields) -> Array:
     """C_m by section data at the flow of a solution; NaN without data, 0 on elements that carry no load."""
     problem, blade = on_azimuths(build_problem(design), len(flow.psi)), design.rotor.blade
-    found = np.zeros_like(flow.alpha)
+    moments = np.zeros_like(flow.alpha)
     for i, r in enumerate(flow.r.tolist()):
         *names, share = blade.section_at(r)
         for name, weight in zip(names, (1.0 - share, share), strict=True):
             if weight > 0.0:
-                found[i] += weight * _moment(design, name, flow.alpha[i], flow.mach[i])
+                moments[i] += weight * _moment(design, name, flow.alpha[i], flow.mach[i])
     if flow.unsteady is not None:
-        found += flow.unsteady.moment
+        moments += flow.unsteady.moment
     if problem.unloaded is not None:
-        found[problem.unloaded & np.isfinite(found)] = 0.0
-    return found
+        moments[problem.unloaded & np.isfinite(moments)] = 0.0
+    return moments
 
 
 def _moment(design: Design, name: str, alpha: Array, mach: Array) -> Array:

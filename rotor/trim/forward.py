@@ -13,6 +13,7 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
 
+from rotor.aero.display import stalled_area
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
@@ -30,6 +31,11 @@ FAST = 0.25
 """µ from which simple estimates are the better start: with linear inflow more of the disk stalls there. Our choice."""
 SLOWEST = 1e-4
 """Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
+FOLLOWING_PASSES = 25
+"""Evaluations of the blade elements in one step of continuation: steps that converge take 6 to 20 in nearly all cases,
+and a shorter step costs less than more of them. Our choice."""
+_FINEST_OF_REST = 0.1
+"""Step of continuation over the way left below which it gives up: so small a step means that trims end. Our choice."""
 
 
 def with_course(problem: Problem) -> Problem:
@@ -52,8 +58,8 @@ def found_course(design: Design) -> WakeCourse | None:
 def _course(design: Design) -> WakeCourse | None:
     """Along the trim of a design with linear inflow; None where it has none."""
     problem = linear_problem(design)
-    found = trim(problem)
-    return along(found, problem.course) if found.converged else None
+    result = trim(problem)
+    return along(result, problem.course) if result.converged else None
 
 
 def course_of(problem: Problem) -> WakeCourse | None:
@@ -62,13 +68,13 @@ def course_of(problem: Problem) -> WakeCourse | None:
     return problem.course if lies else None
 
 
-def along(found: TrimResult, course: WakeCourse) -> WakeCourse:
+def along(result: TrimResult, course: WakeCourse) -> WakeCourse:
     """The course along a trim.
 
     The thesis' trim leaves µ sin α out of U_P, and its α is that of the disk, not of the shaft, from which the blades
     flap. Its wake still lies below the disk that carries weight and drag: with µ_z = 0 it would stay among the blades.
     """
-    problem, state, flow = found.problem, found.state, found.linear.elements.flow
+    problem, state, flow = result.problem, result.state, result.linear.elements.flow
     design, tilt = problem.design, state.shaft_tilt
     if not design.models.disk_axial_flow:
         tilt -= state.flap_1c
@@ -79,19 +85,25 @@ def along(found: TrimResult, course: WakeCourse) -> WakeCourse:
     )  # fmt: skip
 
 
-def trim_on_course(problem: Problem, start: Guess | None, options: SolverOptions) -> TrimResult:
+def trim_on_course(
+    problem: Problem, start: Guess | None, options: SolverOptions, most_stalled: float = math.inf
+) -> TrimResult:  # fmt: skip
     """`trim`, and of a free rotor once more with its wake along the trim found."""
-    found = trim(problem, start, options)
-    if problem.design.models.trim != "free-rotor" or not problem.inflow.fine_tip or not found.converged:
-        return found
-    again = trim(replace(problem, course=along(found, problem.course)), found.guess, options)
-    return replace(again, passes=found.passes + again.passes)
+    result = trim(problem, start, options, most_stalled)
+    if problem.design.models.trim != "free-rotor" or not problem.inflow.fine_tip or not result.converged:
+        return result
+    again = trim(replace(problem, course=along(result, problem.course)), result.guess, options)
+    return replace(again, passes=result.passes + again.passes)
 
 
-def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
+def trim(
+    problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS,
+    most_stalled: float = math.inf,
+) -> TrimResult:  # fmt: skip
     """Trim a forward-flight problem from a guess, or from simple estimates.
 
-    Tries the warm start, then a cold start, then continuation from a lighter, slower rotor.
+    Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as no more than
+    `most_stalled` of the disk is stalled.
     """
     passes = 0
     best: TrimResult | None = None
@@ -107,29 +119,32 @@ def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = 
     assert best is not None
     if options.asked_to_stop:
         return replace(best, passes=passes, reached=0.0)
-    return _continue(problem, best, passes, options)
+    return _continue(problem, best, passes, options, most_stalled)
 
 
-def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult | None:
+def trim_along(
+    problem: Problem, options: SolverOptions = DEFAULT_OPTIONS, most_stalled: float = math.inf
+) -> TrimResult | None:  # fmt: skip
     """The trim that belongs to those of easier conditions, whatever Newton's method finds; None where none is reached.
 
     Beyond the largest lift a rotor balances the same weight once more, deep in stall and at a multiple of the power.
     Continuation stays on the branch of attached flow, on which rotors fly.
     """
     hopeless = newton(problem, first_guess(problem), replace(options, max_passes=1))
-    found = _continue(problem, replace(hopeless, converged=False), 1, options)
-    return found if found.converged else None
+    result = _continue(problem, replace(hopeless, converged=False), 1, options, most_stalled)
+    return result if result.converged else None
 
 
 def linear_problem(design: Design) -> Problem:
     """The design with a linear inflow and steady sections."""
-    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR, dynamic_stall=False)))
+    models = replace(design.models, inflow=LINEAR, dynamic_stall="off", unsteady="off")
+    return build_problem(replace(design, models=models))
 
 
 def _linear_guess(problem: Problem) -> Guess | None:
     """The trim with linear inflow; None where it has none."""
-    found = newton(linear_problem(problem.design), first_guess(problem))
-    return Guess(found.state, found.guess.elastic, found.guess.bending) if found.converged else None
+    result = newton(linear_problem(problem.design), first_guess(problem))
+    return Guess(result.state, result.guess.elastic, result.guess.bending) if result.converged else None
 
 
 def first_guesses(problem: Problem) -> Iterator[Guess]:
@@ -154,19 +169,19 @@ def first_guess(problem: Problem) -> Guess:
     design = problem.design
     mu = design.condition.advance_ratio
     ct = math.hypot(problem.weight, problem.drag)
-    wake = problem.expected
+    flow = problem.expected
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
-    collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
+    collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * flow.axial) / (1.0 + 1.5 * mu**2)
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.droop
     state = TrimState(
         collective=collective,
         shaft_tilt=math.atan2(problem.drag, problem.weight),
         coning=coning,
-        lambda0=wake.lambda0,
+        lambda0=flow.lambda0,
     )
     stand = design.condition.stand
     if stand is not None:
-        state = replace(state, shaft_tilt=math.atan2(wake.mu_z, wake.mu_x))
+        state = replace(state, shaft_tilt=math.atan2(flow.mu_z, flow.mu_x))
     if stand is not None and stand.collective is not None:
         state = replace(state, collective=stand.collective)
     if "cyclic_1c" in trim_of(design).unknowns:
@@ -212,7 +227,9 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
     return replace(stand, thrust=None, ct_over_sigma=easy + t * (wanted - easy))
 
 
-def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOptions) -> TrimResult:
+def _continue(
+    problem: Problem, best: TrimResult, passes: int, options: SolverOptions, most_stalled: float
+) -> TrimResult:  # fmt: skip
     """Follow the trim from an easier condition in adaptive steps; where it ends on the way, tell how far it came."""
     design = problem.design
     easy = _easier(design, 0.0)
@@ -220,10 +237,11 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
     passes += result.passes
     if not result.converged:
         return replace(best, passes=passes, reached=0.0)
+    following = replace(options, max_passes=min(options.max_passes, FOLLOWING_PASSES))
     t, step = 0.0, 0.25
     latest, before = (0.0, result), None
     for _ in range(options.continuation_steps):
-        if t >= 1.0 or step < options.smallest_continuation_step:
+        if t >= 1.0 or step < max(options.smallest_continuation_step, _FINEST_OF_REST * (1.0 - t)):
             break
         if passes >= options.most_passes or options.asked_to_stop:
             break
@@ -233,9 +251,10 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
         if before is not None:  # Along the secant through the last two trims.
             guess, last = state.array(), before[1].state.array()
             state = TrimState.from_array(guess + (guess - last) * (ahead - t) / (t - before[0]))
-        result = newton(near, replace(latest[1].guess, state=state, factors=None), options)
+        result = newton(near, replace(latest[1].guess, state=state, factors=None), following)
         passes += result.passes
-        if result.converged and not _hangs_under_its_wake(near, result):
+        follows = result.converged and not _hangs_under_its_wake(near, result)
+        if follows and (ahead == 1.0 or stalled_area(near, result.linear.elements) <= most_stalled):
             before, latest, t = latest, (ahead, result), ahead
             step *= 1.7
         else:

@@ -7,7 +7,7 @@ of the intrusion index (S. Crews, Rotorcraft Vibration Criteria, a New Perspecti
 ADS-27A-SP, 2006). No text that prints the weights could be looked up: they are recalled.
 
 Absolute levels are not to be trusted: published codes, with fluid dynamics coupled in, miss measured loads at these
-frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over wakes.
+frequencies too, and below µ 0.2 the number is that of the wake model. So it comes with its band over inflow models.
 """
 
 import math
@@ -61,11 +61,11 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
 
 
 Solve = Callable[[Design, Solution | Guess | None], Solution]
-"""As `rotor.trim.solve.solve`."""
+"""The solver, as `rotor.trim.solve.solve`."""
 
 
 def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoads | None:
-    """Of a converged solution; None where `why_no_hub_loads` says why. band: whether to solve with other wakes as well.
+    """Hub loads of a solution; None where `why_no_hub_loads` says why. band: whether to solve with other inflow models.
 
     A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
     Raises RuntimeError with the solution's sentence when it is not converged.
@@ -97,14 +97,14 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
 
 
 def _indices(design: Design, solve: Solve) -> list[float]:
-    """The index with each wake with which the design trims [%]."""
-    found = list[float]()
+    """The index with each inflow model with which the design trims [%]."""
+    indices = list[float]()
     for name in BAND:
         if name != design.models.inflow:
             other = solve(replace(design, models=replace(design.models, inflow=name)), None)
             loads = hub_loads(other, solve, band=False) if other.converged else None
-            found += [] if loads is None else [loads.index]
-    return found
+            indices += [] if loads is None else [loads.index]
+    return indices
 
 
 def load_terms(problem: Problem, point: Point) -> Terms:
@@ -156,23 +156,25 @@ def index_along(adjoint: Adjoint) -> tuple[float, Array]:
 
 
 def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
-    """Of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
+    """Loads of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
 
     (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and
-    forward; at a hinge they are those of springs and damper, up to what the modes leave and small angles neglect.
+    forward; at a hinge or a sprung root they are those of springs and damper, up to what the modes leave and small
+    angles neglect: the mean lag moment of HART II on a soft spring by 5 % with any number of modes; that of the UH-60A
+    on stiff springs by 17 %, less with more modes. Loads on the hub are made of the forces.
     """
     b, disk, forces = problem.bending, problem.disk, point.forces
     assert b is not None
     rotor = problem.design.rotor
     u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
-    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(own) for own in (u, v, w))
+    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(deflection) for deflection in (u, v, w))
     acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
     acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
     air = np.stack([forces[FR], -forces[FX], forces[FZ]])
     force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
 
     def moment(along: int, moved: Array) -> Array:
-        """Of the forces along one axis times their distance from the root, less those outward times theirs."""
+        """Moment of the forces along one axis times their distance from the root, less those outward times theirs."""
         moved = moved - moved[0]
         columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
         of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
@@ -207,14 +209,14 @@ class Deflections:
     def at(self, r: Array, psi: float) -> tuple[Array, Array]:
         """Up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) both; 0 inboard of the root."""
         waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
-        up, forward = (np.interp(r, self.r, own @ waves, left=0.0) for own in (self.up, self.forward))
+        up, forward = (np.interp(r, self.r, deflection @ waves, left=0.0) for deflection in (self.up, self.forward))
         return up, forward
 
 
 @lru_cache(maxsize=4)
 @read_only
 def deflections(solution: Solution) -> Deflections | None:
-    """Of a converged solution; None where its blades do not bend. Deflections are small and to first order.
+    """Deflections of a converged solution; None where its blades do not bend. Deflections are small and to first order.
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
@@ -241,6 +243,6 @@ def _rates(field: Array) -> tuple[Array, Array]:
     """First and second derivative by ψ of a periodic field, (…, azimuths)."""
     count = field.shape[-1]
     harmonic: Array = np.arange(count // 2 + 1, dtype=float)
-    found = np.fft.rfft(field)
+    spectrum = np.fft.rfft(field)
     first = np.where(2.0 * harmonic == count, 0.0, 1j * harmonic)
-    return np.fft.irfft(first * found, count), np.fft.irfft(-(harmonic**2) * found, count)
+    return np.fft.irfft(first * spectrum, count), np.fft.irfft(-(harmonic**2) * spectrum, count)

@@ -18,9 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from rotor.aero.inflow import Wake, inflow_model
+from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.momentum import vortex_ring_edge
+from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array, fix
 from rotor.columns.blade import Freedom
@@ -45,7 +45,7 @@ class HoverDifference:
     inflow: Array
     """c, λ_hover − A_0 d_hover."""
     swirl: Array
-    """The same for the swirl."""
+    """The constant c of the swirl."""
 
 
 @lru_cache(maxsize=32)
@@ -56,15 +56,15 @@ def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifferen
     if not hovering.converged:
         return None
     elements, disk = hovering.linear.elements, problem.disk
-    flow = Wake(0.0, problem.climb, elements.state.lambda0)
+    flow = DiskFlow(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
     flown = problem if course is None else replace(problem, course=course)
     axial, slope = flown.inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     inflow = elements.induced[:, 0] - axial @ load
-    found = axial, slope * load, inflow, elements.swirl - uniform
-    fix(found)
-    return HoverDifference(hovering, *found)
+    difference = axial, slope * load, inflow, elements.swirl - uniform
+    fix(difference)
+    return HoverDifference(hovering, *difference)
 
 
 def axial_share(mu: float, thrust: float) -> float:
@@ -105,7 +105,8 @@ def in_hover(design: Design) -> Design:
     Faster descents are flown at speed only, where little of hover is left.
     """
     slowest = vortex_ring_edge(0.0) * math.sqrt(0.5 * design.weight_coefficient) * design.rotor.tip_speed
-    return design.at(hover=True, climb_m_s=max(design.condition.climb_speed, slowest))
+    climb = max(design.condition.climb_speed, slowest)
+    return replace(design, condition=replace(design.condition, advance_ratio=0.0, climb_speed=climb))
 
 
 def passes_over(design: Design) -> bool:
@@ -119,3 +120,20 @@ def hover_share(design: Design) -> float:
     if design.hovering or not passes_over(design):
         return 0.0
     return axial_share(design.condition.advance_ratio, design.weight_coefficient)
+
+
+def vortex_ring(design: Design) -> str:
+    """Why a descent has no steady wake, as a sentence; empty where it has one."""
+    if design.condition.climb_speed >= 0.0:
+        return ""
+    inflow, mu = math.sqrt(0.5 * design.weight_coefficient), design.condition.advance_ratio
+    edge = vortex_ring_edge(mu / inflow)
+    if design.climb_ratio >= edge * inflow:
+        return ""
+    speed = design.rotor.tip_speed
+    return (
+        f"Not trimmed: in descent at {-design.condition.climb_speed:g} m/s and advance ratio {mu:.3f} the rotor is in "
+        "or beyond the vortex ring state, where its wake is not steady and momentum theory has no valid answer: "
+        f"descend at less than {math.floor(-10.0 * edge * inflow * speed) / 10.0:.1f} m/s, or fly faster than advance "
+        f"ratio {math.ceil(1e3 * FASTEST_RING * inflow) / 1e3:.3f}."
+    )

@@ -64,7 +64,7 @@ class Guess:
     inflow_kind: Hashable = None
     """The inflow that they belong to."""
     factors: Factors | None = None
-    """Those of the last derivatives, for the first steps."""
+    """Factors of the last derivatives, for the first steps."""
     structure: Hashable = None
     """The equations that they belong to."""
 
@@ -97,7 +97,7 @@ class TrimResult:
     reached: float = 1.0
     """How far continuation from an easier condition came (1: all the way); in hover C_T over C_W."""
     factors: Factors | None = None
-    """Those of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
+    """Factors of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
     nearest: "TrimResult | None" = None
     """The last trim that continuation found on its way, where it did not come all the way."""
 
@@ -143,11 +143,11 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         limits = replace(limits, most_steps_on_few=0.0)
     if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as ten steps.
         limits = replace(limits, most_steps=10.0, kept_ratio=0.5)
-    found = solve(system, first_point(problem, system, start), factors, limits)
-    residual, twisting, difference = _errors(found.point, options)
+    solved = solve(system, first_point(problem, system, start), factors, limits)
+    residual, twisting, difference = _errors(solved.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
-    converged = found.point.size <= 1.0 or accepted
-    return TrimResult(problem, found.point, residual, converged, found.passes, factors=found.factors)
+    converged = solved.point.size <= 1.0 or accepted
+    return TrimResult(problem, solved.point, residual, converged, solved.passes, factors=solved.factors)
 
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:

@@ -22,7 +22,7 @@ the power.
 """
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,7 +33,47 @@ from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
 from rotor.engine.waves import wave_grid
-from rotor.trim.solution import HubMoment, PowerBudget
+
+
+@dataclass(frozen=True)
+class PowerBudget:
+    """Power by parts [W]."""
+
+    induced: float
+    """Σ λ_i dF_z"""
+    profile: float
+    """Σ U dD, dissipation"""
+    parasite: float
+    """D·V, in a climb with the power that lifts the download"""
+    tail: float
+    shaft: float
+    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
+    climb: float = 0.0
+    """W V_c, negative in descent"""
+    damping: float = 0.0
+    """What the dampers of `Solution.freedoms` take."""
+
+    @property
+    def main_rotor(self) -> float:
+        return self.induced + self.profile + self.parasite + self.climb + self.damping
+
+    @property
+    def total(self) -> float:
+        return self.main_rotor + self.tail
+
+
+@dataclass(frozen=True)
+class HubMoment:
+    """Steady moments of the hub on the shaft [N m]."""
+
+    roll: float
+    """Positive towards the retreating side, as from lift on the advancing side."""
+    pitch: float
+    """Positive nose-up."""
+
+    @property
+    def size(self) -> float:
+        return math.hypot(self.roll, self.pitch)
 
 
 def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> PowerBudget:
@@ -42,14 +82,12 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     U dD = U_T dF_x − U_P dF_z + U_R dF_r: the velocity at the section times the force on it.
     """
     design, disk = problem.design, problem.disk
-    watts, weight = design.power_unit, design.weight_coefficient
+    watts = design.power_unit
     width = disk.dr / len(disk.psi)
     e = elements
     induced = float(width @ (_around(e.induced, e.fz) + e.swirl * e.fx.sum(axis=1))) * watts
     profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
-    pressed = problem.weight - weight
-    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
-    climb = weight * problem.climb * watts
+    parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
         parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
     damping = total.damping * watts
@@ -57,9 +95,20 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
 
 
-def _around(one: Array, other: Array) -> Array:
+def outside_power(problem: Problem) -> tuple[float, float]:
+    """Power [W] that no state of the trim changes: D·V with the download pushed up, and W V_c; none on a stand."""
+    design = problem.design
+    if design.condition.stand is not None:
+        return 0.0, 0.0
+    watts, weight = design.power_unit, design.weight_coefficient / design.condition.load_factor
+    pressed = problem.weight - weight  # In a turn n W too, of which `drag_parts` has taken away its part of the path.
+    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
+    return parasite, weight * problem.climb * watts
+
+
+def _around(array: Array, other: Array) -> Array:
     """Sums of a product around the azimuth, (elements,)."""
-    return np.einsum("ij,ij->i", one, other)
+    return np.einsum("ij,ij->i", array, other)
 
 
 def wind_forces(elements: BladeElements, total: DiskSums) -> tuple[float, float]:

@@ -22,7 +22,8 @@ from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
-from rotor.arrays import Array, Booleans
+from rotor.arrays import Array, Booleans, ShortRepr
+from rotor.assets import package_version
 from rotor.columns.blade import Freedom
 from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.aircraft import told
@@ -30,6 +31,7 @@ from rotor.design.design import Design
 from rotor.design.quantities import BESIDE
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess, LinearisedTrim
+from rotor.trim.power import HubMoment, PowerBudget
 from rotor.user_input import check_suffix, write_whole
 
 
@@ -50,8 +52,8 @@ class Caveat:
     """The sentence for the user."""
 
 
-@dataclass(frozen=True, eq=False)
-class DiskFields:
+@dataclass(frozen=True, eq=False, repr=False)
+class DiskFields(ShortRepr):
     """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise.
 
     On at least the azimuths that the models ask for, also where the trim was solved on fewer.
@@ -89,7 +91,10 @@ class DiskFields:
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
     unsteady: Unsteady | None = None
-    """What dynamic stall does; None with steady sections."""
+    """What dynamic stall does; None without it."""
+    apparent: Array | None = None
+    """What apparent mass adds to C_n and to C_m about the quarter chord, (2, elements, azimuths); None in steady
+    flow."""
 
     @property
     def stalled(self) -> Booleans:
@@ -109,8 +114,8 @@ class DiskFields:
         return np.diff(self.edges**2) / len(self.psi)
 
 
-@dataclass(frozen=True, eq=False)
-class ElasticTwist:
+@dataclass(frozen=True, eq=False, repr=False)
+class ElasticTwist(ShortRepr):
     """The elastic twist of the blade and the load that it puts on the controls."""
 
     coordinates: Array
@@ -118,7 +123,7 @@ class ElasticTwist:
     shapes: Array
     """The modes at the elements, 1 at the tip, (modes, elements)."""
     frequencies: Array
-    """Of the modes [per rev], (modes,)."""
+    """Frequencies of the modes [per rev], (modes,)."""
     tip: Array
     """φ at the tip [rad], (azimuths,)."""
     along_blade: Array
@@ -151,8 +156,8 @@ class ElasticTwist:
         }
 
 
-@dataclass(frozen=True, eq=False)
-class HubLoads:
+@dataclass(frozen=True, eq=False, repr=False)
+class HubLoads(ShortRepr):
     """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
 
     per_rev: int
@@ -164,9 +169,9 @@ class HubLoads:
     index: float
     """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
     band: tuple[float, float] | None
-    """Least and largest index over several models of the wake [%]."""
+    """Least and largest index over several inflow models [%]."""
     root_force: Array
-    """Of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
+    """Force of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
     root_moment: Array
     """There in flap, positive up, and in lag, positive forward [N m], (2, azimuths)."""
 
@@ -181,53 +186,14 @@ class HubLoads:
         }
 
 
+SCHEMA = "rotor-explorer solution 1"
+"""What `Solution.to_dict` is: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
 _RIGID: dict[str, Any] = {
     "elastic_twist_deg": None,
     "torsion_frequencies_per_rev": None,
     "pitch_link_load_n": None,
     "control_power_w": None,
 }
-
-
-@dataclass(frozen=True)
-class PowerBudget:
-    """Power by parts [W]."""
-
-    induced: float
-    """Σ λ_i dF_z"""
-    profile: float
-    """Σ U dD, dissipation"""
-    parasite: float
-    """D·V, in a climb with the power that lifts the download"""
-    tail: float
-    shaft: float
-    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
-    climb: float = 0.0
-    """W V_c, negative in descent"""
-    damping: float = 0.0
-    """What the dampers of `Solution.freedoms` take."""
-
-    @property
-    def main_rotor(self) -> float:
-        return self.induced + self.profile + self.parasite + self.climb + self.damping
-
-    @property
-    def total(self) -> float:
-        return self.main_rotor + self.tail
-
-
-@dataclass(frozen=True)
-class HubMoment:
-    """Steady moments of the hub on the shaft [N m]."""
-
-    roll: float
-    """Positive towards the retreating side, as from lift on the advancing side."""
-    pitch: float
-    """Positive nose-up."""
-
-    @property
-    def size(self) -> float:
-        return math.hypot(self.roll, self.pitch)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -265,26 +231,34 @@ class Solution:
     """None for a blade that is rigid in torsion."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
+    redone: bool = False
+    """Whether the trim was redone with dynamic stall, for with steady sections too much of the disk was stalled."""
     wake_course: WakeCourse | None = None
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
     freedoms: tuple[Freedom, ...] = ()
-    """Those of the blade that `solve` was given beside the design's."""
+    """Freedoms of the blade that `solve` was given beside the design's."""
     freedom_states: dict[str, float] = field(default_factory=dict[str, float])
-    """Their states by name."""
+    """States of the further freedoms by name."""
     find_hub_loads: "Callable[[Solution], HubLoads | None] | None" = None
-    """What `hub_loads` is computed by: it solves with other wakes."""
+    """What `hub_loads` is computed by: it solves with other inflow models."""
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None, structure=None)}
 
+    @property
+    def trimmed_design(self) -> Design:
+        """The design with dynamic stall on where the trim was redone with it: what was trimmed."""
+        models = self.design.models
+        return replace(self.design, models=replace(models, dynamic_stall="on")) if self.redone else self.design
+
     def without_linear(self) -> "Solution":
-        """The same without its linearisation, 0.7 MB less: for many that are kept as starts."""
+        """This solution without its linearisation, 0.7 MB less: for many that are kept as starts."""
         return replace(self, linear=None)
 
     def without_factors(self) -> "Solution":
-        """The same without the factors either, which are 3 MB with a lifting line: for many that are kept."""
+        """This solution without linearisation and factors, 3 MB with a lifting line: for many that are kept."""
         return replace(self, linear=None, start=replace(self.start, factors=None))
 
     def __repr__(self) -> str:
@@ -315,8 +289,9 @@ class Solution:
 
     @cached_property
     def hub_loads(self) -> HubLoads | None:
-        """Vibratory loads on the hub, of blades that bend, with their band over wakes; None where there are none.
+        """Vibratory loads on the hub, with their band over inflow models; None where there are none.
 
+        Those of the same design with blades that bend, also where this solution's do not.
         Computed when asked for, in some tenths of a second. RuntimeError when the solution did not converge.
         """
         self.require()
@@ -324,7 +299,7 @@ class Solution:
 
     @cached_property
     def blade_frequencies(self) -> BladeFrequencies | None:
-        """Of the blade at its pitch in the trim; None where its stiffness in bending is not known."""
+        """Frequencies of the blade at its pitch in the trim; None where its stiffness in bending is not known."""
         return blade_frequencies(self.design.rotor, self.design.twist, self.controls.collective)
 
     @property
@@ -338,7 +313,7 @@ class Solution:
 
     @property
     def torque(self) -> float:
-        """Of the shaft [N m]."""
+        """Torque of the shaft [N m]."""
         return self.last_power.shaft / self.design.rotor.angular_speed
 
     @property
@@ -347,13 +322,13 @@ class Solution:
 
         The power of the climb is not counted: it would make any rotor look better the faster it climbs.
         """
-        own = (self.last_power.induced + self.last_power.profile) / self.design.power_unit
-        if not self.design.hovering or own <= 0.0:
+        power = (self.last_power.induced + self.last_power.profile) / self.design.power_unit
+        if not self.design.hovering or power <= 0.0:
             return None
         ideal = max(self.ct, 0.0) ** 1.5 / np.sqrt(2.0).item()
         if self.design.climb_ratio:
             ideal = self.ct * axial_inflow(self.ct, self.design.climb_ratio)
-        return ideal / own
+        return ideal / power
 
     @property
     def induced_power_factor(self) -> float:
@@ -366,8 +341,8 @@ class Solution:
         rotor_power = self.last_power.induced + self.last_power.profile
         if self.design.hovering or rotor_power <= 0.0:
             return None
-        weight = self.design.condition.weight if self.design.condition.stand is None else self.lift_and_drag[0]
-        return weight * self.design.airspeed / rotor_power
+        lift = self.design.condition.load if self.design.condition.stand is None else self.lift_and_drag[0]
+        return lift * self.design.airspeed / rotor_power
 
     def require(self) -> "Solution":
         """This solution, or RuntimeError with its sentence when it did not converge."""
@@ -408,15 +383,21 @@ class Solution:
             "lambda0": controls.lambda0,
             "reverse_flow_area_percent": 100.0 * self.reverse_flow_area,
             "stalled_area_percent": 100.0 * self.stalled_area,
+            "dynamic_stall": self.disk.unsteady is not None,
             "stalled_percent": {"area": 100.0 * self.stalled_area, "thrust": 100.0 * self.stalled_thrust},
             **(self.elastic.record() if self.elastic else _RIGID),
         }
         return {
+            "schema": SCHEMA,
+            "version": package_version(),
+            "rotor": design.rotor.name,
             "status": self.status.value,
             "message": self.message,
             "caveats": [caveat.sentence for caveat in self.caveats],
             "mu": design.condition.advance_ratio,
             "speed_m_s": design.airspeed,
+            "mass_kg": design.condition.mass,
+            "altitude_m": design.condition.altitude,
             **{name: design.condition.numbers[name] for name in told([design.condition]) if name in BESIDE},
             "preset": design.preset,
             "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
@@ -467,7 +448,7 @@ class Solution:
 
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
-    """The same keys without values."""
+    """Keys of a record without their values."""
     return {
         key: _emptied(cast(dict[str, Any], value)) if isinstance(value, dict) else None for key, value in values.items()
     }

@@ -10,7 +10,7 @@ from rotor.validation.airloads import (
     our_curve,
 )
 from rotor.validation.compare import Comparison, MeasuredSet, compare, compare_point, design_at, load_set, sets_of
-from rotor.validation.trust import SensitivityRow, TrustRow, sensitivity_rows, trust_rows
+from rotor.validation.trust import TrustRow, trust_rows
 from rotor.validation.uh60a import public_data
 
 __all__ = (
@@ -20,7 +20,6 @@ __all__ = (
     "FlownCase",
     "MeasuredCurve",
     "MeasuredSet",
-    "SensitivityRow",
     "TrustRow",
     "agreement",
     "compare",
@@ -30,7 +29,6 @@ __all__ = (
     "measured_curves",
     "our_curve",
     "public_data",
-    "sensitivity_rows",
     "sets_of",
     "trust_rows",
 )

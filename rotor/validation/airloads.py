@@ -27,7 +27,7 @@ from rotor.trim.solve import solve
 HIGHEST = 10
 """Harmonic of loads."""
 HIGHEST_TIP = 3
-"""The same of the tip's twist and flapping, which have 22 and 23 points a revolution."""
+"""Highest harmonic of the tip's twist and flapping, which have 22 and 23 points a revolution."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,9 @@ def _pitch_link_test(mu: float) -> dict[str, Any]:
 
 
 HART2_BASELINE = FlownCase("hart2-airloads", "BL", "hart2", _tunnel(1.2055, 341.7, 109.12, 20.0))
-"""As OpenCOPTER's case files state it; shaft wall-corrected. The signs of the hub moments are not checked: 20 N m is
-0.3 % of thrust times radius, and the other sign moves power by 1.5 % and the twist of the tip by 0.01°."""
+"""The baseline case as OpenCOPTER's case files state it; shaft wall-corrected. The signs of the hub moments are not
+checked: 20 N m is 0.3 % of thrust times radius, and the other sign moves power by 1.5 % and the twist of the tip by
+0.01°."""
 CASES = (
     HART2_BASELINE,
     FlownCase(
@@ -109,7 +110,7 @@ class MeasuredCurve:
 
     @property
     def waves(self) -> Array:
-        """Its `harmonics`."""
+        """`harmonics` of this curve."""
         return harmonics(self.psi, self.values, self.highest)
 
 
@@ -122,9 +123,9 @@ class CurveAgreement:
     r: float
     correlation: float
     rms: float
-    """Of the difference."""
+    """Root mean square of the difference."""
     measured_rms: float
-    """Of the measured curve itself."""
+    """Root mean square of the measured curve itself."""
     mean: float
     measured_mean: float
     waves: Array = field(repr=False)
@@ -132,7 +133,7 @@ class CurveAgreement:
     measured_waves: Array = field(repr=False)
 
     def amplitude(self, n: int, *, measured: bool = False) -> float:
-        """Of harmonic n."""
+        """Amplitude of harmonic n."""
         return abs(wave(self.measured_waves if measured else self.waves, n))
 
     def phase_deg(self, n: int, *, measured: bool = False) -> float:
@@ -202,12 +203,14 @@ def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array
     if measured.quantity == "pitch_link":
         load = np.zeros(len(disk.psi)) if solution.elastic is None else solution.elastic.pitch_link_load
         return disk.psi, load.mean() - load
-    found = distribution(solution)
+    loads = distribution(solution)
     match measured.quantity:
         case "cn_m2":
-            field_ = (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)) * disk.mach**2
+            field_ = disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)
+            field_ = (field_ if disk.apparent is None else field_ + disk.apparent[0]) * disk.mach**2
         case "cm_m2":
-            field_ = (found.cm + _pitch_damping(solution)) * disk.mach**2
+            moment = _pitch_damping(solution) if disk.apparent is None else disk.apparent[1]
+            field_ = (loads.cm + moment) * disk.mach**2
         case "cl":
             field_ = disk.cl
         case _:
@@ -253,14 +256,14 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
     """A measured curve beside that of a solution."""
     theirs, ours = measured.waves, harmonics(*our_curve(measured, solution), measured.highest)
-    one, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
-    size = math.sqrt((one @ one) * (other @ other))
+    computed, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
+    size = math.sqrt((computed @ computed) * (other @ other))
     return CurveAgreement(
         case=measured.case,
         quantity=measured.quantity,
         r=measured.r,
-        correlation=float(one @ other / size) if size > 0.0 else 0.0,
-        rms=math.sqrt(0.5 * float((one - other) @ (one - other))),
+        correlation=float(computed @ other / size) if size > 0.0 else 0.0,
+        rms=math.sqrt(0.5 * float((computed - other) @ (computed - other))),
         measured_rms=math.sqrt(0.5 * float(other @ other)),
         mean=float(ours[0]),
         measured_mean=float(theirs[0]),

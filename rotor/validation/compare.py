@@ -48,7 +48,7 @@ LABELS = {
     "shaft_tilt_deg": "Shaft tilt [°]",
     "tip_mach": "Tip Mach number",
 }
-"""Of axes and columns."""
+"""Labels of axes and columns."""
 ALSO = {"xv15-forward-15deg": ("uniform",), "xv15-forward-0deg": ("uniform",)}
 """Inflow models that the trust page shows beside that of `flight`."""
 
@@ -73,7 +73,7 @@ class MeasuredSet:
     missed: str = ""
     """Why the target is missed, as far as it is known."""
     scatter: float | None = None
-    """Of the quantity; None where it is a part of it."""
+    """Scatter of the quantity; None where it is a part of it."""
     scatter_percent: float | None = None
     judged: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
     """Ranges of columns within which a target is set."""
@@ -118,7 +118,7 @@ class MeasuredSet:
 
 def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
     """The sets of a shipped rotor by its name, for example `xv15`; none for a rotor that was not measured."""
-    return tuple(one for one in map(load_set, SETS) if one.rotor == rotor)
+    return tuple(measured for measured in map(load_set, SETS) if measured.rotor == rotor)
 
 
 @cache
@@ -145,7 +145,7 @@ class ComparedPoint:
     given: dict[str, float]
     measured: dict[str, float]
     ours: dict[str, float] | None
-    """The same quantities as measured; None where our rotor does not trim."""
+    """Our values of the quantities measured; None where our rotor does not trim."""
     message: str
     """Why it does not."""
     error_percent: float | None
@@ -234,16 +234,16 @@ def compare(measured: MeasuredSet, inflow: str | None = None) -> Comparison:
 def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) -> ComparedPoint:
     """Trim the blade and models of `base` at one point of a set of its rotor."""
     given = {name: point[name] for name in measured.given}
-    found = {name: value for name, value in point.items() if name not in given}
+    targets = {name: value for name, value in point.items() if name not in given}
     solution = solve(design_at(measured, point, base))
-    wanted, judged = found[measured.quantity], measured.is_judged(point)
+    wanted, judged = targets[measured.quantity], measured.is_judged(point)
     if not solution.converged:
-        return ComparedPoint(given, found, None, solution.message, None, False, judged, not judged)
-    ours = {name: quantity_of(name, solution, measured) for name in found}
+        return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
+    ours = {name: quantity_of(name, solution, measured) for name in targets}
     value = ours[measured.quantity]
     return ComparedPoint(
         given=given,
-        measured=found,
+        measured=targets,
         ours=ours,
         message="",
         error_percent=100.0 * (value / wanted - 1.0),
@@ -255,54 +255,56 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
 
 def measured_set(name: str) -> TrustSet:
     """A set of measured points for the trust page; every one is trimmed here."""
-    found = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
-    measured, rows = found[0].measured, tuple(map(_row, found))
+    comparisons = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
+    measured, rows = comparisons[0].measured, tuple(map(_row, comparisons))
     return TrustSet(
         name=name,
         title=measured.title,
-        compared=found[0].counted,
+        compared=comparisons[0].counted,
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
         rows=rows,
-        charts=(comparison_chart(found),),
+        charts=(comparison_chart(comparisons),),
         text=tuple(words for words in (_constant(measured), measured.note) if words),
-        points=_points(found),
+        points=_points(comparisons),
     )
 
 
-def _row(found: Comparison) -> TrustRow:
+def _row(comparison: Comparison) -> TrustRow:
     """The root mean square of the errors at the points with a target; of all points where there is none."""
-    measured, rms, worst = found.measured, found.rms_percent, found.worst_percent
+    measured, rms, worst = comparison.measured, comparison.rms_percent, comparison.worst_percent
     assert rms is not None
     assert worst is not None
     return TrustRow(
         set=measured.name,
         kind="indicative" if measured.indicative else "validation",
-        what=f"{measured.title}: {found.counted}, inflow {found.inflow}",
+        what=f"{measured.title}: {comparison.counted}, inflow {comparison.inflow}",
         against=measured.report,
         shown=f"rms {rms:.1f} %, worst {worst:+.1f} %",
         error=rms / 100.0,
         allowed=5e-3,
         test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
-        note=found.why_missed,
+        note=comparison.why_missed,
         target=measured.target,
-        verdict="no target" if found.passed is None else "met" if found.passed else "missed",
+        verdict="no target" if comparison.passed is None else "met" if comparison.passed else "missed",
     )
 
 
-def comparison_chart(found: list[Comparison]) -> Chart:
+def comparison_chart(comparisons: list[Comparison]) -> Chart:
     """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
-    measured, quantity = found[0].measured, found[0].measured.quantity
+    measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
     along = measured.varied[0]
     values = tuple(point[quantity] for point in measured.points)
     places = tuple(point[along] for point in measured.points)
     scatter = tuple(map(measured.scatter_of, values))
     series: list[Series] = [Points("measured", places, values, scatter=scatter)]
-    for k, one in enumerate(found, start=1):
-        ours = sorted((point.given[along], point.ours[quantity]) for point in one.points if point.ours is not None)
+    for k, comparison in enumerate(comparisons, start=1):
+        ours = sorted(
+            (point.given[along], point.ours[quantity]) for point in comparison.points if point.ours is not None
+        )
         x, y = zip(*ours, strict=True)
         alone = len(set(x)) == len(x)
-        label = f"computed, inflow {one.inflow}"
+        label = f"computed, inflow {comparison.inflow}"
         series.append(Line(label, x, y, k, dots=True) if alone else Points(label, x, y, k, mark="cross"))
     return Chart(measured.title, Axis(LABELS[along]), Axis(LABELS[quantity]), tuple(series))
 
@@ -314,19 +316,19 @@ def _constant(measured: MeasuredSet) -> str:
     return f"The same at every point: {words}." if same else ""
 
 
-def _points(found: list[Comparison]) -> tuple[tuple[str, ...], ...]:
+def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
     """Every measured point beside ours, with what is not the same at all of them."""
-    measured, quantity = found[0].measured, found[0].measured.quantity
+    measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
     head = [*(LABELS[name] for name in measured.varied), "Measured"]
     rows = [[f"{point[name]:.5g}" for name in (*measured.varied, quantity)] for point in measured.points]
-    for one in found:
-        head += [f"Ours, {one.inflow}", "Error"]
-        for row, point in zip(rows, one.points, strict=True):
+    for comparison in comparisons:
+        head += [f"Ours, {comparison.inflow}", "Error"]
+        for row, point in zip(rows, comparison.points, strict=True):
             ours = point.ours
             row += [f"{ours[quantity]:.5g}", f"{point.error_percent:+.1f} %"] if ours else ["no trim", ""]
     if not measured.indicative:
         head.append("Verdict")
-        for row, point in zip(rows, found[0].points, strict=True):
+        for row, point in zip(rows, comparisons[0].points, strict=True):
             row.append("no target" if not point.judged else "met" if point.passed else "missed")
     return tuple(map(tuple, (head, *rows)))
 

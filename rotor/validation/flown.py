@@ -36,13 +36,13 @@ POWERS = "flown-power"
 """Name of the set."""
 TITLES = {"gazelle": "SA349/2 Gazelle", "bo105": "Bo 105"}
 ANGLES = {"theta0": "collective", "theta1c": "cyclic 1c", "theta1s": "cyclic 1s", "theta0_tail": "tail rotor"}
-"""Of the Bo 105: of the main rotor collective at its centre, and cyclic; of the tail rotor collective."""
+"""Angles of the Bo 105: of the main rotor collective at its centre, and cyclic; of the tail rotor collective."""
 SHAPE = 0.08
 """Target: root mean square of the shape's error."""
 SPEEDS_KT = (0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 105.0)
 """At which the angles of the Bo 105 are computed; linear between."""
 MASS_KG = 2200.0
-"""Of the Bo 105, assumed: the source states none."""
+"""Mass of the Bo 105, assumed: the source states none."""
 AIRLOADS = "gazelle-airloads"
 """Name of the set of the Gazelle's section lift."""
 LEAST = 0.9
@@ -76,13 +76,14 @@ class MeasuredPower:
     """Collective, cyclic 1c and 1s [°]; None where they were not measured."""
 
     def same_air(self, design: Design) -> bool:
-        """Whether a design has this mass and altitude and neither climbs nor descends."""
+        """Whether a design has this mass and altitude, and all else as in level flight."""
         here = design.condition
-        pairs = ((here.mass, self.mass), (here.altitude, self.altitude), (here.climb_speed, 0.0))
-        return here.stand is None and all(math.isclose(one, other, abs_tol=1e-6) for one, other in pairs)
+        pairs = ((here.mass, self.mass), (here.altitude, self.altitude))
+        same = all(math.isclose(value, other, abs_tol=1e-6) for value, other in pairs)
+        return here.stand is None and same and not here.beside
 
     def same_flight(self, design: Design) -> bool:
-        """The same at this advance ratio too."""
+        """Whether a design also flies at this advance ratio."""
         return self.same_air(design) and math.isclose(design.condition.advance_ratio, self.mu, abs_tol=1e-9)
 
     @property
@@ -140,18 +141,18 @@ class FlownAngle:
 
 def flown_powers() -> Iterator[FlownPower]:
     """Every measured power beside ours."""
-    for one in measured_powers():
-        solution = solve(make_design(rotor=one.rotor, mu=one.mu, mass_kg=one.mass, altitude_m=one.altitude))
+    for power in measured_powers():
+        solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         ends, controls = between_drag_areas(solution), solution.controls
         ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
         yield FlownPower(
-            rotor=one.rotor,
-            case=one.case,
-            mu=one.mu,
-            measured=one.power,
+            rotor=power.rotor,
+            case=power.case,
+            mu=power.mu,
+            measured=power.power,
             ours=solution.power.main_rotor if solution.converged else None,
             band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-            measured_angles=one.angles,
+            measured_angles=power.angles,
             angles=tuple(map(math.degrees, ours)) if solution.converged else None,
         )
 
@@ -169,15 +170,15 @@ def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[floa
 def flown_angles() -> tuple[FlownAngle, ...]:
     """The four pitch angles of the Bo 105."""
     solutions = [solve(make_design(rotor="bo105", speed_kt=speed, mass_kg=MASS_KG)).require() for speed in SPEEDS_KT]
-    ours: Array = np.degrees(np.array([_angles(one) for one in solutions])).T
+    ours: Array = np.degrees(np.array([_angles(solution) for solution in solutions])).T
     rows = csv_rows(asset_path("measured/bo105_controls.csv"))
-    found: list[FlownAngle] = []
+    angles: list[FlownAngle] = []
     for name, values in zip(ANGLES, list(ours), strict=True):
         mine = [row for row in rows if row["quantity"] == name]
         speeds = tuple(float(row["speed_kt"]) for row in mine)
         there = np.asarray(np.interp(speeds, SPEEDS_KT, values), dtype=np.float64)
-        found.append(FlownAngle(name, speeds, tuple(float(row["value_deg"]) for row in mine), tuple(there.tolist())))
-    return tuple(found)
+        angles.append(FlownAngle(name, speeds, tuple(float(row["value_deg"]) for row in mine), tuple(there.tolist())))
+    return tuple(angles)
 
 
 def _angles(solution: Solution) -> tuple[float, float, float, float]:
@@ -307,9 +308,9 @@ def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
 
 def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
     series: list[Series] = []
-    for k, one in enumerate(angles, start=1):
-        series.append(Points(f"{ANGLES[one.quantity]}, measured", one.speed_kt, one.measured, k))
-        series.append(Line("computed", one.speed_kt, one.ours, k))
+    for k, angle in enumerate(angles, start=1):
+        series.append(Points(f"{ANGLES[angle.quantity]}, measured", angle.speed_kt, angle.measured, k))
+        series.append(Line("computed", angle.speed_kt, angle.ours, k))
     return Chart("Pitch angles of the Bo 105", Axis("airspeed [kt]"), Axis("pitch [°]"), tuple(series))
 
 
@@ -324,9 +325,9 @@ def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple
             for name, theirs, ours in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
                 error = f"{ours - theirs:+.1f}"
                 rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{ours:.1f}", error))
-    for one in angles:
-        for speed, theirs, ours in zip(one.speed_kt, one.measured, one.ours, strict=True):
-            what = f"{ANGLES[one.quantity]} [°]"
+    for angle in angles:
+        for speed, theirs, ours in zip(angle.speed_kt, angle.measured, angle.ours, strict=True):
+            what = f"{ANGLES[angle.quantity]} [°]"
             rows.append(("Bo 105", what, f"{speed:.1f} kt", f"{theirs:.1f}", f"{ours:.1f}", f"{ours - theirs:+.1f}"))
     return tuple(rows)
 
@@ -334,9 +335,9 @@ def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple
 def gazelle_set() -> TrustSet:
     """For the trust page: c_l as measured, and with the dynamic pressure."""
     solutions = {case.name: solve(case.design()).require() for case in CASES if case.test == AIRLOADS}
-    curves = [one for one in measured_curves() if one.case.test == AIRLOADS]
-    found = [agreement(one, solutions[one.case.name]) for one in curves]
-    lift = [one.correlation for one in found if one.quantity == "cl"]
+    curves = [curve for curve in measured_curves() if curve.case.test == AIRLOADS]
+    agreements = [agreement(curve, solutions[curve.case.name]) for curve in curves]
+    lift = [beside.correlation for beside in agreements if beside.quantity == "cl"]
     return TrustSet(
         name=AIRLOADS,
         title="SA349/2 Gazelle, section lift",
@@ -344,12 +345,16 @@ def gazelle_set() -> TrustSet:
         error=f"correlation {min(lift):.2f} to {max(lift):.2f}",
         source=f"{REPORTS[AIRLOADS]}; flights FC1 and FC2, for no other are airloads at hand",
         rows=tuple(
-            _lift_row(name, quantity, [one for one in found if (one.case.name, one.quantity) == (name, quantity)])
+            _lift_row(
+                name,
+                quantity,
+                [beside for beside in agreements if (beside.case.name, beside.quantity) == (name, quantity)],
+            )
             for quantity in _LIFT
             for name in solutions
         ),
         charts=tuple(
-            _lift_chart(name, [(one, our_curve(one, solutions[name])) for one in curves]) for name in solutions
+            _lift_chart(name, [(curve, our_curve(curve, solutions[name])) for curve in curves]) for name in solutions
         ),
         text=(
             "The report gives c_l of the section, and the target is set for it: harmonics 1 to 10 without the mean. "
@@ -359,19 +364,19 @@ def gazelle_set() -> TrustSet:
             "More azimuths and panels (24 × 48, 36 × 48 in place of 24 × 24) move the correlations of c_l by less "
             "than 0.01. Power and controls: [power and controls in flight](flown-power.md).",
         ),
-        points=_lift_points(found),
+        points=_lift_points(agreements),
     )
 
 
-def _lift_row(name: str, quantity: str, found: Sequence[CurveAgreement]) -> TrustRow:
-    least = min(one.correlation for one in found)
+def _lift_row(name: str, quantity: str, agreements: Sequence[CurveAgreement]) -> TrustRow:
+    least = min(curve.correlation for curve in agreements)
     judged = quantity == "cl"
     return TrustRow(
         set=AIRLOADS,
         kind="validation",
-        what=f"{name}: correlation of {_LIFT[quantity]} at r/R {', '.join(f'{one.r:g}' for one in found)}",
+        what=f"{name}: correlation of {_LIFT[quantity]} at r/R {', '.join(f'{curve.r:g}' for curve in agreements)}",
         against=REPORTS[AIRLOADS],
-        shown=", ".join(f"{one.correlation:.2f}" for one in found),
+        shown=", ".join(f"{curve.correlation:.2f}" for curve in agreements),
         error=least,
         allowed=0.02,
         test=f"{_TEST}::test_airloads_of_the_gazelle",
@@ -383,7 +388,7 @@ def _lift_row(name: str, quantity: str, found: Sequence[CurveAgreement]) -> Trus
 def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> Chart:
     """c_l at the radii."""
     series: list[Series] = []
-    mine = [one for one in curves if one[0].case.name == name and one[0].quantity == "cl"]
+    mine = [curve for curve in curves if curve[0].case.name == name and curve[0].quantity == "cl"]
     for k, (measured, (psi, values)) in enumerate(mine, start=1):
         at = tuple(np.degrees(measured.psi).tolist())
         series.append(Points(f"measured, {measured.r:g} R", at, measured.values, k))
@@ -398,9 +403,9 @@ def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Ar
     )
 
 
-def _lift_points(found: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
+def _lift_points(agreements: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [("Flight", "r/R", "Quantity", "Correlation", "rms", "of", "Mean", "Measured mean")]
-    for one in found:
-        numbers = (one.correlation, one.rms, one.measured_rms, one.mean, one.measured_mean)
-        rows.append((one.case.name, f"{one.r:g}", _LIFT[one.quantity], *(f"{x:.3f}" for x in numbers)))
+    for curve in agreements:
+        numbers = (curve.correlation, curve.rms, curve.measured_rms, curve.mean, curve.measured_mean)
+        rows.append((curve.case.name, f"{curve.r:g}", _LIFT[curve.quantity], *(f"{x:.3f}" for x in numbers)))
     return tuple(rows)

@@ -113,12 +113,12 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
 
     A vortex moves along x alone; what passes one place in the disk has left at one azimuth.
     """
-    found = np.empty_like(x)
+    heights = np.empty_like(x)
     for k, (aft, side) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
         released = math.pi - math.asin(side)
         age = (aft - math.cos(released)) / course.mu_x
-        found[k] = course.nodes(np.array([released + age]), np.array([age]), np.ones(1))[0, 0, 0, 2]
-    return found
+        heights[k] = course.nodes(np.array([released + age]), np.array([age]), np.ones(1))[0, 0, 0, 2]
+    return heights
 
 
 def cases() -> tuple[FlownCase, FlownCase]:
@@ -129,15 +129,15 @@ def cases() -> tuple[FlownCase, FlownCase]:
 
 def curves() -> dict[tuple[str, str], MeasuredCurve]:
     """What was measured, by case and quantity."""
-    return {(one.case.name, one.quantity): one for one in measured_curves() if one.case.test == SET}
+    return {(curve.case.name, curve.quantity): curve for curve in measured_curves() if curve.case.test == SET}
 
 
 def hart2_set() -> TrustSet:
     """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
-    agreements = {key: agreement(one, solutions[key[0]]) for key, one in curves().items()}
+    agreements = {key: agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
-    tried = "\n".join([*(_attempt_words(*one) for one in attempts()), _GRID])
+    tried = "\n".join([*(_attempt_words(*attempt) for attempt in attempts()), _GRID])
     return TrustSet(
         name=SET,
         title="HART II, airloads and twist",
@@ -180,8 +180,8 @@ def attempts() -> Iterator[tuple[str, tuple[CurveAgreement, CurveAgreement, Curv
         )
 
 
-def _attempt_words(words: str, found: tuple[CurveAgreement, CurveAgreement, CurveAgreement]) -> str:
-    baseline, moved, twist = found
+def _attempt_words(words: str, agreements: tuple[CurveAgreement, CurveAgreement, CurveAgreement]) -> str:
+    baseline, moved, twist = agreements
     rigid = twist.amplitude(2) == 0.0
     torsion = "" if rigid else f", twist of BL {twist.mean:.2f}° mean, {twist.amplitude(2):.2f}° at 2/rev"
     return f"- {words}: {baseline.correlation:.2f} (BL), {moved.correlation:.2f} (MN){torsion}."
@@ -222,15 +222,15 @@ def _measured_twist(case: FlownCase) -> Design:
 
 
 def _measured_motion(case: FlownCase) -> Design:
-    """The same, and root pitch −ż/U of the measured flapping at 2 and 3/rev, about the bend at `BEND`.
+    """The measured twist, and root pitch −ż/U of the measured flapping at 2 and 3/rev, about the bend at `BEND`.
 
     z = A cos(nψ − φ) has the rate n A cos(nψ − φ + 90°).
     """
     flap, design = curves()[case.name, "tip_flap"], _measured_twist(case)
     lever = (0.87 - BEND) / (0.87 * (1.0 - BEND))
     pitch = {n: 1j * n * lever * wave(flap.waves, n) for n in (2, 3)}
-    for one in design.pitch_per_rev:
-        pitch[one.per_rev] = pitch.get(one.per_rev, 0.0) + cmath.rect(one.amplitude, one.phase)
+    for harmonic in design.pitch_per_rev:
+        pitch[harmonic.per_rev] = pitch.get(harmonic.per_rev, 0.0) + cmath.rect(harmonic.amplitude, harmonic.phase)
     return replace(design, pitch_per_rev=tuple(_harmonic(n, of) for n, of in pitch.items()))
 
 
@@ -254,15 +254,15 @@ def _row(
 def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterator[TrustRow]:
     """Loads, twist, flapping, tip vortices."""
     for name in solutions:
-        one = agreements[name, "cn_m2"].correlation
-        met = one >= LEAST_CORRELATION
+        curve = agreements[name, "cn_m2"].correlation
+        met = curve >= LEAST_CORRELATION
         yield _row(
-            f"{name}: C_n M² at 0.87 R, correlation", f"{one:.2f}", one, 0.02, "test_normal_force",
+            f"{name}: C_n M² at 0.87 R, correlation", f"{curve:.2f}", curve, 0.02, "test_normal_force",
             "" if met else _MISSED["cn"], f"at least {LEAST_CORRELATION:g}", met,
         )  # fmt: skip
     for name in solutions:
-        one = agreements[name, "cm_m2"].correlation
-        yield _row(f"{name}: C_m M² at 0.87 R, correlation", f"{one:.2f}", one, 0.03, "test_moments")
+        curve = agreements[name, "cm_m2"].correlation
+        yield _row(f"{name}: C_m M² at 0.87 R, correlation", f"{curve:.2f}", curve, 0.03, "test_moments")
     moved, base = agreements["MN", "tip_twist_deg"], agreements["BL", "tip_twist_deg"]
     size, late = moved.ratio(3), moved.late_deg(3)
     yield _row(
@@ -276,16 +276,17 @@ def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterato
             f"BL: twist of the tip at {n}/rev", f"{100 * size:+.0f} %, {base.late_deg(n):+.0f}°", size, 0.03,
             "test_twist", "" if met else _MISSED["twist"], f"{100 * TORSION_LOW:g} % of amplitude", met,
         )  # fmt: skip
-    for one in (base, moved):
-        error = one.mean - one.measured_mean
+    for curve in (base, moved):
+        error = curve.mean - curve.measured_mean
         yield _row(
-            f"{one.case.name}: mean twist of the tip", f"{error:+.2f}°", error, 0.03, "test_twist", _NOTES["mean"]
+            f"{curve.case.name}: mean twist of the tip", f"{error:+.2f}°", error, 0.03, "test_twist", _NOTES["mean"]
         )
     for name in solutions:
-        one = agreements[name, "tip_flap"]
+        curve = agreements[name, "tip_flap"]
         yield _row(
-            f"{name}: flap deflection of the tip", f"mean {one.mean - one.measured_mean:+.4f} R, rms {one.rms:.4f} R",
-            one.rms, 3e-4, "test_flapping", _NOTES["flap"],
+            f"{name}: flap deflection of the tip",
+            f"mean {curve.mean - curve.measured_mean:+.4f} R, rms {curve.rms:.4f} R",
+            curve.rms, 3e-4, "test_flapping", _NOTES["flap"],
         )  # fmt: skip
     for name, solution in solutions.items():
         size, mean, points = vortex_errors(solution, name)
@@ -356,12 +357,22 @@ def _closed(psi: Array, values: Array) -> tuple[tuple[float, ...], tuple[float, 
 def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
     """Means and harmonics."""
     rows: list[tuple[str, ...]] = [("Case", "Quantity", "n", "Measured", "φ [°]", "Ours", "φ [°]")]
-    for (name, quantity), one in agreements.items():
+    for (name, quantity), beside in agreements.items():
         form = ".2f" if quantity == "tip_twist_deg" else ".5f"
-        rows.append((name, QUANTITIES[quantity], "mean", f"{one.measured_mean:{form}}", "", f"{one.mean:{form}}", ""))
-        for n in range(1, len(one.waves) // 2 + 1):
-            size, angle = one.amplitude(n, measured=True), one.phase_deg(n, measured=True)
-            ours = f"{one.amplitude(n):{form}}", f"{one.phase_deg(n):.0f}"
+        rows.append(
+            (
+                name,
+                QUANTITIES[quantity],
+                "mean",
+                f"{beside.measured_mean:{form}}",
+                "",
+                f"{beside.mean:{form}}",
+                "",
+            )
+        )
+        for n in range(1, len(beside.waves) // 2 + 1):
+            size, angle = beside.amplitude(n, measured=True), beside.phase_deg(n, measured=True)
+            ours = f"{beside.amplitude(n):{form}}", f"{beside.phase_deg(n):.0f}"
             if float(ours[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
                 ours = "0", "–"
             rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *ours))

@@ -60,7 +60,7 @@ class InflowAgreement:
     correlation: float | None
     """None for an inflow that is the same everywhere."""
     rms: float
-    """Of the difference, over ΩR."""
+    """Root mean square of the difference, over ΩR."""
     mean: float
     """Mean of the model over the points; that of the measurement is `measured_mean`."""
     measured_mean: float
@@ -69,7 +69,7 @@ class InflowAgreement:
 def measured_inflow() -> tuple[MeasuredInflow, ...]:
     """The measured points, one value an advance ratio."""
     rows = csv_rows(asset_path("measured/2mrts_inflow.csv"))
-    found: list[MeasuredInflow] = []
+    inflows: list[MeasuredInflow] = []
     for mu in CONDITIONS:
         points = [
             (float(key[1:]) / 100.0, math.radians(float(row["psi_deg"])), float(value))
@@ -79,8 +79,8 @@ def measured_inflow() -> tuple[MeasuredInflow, ...]:
             if key.startswith("r0") and value
         ]
         r, psi, inflow = np.array(points).T
-        found.append(MeasuredInflow(mu, r, psi, inflow))
-    return tuple(found)
+        inflows.append(MeasuredInflow(mu, r, psi, inflow))
+    return tuple(inflows)
 
 
 SHOWN = ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", LiftingLineInflow.name)
@@ -91,10 +91,10 @@ DRAWN, RADIUS = (LiftingLineInflow.name, "pitt-peters"), 0.74
 
 def inflow_set() -> TrustSet:
     """For the trust page: the correlations, and the inflow over azimuth at one radius."""
-    found = list(inflow_agreement())
+    agreements = list(inflow_agreement())
     rows: list[TrustRow] = []
     for name in SHOWN:
-        mine = [row for row in found if row.model == name]
+        mine = [row for row in agreements if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
         rows.append(
             TrustRow(
@@ -102,7 +102,7 @@ def inflow_set() -> TrustSet:
                 "validation",
                 f"Inflow over the disk: correlation at µ {', '.join(f'{row.mu:g}' for row in mine)}, {name}",
                 "NASA TM-100541 to 100543, 2MRTS rotor, laser velocimeter one chord above the disk",
-                ", ".join(f"{one:.2f}" for one in known),
+                ", ".join(f"{value:.2f}" for value in known),
                 sum(known) / len(known),
                 0.02,
                 "rotor/validation/test_validation.py::test_measured_inflow",
@@ -171,7 +171,7 @@ def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> A
 
     height: over R. The disk of the test is normal to the shaft: the rotor is trimmed without flapping.
     """
-    terms, circulation = trim_problem(solution.design).inflow_terms, solution.start.inflow
+    terms, circulation = trim_problem(solution.trimmed_design).inflow_terms, solution.start.inflow
     assert isinstance(terms, LiftingLineTerms)
     assert circulation is not None
     above = np.full_like(measured.r, solution.controls.coning + height)

@@ -12,18 +12,19 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import astuple, fields
 from functools import partial
-from itertools import groupby
 from pathlib import Path
 
 from rotor.chart_svg import small_svg, svg
+from rotor.markup import tag
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import measured_set
+from rotor.validation.doubt import NAME as DOUBT_SET
+from rotor.validation.doubt import doubt_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set
-from rotor.validation.sensitivity import sensitivity_chart
-from rotor.validation.trust import KINDS, VERDICTS, SensitivityRow, TrustRow, TrustSet
+from rotor.validation.trust import KINDS, VERDICTS, TrustRow, TrustSet
 
 SETS: dict[str, Callable[[], TrustSet]] = {
     **{name: partial(measured_set, name) for name in MEASURED},
@@ -33,6 +34,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     flown.AIRLOADS: flown.gazelle_set,
     PITCH_LINK: uh60a.pitch_link_set,
     flown.POWERS: flown.flown_set,
+    DOUBT_SET: doubt_set,
     stall_loops.SET: stall_loops.loops_set,
     "sc1095": uh60a.section,
     "uh60a-constants": uh60a.constants,
@@ -45,7 +47,7 @@ SETS: dict[str, Callable[[], TrustSet]] = {
 LONGEST = 64
 """Letters of a cell that fit into two lines; a test holds it, so that a long run is not lost for a word."""
 FOLDER = "validation"
-"""Of the sets' pages, beside the summary."""
+"""Folder of the sets' pages, beside the summary."""
 _HEADING = "# Made by: make trust. Read by rotor/validation/trust.py; docs/validation.md shows it.\n"
 _AGAINST = {
     "validation": "measurement",
@@ -55,12 +57,11 @@ _AGAINST = {
     "document": "thesis",
 }
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-_NOT_MODELLED = (
+NOT_MODELLED = (
     "blade bending but as an option; torsion where the rotor file has no blade structure",
-    "dynamic stall but as an option: sections are steady",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "a change of lift slope by the swept tip",
-    "the trailing-edge tab of the UH-60A between 0.73 and 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
+    "the trailing-edge tab of the UH-60A, at 0.73 to 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
     "roll-up and contraction of the wake. Up to µ 0.15 they decide what twist is worth: from −8° to −16° it takes 1.6, "
     "2.3, 1.5 and 0.0 % off the UH-60A's power in hover and at µ 0.05, 0.1 and 0.15 here, 4 to 5 % with wakes that "
     "roll up. No measurement known to us decides; a free wake gives ±10 % by choices that no report fixes",
@@ -74,31 +75,28 @@ _NOT_MODELLED = (
 )
 
 
-def write_trust(sets: Iterable[TrustSet], changes: Sequence[SensitivityRow], folder: Path) -> Path:
-    """Write the CSV files, the summary and every page below a folder; the path of the summary."""
+def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
+    """Write the CSV file, the summary and every page below a folder; the path of the summary."""
     order = list(KINDS)
-    sets = sorted(sets, key=lambda one: order.index(one.rows[0].kind))
-    rows = [[_plain(cell) for cell in astuple(row)] for one in sets for row in one.rows]
-    _write(folder / "trust.csv", TrustRow, rows)
-    _write(folder / "sensitivity.csv", SensitivityRow, [[_plain(cell) for cell in astuple(row)] for row in changes])
-    for one in sets:
-        write_set(one, folder)
-    (folder / FOLDER / "sensitivity.svg").write_text(svg(sensitivity_chart(changes)), encoding="utf-8")
-    (folder / FOLDER / "sensitivity.md").write_text(sensitivity_page(changes), encoding="utf-8")
+    sets = sorted(sets, key=lambda data: order.index(data.rows[0].kind))
+    rows = [[_plain(cell) for cell in astuple(row)] for data in sets for row in data.rows]
+    _write(folder / "trust.csv", rows)
+    for data in sets:
+        write_set(data, folder)
     path = folder / "validation.md"
     path.write_text(summary(sets), encoding="utf-8")
     return path
 
 
-def write_set(one: TrustSet, folder: Path) -> Path:
+def write_set(data: TrustSet, folder: Path) -> Path:
     """Write the page of a set and its pictures into `folder`/validation; the path of the page."""
     folder = folder / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
-    for k, chart in enumerate(one.charts):
-        (folder / _picture(one, k)).write_text(svg(chart), encoding="utf-8")
-    (folder / f"{one.name}-small.svg").write_text(small_svg(one.charts[0]), encoding="utf-8")
-    path = folder / f"{one.name}.md"
-    path.write_text(set_page(one), encoding="utf-8")
+    for k, chart in enumerate(data.charts):
+        (folder / _picture(data, k)).write_text(svg(chart), encoding="utf-8")
+    (folder / f"{data.name}-small.svg").write_text(small_svg(data.charts[0]), encoding="utf-8")
+    path = folder / f"{data.name}.md"
+    path.write_text(set_page(data), encoding="utf-8")
     return path
 
 
@@ -106,84 +104,60 @@ def summary(sets: Sequence[TrustSet]) -> str:
     """docs/validation.md."""
     rows = [
         (
-            f"![{one.title}]({FOLDER}/{one.name}-small.svg)", f"[{one.title}]({FOLDER}/{one.name}.md)",
-            _capital(one.compared), _AGAINST[one.rows[0].kind], one.error, _verdict(one.verdict),
+            f"![{data.title}]({FOLDER}/{data.name}-small.svg)", f"[{data.title}]({FOLDER}/{data.name}.md)",
+            _capital(data.compared), _AGAINST[data.rows[0].kind], data.error, _verdict(data.verdict),
         )
-        for one in sets
+        for data in sets
     ]  # fmt: skip
     words = "; ".join(f"**{word}**: {meaning}" for word, meaning in VERDICTS.items())
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        f"None of these points was fitted to. {words}. What moves the best twist: "
-        f"[sensitivity]({FOLDER}/sensitivity.md).",
+        f"None of these points was fitted to. {words}. How sure a power is, and what "
+        "moves the best twist: [doubt](guide/doubt.md).",
         _table(("", "Set", "Compared", "Against", "Error", "Verdict"), rows),
         "**Measurement**: are they the right equations? **Theory** and **public code**: are they solved correctly? "
         "**Indicative**: another model, or data of unclear origin; no proof. No measured forward-flight power of the "
         "UH-60A could be reached, and no measured benefit of active twist: published figures of both are computed.",
         "## Not modelled",
-        "\n".join(f"- {one}" for one in _NOT_MODELLED),
-        f"```{{toctree}}\n:hidden:\n{FOLDER}/sensitivity\n" + "".join(f"{FOLDER}/{one.name}\n" for one in sets) + "```",
+        "\n".join(f"- {item}" for item in NOT_MODELLED),
+        "```{toctree}\n:hidden:\n" + "".join(f"{FOLDER}/{data.name}\n" for data in sets) + "```",
     )
 
 
-def set_page(one: TrustSet) -> str:
+def set_page(data: TrustSet) -> str:
     """docs/validation/NAME.md."""
-    kind = one.rows[0].kind
-    labels = [row.what.removeprefix(f"{one.title}: ") for row in one.rows]
+    kind = data.rows[0].kind
+    labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     columns = {
         "": labels,
-        "Against": [row.against for row in one.rows],
-        "Error": [row.shown for row in one.rows],
-        "Target": [row.target for row in one.rows],
-        "Verdict": [_verdict(row.verdict) for row in one.rows],
+        "Against": [row.against for row in data.rows],
+        "Error": [row.shown for row in data.rows],
+        "Target": [row.target for row in data.rows],
+        "Verdict": [_verdict(row.verdict) for row in data.rows],
     }
     if len({*columns["Against"]}) == 1:
         del columns["Against"]  # It is the source, named above.
     if not any(columns["Target"]):
         del columns["Target"]
     notes: dict[str, list[str]] = {}
-    for label, row in zip(labels, one.rows, strict=True):
+    for label, row in zip(labels, data.rows, strict=True):
         notes.setdefault(row.note, []).append(label)
     notes.pop("", None)
-    words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *one.text]
+    words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [*one.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in one.rows)]
+        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
     elif notes:
-        words.append("## Why it is missed" if one.verdict == "missed" else "## Remarks")
+        words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
         words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
     return _page(
-        f"# {one.title}",
-        f"{_AGAINST[kind].capitalize()}: {one.compared}. Source: {one.source.rstrip('.')}.",
-        *(f"![{chart.title}]({_picture(one, k)})" for k, chart in enumerate(one.charts)),
+        f"# {data.title}",
+        f"{_AGAINST[kind].capitalize()}: {data.compared}. Source: {data.source.rstrip('.')}.",
+        *(f"![{chart.title}]({_picture(data, k)})" for k, chart in enumerate(data.charts)),
         *words,
-        *(("## Every point", _table(one.points[0], one.points[1:])) if one.points else ()),
+        *(("## Every point", _table(data.points[0], data.points[1:])) if data.points else ()),
         "## Tests",
-        "\n".join(f"- `{test}`" for test in dict.fromkeys(row.test for row in one.rows)),
-        "[All sets](../validation.md)",
-    )
-
-
-def sensitivity_page(changes: Sequence[SensitivityRow]) -> str:
-    """docs/validation/sensitivity.md."""
-    speeds = list(dict.fromkeys(row.mu for row in changes))
-    rows = [
-        (
-            name,
-            *(
-                f"{row.optimum_deg:.1f}° ({row.low_deg:.1f}…{row.high_deg:.1f}), {row.saving_percent:z.1f} %"
-                for row in group
-            ),
-        )
-        for name, group in groupby(changes, lambda row: row.change)
-    ]
-    return _page(
-        "# Sensitivity of the best linear twist",
-        "Flight preset with one choice changed: the best linear twist per radius, its band within 0.1 % of the least "
-        "total power, and the saving of total power against a linear −16° under the same choice. The optimum changes "
-        "by degrees, its saving by tenths of a per cent up to a few: compare powers, not angles alone.",
-        "![Best linear twist by choice of model, with its band](sensitivity.svg)",
-        _table(("Change", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)), rows),
+        "\n".join(f"- `{test}`" for test in dict.fromkeys(row.test for row in data.rows)),
         "[All sets](../validation.md)",
     )
 
@@ -191,8 +165,8 @@ def sensitivity_page(changes: Sequence[SensitivityRow]) -> str:
 def _page(*parts: str) -> str:
     """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
     text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(parts))
-    text = re.sub(r"\b1e-0*(\d+)\b", lambda found: "10⁻" + found[1].translate(_RAISED), text).replace(" %", "\u00a0%")
-    return re.sub(r"\b([CUc])_(\w)\b", r"\1<sub>\2</sub>", text) + "\n"
+    text = re.sub(r"\b1e-0*(\d+)\b", lambda number: "10⁻" + number[1].translate(_RAISED), text).replace(" %", "\u00a0%")
+    return re.sub(r"\b([CUc])_(\w)\b", lambda index: index[1] + str(tag("sub", index[2])), text) + "\n"
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -208,17 +182,17 @@ def _verdict(word: str) -> str:
     return f"**{word}**" if word == "missed" else word
 
 
-def _picture(one: TrustSet, k: int) -> str:
-    return f"{one.name}{f'-{k + 1}' if k else ''}.svg"
+def _picture(data: TrustSet, k: int) -> str:
+    return f"{data.name}{f'-{k + 1}' if k else ''}.svg"
 
 
 def _plain(cell: str | float | None) -> str:
     return cell if isinstance(cell, str) else "" if cell is None else f"{cell:.6g}"
 
 
-def _write(path: Path, of: type[TrustRow] | type[SensitivityRow], rows: Iterable[Sequence[str]]) -> None:
+def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(_HEADING)
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([field.name for field in fields(of)])
+        writer.writerow([field.name for field in fields(TrustRow)])
         writer.writerows(rows)

@@ -1,10 +1,10 @@
 """How far to trust the numbers: sets of rows with one error each, for the page and for docs/validation.
 
-The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped as assets/trust.csv and
-assets/sensitivity.csv; a test recomputes and compares them, so they stay current.
+The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped as assets/trust.csv; a test recomputes
+and compares them, so they stay current.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -45,7 +45,7 @@ class TrustRow:
     shown: str
     """The error or verdict as people read it."""
     error: float | None
-    """As a number; fractions, degrees or kilowatts in the unit of `shown`. None for a verdict."""
+    """The error as a number; fractions, degrees or kilowatts in the unit of `shown`. None for a verdict."""
     allowed: float
     """How far `error` may move before the row is out of date; for an identity, the bound that `error` stays below."""
     test: str
@@ -89,23 +89,8 @@ class TrustSet:
     @property
     def verdict(self) -> Verdict:
         """Missed if one row is, no target if none has one."""
-        found = {row.verdict for row in self.rows}
-        return "missed" if "missed" in found else "met" if "met" in found else "no target"
-
-
-@dataclass(frozen=True)
-class SensitivityRow:
-    """Change of the best linear twist and its saving with one choice."""
-
-    change: str
-    mu: float
-    optimum_deg: float
-    low_deg: float
-    high_deg: float
-    """The band within 0.1 % of the least power [° per radius]."""
-    total_kw: float
-    saving_percent: float
-    """Of total power, against linear −16° under the same choice."""
+        verdicts = {row.verdict for row in self.rows}
+        return "missed" if "missed" in verdicts else "met" if "met" in verdicts else "no target"
 
 
 def judged(error: float | None, most: float) -> Verdict:
@@ -140,15 +125,6 @@ def share(
 def trust_rows() -> tuple[TrustRow, ...]:
     """The shipped rows, in order of kind."""
     return read_trust(asset_path("trust.csv"))
-
-
-@cache
-def sensitivity_rows() -> tuple[SensitivityRow, ...]:
-    """The shipped sensitivities; rows of one change together."""
-    return tuple(
-        SensitivityRow(row["change"], *(float(row[field.name]) for field in fields(SensitivityRow)[1:]))
-        for row in csv_rows(asset_path("sensitivity.csv"))
-    )
 
 
 def read_trust(path: Path) -> tuple[TrustRow, ...]:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 from scipy.optimize import root
 
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem, in_disk_axes
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UT, section
@@ -117,7 +117,7 @@ def _energy() -> float:
 
 
 def _gradient() -> float:
-    """Of ∂P/∂rate at µ 0.25, by differences of 0.001°: section data are C¹, so larger ones straddle knots."""
+    """Error of ∂P/∂rate at µ 0.25 against differences of 0.001°: section data are C¹, so larger ones straddle knots."""
 
     def at(rate: float) -> Design:
         return make_design(twist=f"linear:{rate:.9g}", mu=0.25)
@@ -146,7 +146,7 @@ def _flapping() -> tuple[float, float]:
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)
     disk, flap, flow, loss = problem.disk, problem.flap, elements.flow, trim.point.channels[LOSS, :, :1]
-    wake = Wake(*in_disk_axes(design.condition.advance_ratio, problem.climb, state.shaft_tilt), state.lambda0)
+    at_disk = DiskFlow(*in_disk_axes(design.condition.advance_ratio, problem.climb, state.shaft_tilt), state.lambda0)
     r, data = disk.r[:, None], problem.section_data(len(disk.psi))
 
     def rates(psi: float, motion: Array) -> list[float]:
@@ -154,7 +154,7 @@ def _flapping() -> tuple[float, float]:
         channels = np.zeros((len(CHANNELS), len(r), 1))
         channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
         channels[UT], channels[LOSS] = r - elements.swirl[:, None] + flow.mu_x * sin, loss
-        channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
+        channels[UP] = model.field(disk.r, cos, sin, at_disk)[0] + (r - flap.hinge) * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(problem.arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
         return [float(motion[1]), flap.load_gain * moment - flap.droop - flap.frequency_squared * float(motion[0])]
@@ -162,8 +162,8 @@ def _flapping() -> tuple[float, float]:
     turns, n = 10, 36
     psi = 2.0 * math.pi * np.arange(n) / n
     end = 2.0 * math.pi * turns
-    found = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
-    beta: Array = found.y[0]
+    path = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
+    beta: Array = path.y[0]
     marched = (beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean())
     balanced = (state.coning, state.flap_1c, state.flap_1s)
     second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
@@ -181,9 +181,9 @@ class CodeComparison:
 
     condition: str
     thrust: float
-    """Their value over ours, minus one."""
+    """Thrust of the other code over ours, minus one."""
     power: float
-    """Their torque over ours, minus one."""
+    """Torque of the other code over ours, minus one."""
     detail: str
 
 
@@ -195,11 +195,11 @@ def have(package: str) -> bool:
 def dynbem() -> TrustSet:
     """Pitt–Peters inflow in forward flight; the shipped rows where dynbem is not installed."""
     test = "rotor/validation/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
-    made = beside_dynbem() if have("dynbem") else []
+    cases = beside_dynbem() if have("dynbem") else []
     rows = [
-        share("dynbem", "public code", f"Torque, {one.condition}", "dynbem 0.8, Pitt–Peters", one.power, 5e-4, test,
-              f"Thrust {100 * one.thrust:+.2f} %. {one.detail}.", digits=2)
-        for one in made
+        share("dynbem", "public code", f"Torque, {case.condition}", "dynbem 0.8, Pitt–Peters", case.power, 5e-4, test,
+              f"Thrust {100 * case.thrust:+.2f} %. {case.detail}.", digits=2)
+        for case in cases
     ]  # fmt: skip
     rows = rows or [row for row in trust_rows() if row.set == "dynbem"]
     series = Line("dynbem's torque over ours", SPEEDS, _percent(rows), 1, dots=True)
@@ -213,11 +213,11 @@ def dynbem() -> TrustSet:
 def ccblade() -> TrustSet:
     """Hover, without and with swirl; the shipped rows where WISDEM is not installed."""
     test = "rotor/validation/test_cross_codes.py::test_ccblade_hover"
-    made = beside_ccblade() if have("wisdem") else []
+    cases = beside_ccblade() if have("wisdem") else []
     rows = [
-        share("ccblade", "public code", f"Power, {one.condition}", "CCBlade of WISDEM 4.2, axial", one.power, 5e-4,
-              test, f"Thrust {100 * one.thrust:+.2f} %, {one.detail}.", digits=2)
-        for one in made
+        share("ccblade", "public code", f"Power, {case.condition}", "CCBlade of WISDEM 4.2, axial", case.power, 5e-4,
+              test, f"Thrust {100 * case.thrust:+.2f} %, {case.detail}.", digits=2)
+        for case in cases
     ]  # fmt: skip
     rows = rows or [row for row in trust_rows() if row.set == "ccblade"]
     power = _percent(rows)
@@ -311,9 +311,9 @@ def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
     def rates(x: Array) -> Array:
         return np.array(model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64)
 
-    found = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
-    assert np.abs(rates(found.x)).max() < 1e-10, found.message
-    settled = state.from_array(found.x)
+    solution = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
+    assert np.abs(rates(solution.x)).max() < 1e-10, solution.message
+    settled = state.from_array(solution.x)
     return model.compute_forces(inputs, settled)[0], settled
 
 
@@ -326,8 +326,8 @@ class _MirroredSection:
     def evaluate(self, alpha: float, reynolds: float, return_cm: bool = False) -> tuple[float, ...]:
         """(cl, cd) at α [rad], and cm, which CCBlade does not use."""
         del reynolds
-        found = self.table(-float(np.asarray(alpha).item()), MACH)
-        pair = (-float(found.cl), float(found.cd))
+        forces = self.table(-float(np.asarray(alpha).item()), MACH)
+        pair = (-float(forces.cl), float(forces.cd))
         return (*pair, 0.0) if return_cm else pair
 
 

@@ -1,13 +1,13 @@
 """What the browser tests share: one server for a process, since another costs more than a test; a page for a file."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import pytest
 from watched import COARSE, SMALL, Visit, Watched, opened
 
 from explorer.app import App
-from explorer.model.inputs import OPENING
+from explorer.model.inputs import OPENING, Inputs
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -23,7 +23,8 @@ def server() -> Iterator[App]:
 @pytest.fixture(scope="module")
 def app(request: pytest.FixtureRequest, server: App) -> App:
     """Its pages begin with the design that the file names `START`, else with their own."""
-    server._start = getattr(request.module, "START", OPENING)
+    start = cast(Inputs, getattr(request.module, "START", OPENING))
+    server._start = start
     return server
 
 

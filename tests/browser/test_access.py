@@ -18,7 +18,9 @@ FOCUS = """() => {
     const e = document.activeElement, style = getComputedStyle(e);
     return e === document.body ? null : {
         name: e.ariaLabel || e.innerText?.trim() || e.labels?.[0]?.textContent || '',
-        seen: parseFloat(style.outlineWidth) >= 2 && style.outlineStyle === 'solid' || e.matches('.rxp-curve circle'),
+        seen: parseFloat(style.outlineWidth) >= 2 && style.outlineStyle === 'solid' || e.matches('.rxp-curve circle')
+            || e.matches('[data-mark]')
+                && parseFloat(getComputedStyle(e.querySelector('circle + circle')).strokeWidth) > 2.5,
         left: e.getBoundingClientRect().left, top: e.getBoundingClientRect().top,
     };
 }"""

@@ -97,7 +97,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     bar.fill("3")
     watched.until_changed(lambda: watched.text("actuator-now"), still)
     watched.answered()
-    twist = page.evaluate("() => RX.state.flight.reached.at(-1)")
+    twist = page.evaluate("() => RX.state.flight.chart.series.find(one => one.label === 'reached').y.at(-1)")
     tip = watched.text("tip-twist")
     assert float(tip.rstrip("°").replace("−", "-")) == pytest.approx(twist, abs=0.006)
     assert f"{tip} at the tip" in labels.inner_text()

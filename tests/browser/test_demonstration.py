@@ -19,6 +19,7 @@ from explorer.app import App
 from explorer.model.inputs import OPENING
 from explorer.model.units import UNITS
 from explorer.story.steps import STEPS, quantities
+from rotor.actuator import programmes
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
@@ -202,7 +203,8 @@ def test_actuate(watched: Watched, app: App, take: Callable[..., None]):
         watched.until(lambda at=at: abs(page.evaluate("() => RX.state.flight.at") - at) < 0.01)
         watched.answered(wholly=True)
         flight, earns = page.evaluate("() => [RX.state.flight, RX.state.earns]")
-        reached = flight["reached"][-1 if at else 0]
+        curve = next(line for line in flight["chart"]["series"] if line["label"] == "reached")
+        reached = curve["y"][-1 if at else 0]
         assert float(watched.text("tip-twist").rstrip("°").replace("−", "-")) == pytest.approx(reached, abs=0.006)
         *parts, net = [_kw(bar["text"]) for bar in earns["bars"]]
         assert math.fsum(parts) == pytest.approx(net, abs=0.2)  # The waterfall adds up.
@@ -228,18 +230,22 @@ def test_dial(watched: Watched, app: App, take: Callable[..., None]):
     bend = page.get_by_role("button", name="Let blades bend")
     bend.scroll_into_view_if_needed()
     bend.click()
-    page.wait_for_function("() => RX.state.dial_matrix && RX.state.dial_front?.dots?.length > 4", timeout=LONG)
+    page.wait_for_function(
+        "() => RX.state.dial_matrix && document.querySelectorAll('[data-do=dial_front]')[4]", timeout=LONG
+    )
     page.evaluate("() => RX.send('dial_front', 4)")
     page.wait_for_function("() => RX.state.dial.now.length && RX.state.dial.settled", timeout=LONG)
     watched.answered()
     page.locator("[data-dial]").first.scroll_into_view_if_needed()
-    dot, settled = page.evaluate("() => [RX.state.dial_front.dots[4], RX.state.dial.settled]")
-    assert settled == [pytest.approx(dot["power"], abs=0.05), pytest.approx(dot["index"], abs=1.0)]
+    dots, settled = page.evaluate(
+        "() => [RX.state.dial_front.series.find(one => one.action === 'dial_front'), RX.state.dial.settled]"
+    )
+    assert settled == [pytest.approx(dots["x"][4], abs=0.05), pytest.approx(dots["y"][4], abs=1.0)]
     take(watched, "dial")
     page.get_by_role("button", name="Enlarge dial and front").click()
-    page.wait_for_selector("[data-dial][data-large] [data-published]")
-    assert page.locator("[data-dial][data-large] [data-published]").count() == len(
-        page.evaluate("() => RX.state.dial_published")
+    page.wait_for_selector("[data-dial][data-large] .rxd-front [data-name]")
+    assert page.locator("[data-dial][data-large] .rxd-front [data-name]").count() == sum(
+        one.vibration_percent is not None for one in programmes()
     )
     take(watched, "dial-and-front")
 

@@ -110,11 +110,17 @@ def test_the_view_is_a_picture_of_the_scene(watched: Watched, tmp_path: Path):
         assert picture.width / picture.height == pytest.approx(size["width"] / size["height"], rel=0.02)
 
 
+def asks_nobody(text: str) -> bool:
+    """Whether the policy that forbids requests stands before the first script."""
+    return 0 < text.find("default-src 'none'") < text.index("<script")
+
+
 def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched, tmp_path: Path):
     shown = watched.text("total-power")
     watched.page.keyboard.press("m")
     path = saved(watched, "Report of this session", tmp_path)
     assert path.stat().st_size < 3_000_000
+    assert asks_nobody(path.read_text(encoding="utf-8"))
     report = Watched(watched.page.context.new_page())
     asked = requests_of(report.page)
     with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text):
@@ -137,6 +143,7 @@ def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
     shown = watched.text("total-power")
     path = saved(watched, "3D scene as one file", tmp_path)
     assert path.stat().st_size < 3_000_000
+    assert asks_nobody(path.read_text(encoding="utf-8"))
     scene = Watched(watched.page.context.new_page())
     asked = requests_of(scene.page)
     scene.page.goto(path.as_uri())
@@ -171,7 +178,9 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser", tmp_path: Path):
     """Opened as a file: guess, answer, control and handle act, numbers are the solver's, nothing is asked of a host."""
     steps = [step for step in STEPS if step.name in ("trim", "responding_wake")]
-    (tmp_path / "lecture.html").write_text(story_html(steps), encoding="utf-8")
+    text = story_html(steps)
+    assert asks_nobody(text)
+    (tmp_path / "lecture.html").write_text(text, encoding="utf-8")
     page = window(browser).new_page()
     page.set_viewport_size({"width": 1280, "height": 720})
     asked, wrong = requests_of(page), list[str]()

@@ -173,9 +173,9 @@ def test_the_handles_of_the_curve_have_keys(watched: Watched):
 def test_each_slider_says_what_a_step_is_worth(watched: Watched):
     page = watched.page
     watched.answered(wholly=True)
-    assert len(page.evaluate("() => Object.keys(RX.state.worth)")) == 8
+    assert len(page.evaluate("() => Object.keys(RX.state.worth)")) == 9
     twist, flight = ("inner", "outer", "division"), ("advance_ratio", "mass_t", "altitude_m", "climb_m_s")
-    for name in (*(f"built_{one}" for one in twist), *flight, "rotor_speed_percent"):
+    for name in (*(f"built_{one}" for one in twist), *flight, "rotor_speed_percent", "load_factor"):
         place = page.locator(f'[data-worth="{name}"]')
         # viser may be mounting the place anew: what stands there counts once something does.
         watched.until(place.inner_text)

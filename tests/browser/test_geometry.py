@@ -125,7 +125,7 @@ def _units_and_power_fit_their_cards(watched: Watched) -> None:
     assert page.evaluate(_LEAVES, [".rxf-power", ".rxf-power *"]) == []
     # The chart of a search's starts takes two places of the strip and gives them back.
     page.evaluate("() => { window.before = RX.state.strip; RX.set({strip: [{...before[0], wide: true}, before[1]]}); }")
-    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 4")
+    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 3")
     _none(page, _NARROW_CHARTS)
     page.evaluate("() => RX.set({strip: window.before})")
     page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length >= 3")

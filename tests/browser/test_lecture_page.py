@@ -84,6 +84,7 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.
     assert page.evaluate("() => RX.state.bar.mode") == "explore"
+    assert not page.locator('[data-explorer="figures"]').is_visible()
     watched.drawer("settings")
     page.get_by_label("Big type").check()
     page.wait_for_function(

@@ -146,6 +146,18 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
     assert session.page.controls.inputs() == START
 
 
+def test_the_best_linear_twist_has_its_ranges_in_flight_and_in_hover(page: tuple[Watched, Session]):
+    """Looked for after rest; nobody presses anything."""
+    watched, _ = page
+    ranges = watched.page.locator("[data-explorer=twist-ranges]")
+    ranges.filter(has_text="drag area").wait_for(timeout=4 * WAIT)
+    watched.mode("explore")
+    watched.type("Adv. ratio", 0.0)
+    watched.mode("optimise")
+    ranges.filter(has_text="annuli … lifting line").wait_for(timeout=4 * WAIT)
+    assert ranges.filter(has_text="drag area").count() == 0
+
+
 @pytest.mark.slow
 def test_stop_keeps_the_best(page: tuple[Watched, Session]):
     """That it answers at once is proved where jobs are: `tests/explorer/workers/test_pool.py`."""

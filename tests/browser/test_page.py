@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from watched import Watched
+from watched import WAIT, Watched
 
 from explorer.model.inputs import Inputs
 
@@ -25,20 +25,49 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
 
 
 @pytest.mark.slow
-def test_the_strip_has_four_charts_with_axes(watched: Watched):
+def test_the_strip_has_three_charts_with_axes(watched: Watched):
     watched.answered(wholly=True)
     names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
-    assert names == ["power", "alpha", "lift", "worth"]
+    assert names == ["power", "alpha", "lift"]
     for chart in watched.page.locator(".rxf-chart").all():
         assert chart.locator("svg text").count() >= 6
         assert chart.locator("svg g path").count() >= 1
-    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R", "r/R"]
+    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R"]
     before = watched.page.locator('[data-name="alpha"] svg').inner_html()
     turn = watched.page.get_by_label("Azimuth of the reference blade")
     turn.focus()
     for _ in range(8):
         watched.page.keyboard.press("ArrowRight")
     watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
+
+
+def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
+    watched.answered(wholly=True)
+    page, slider = watched.page, watched.row("Adv. ratio").get_by_role("slider")
+    page.wait_for_function("() => RX.state.strip[0].speeds && RX.state.strip[0].rules.length === 1")
+
+    def mu() -> float:
+        return float(slider.get_attribute("aria-valuenow") or "nan")
+
+    def dot() -> tuple[float, float]:
+        box = page.locator("[data-speed]").bounding_box()
+        assert box
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    fastest = page.evaluate("() => RX.state.strip[0].speeds.fastest")
+    x, y = watched.at_rest(dot)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 200, y, steps=8)  # Beyond the end of the axis.
+    watched.until(lambda: mu() == pytest.approx(fastest))
+    assert page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]").inner_text() == "limit: engines"
+    page.mouse.up()
+    watched.answered(wholly=True)
+    page.locator(".rxf-chart [data-do=speed]").first.click()
+    watched.until(lambda: 0.1 < mu() < 0.2)  # Endurance: where power is least.
+    watched.answered(wholly=True)
+    page.mouse.dblclick(*watched.at_rest(dot))
+    watched.until(lambda: mu() == pytest.approx(fastest))
 
 
 def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
@@ -131,3 +160,16 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         watched.press("Adv. ratio", key)
         watched.answered()
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
+
+
+def test_the_card_says_how_sure_the_change_is(watched: Watched):
+    """Beside the power its band, below its change that of the change; what they consist of under *How far to trust*."""
+    page = watched.page
+    watched.press("Δ outboard", "ArrowLeft", 5)
+    watched.until(lambda: re.fullmatch(r"± [0-9.]+ %: (sure|likely|cannot be told)", watched.text("sure")))
+    assert re.fullmatch(r"± \d+", watched.text("within"))
+    watched.drawer("trust")
+    page.locator(".rx-doubt tr").first.wait_for()
+    assert page.locator(".rx-doubt tr").count() >= 5
+    assert "section" in page.locator(".rx-doubt").inner_text()
+    page.get_by_text("With another model: inflow pitt-peters").wait_for(timeout=2 * WAIT)

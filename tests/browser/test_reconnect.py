@@ -137,6 +137,21 @@ def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", 
     assert time.monotonic() - begin < delay + 30.0
 
 
+def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: "Page", proxy: Proxy):
+    """For up to 2.5 s presses went to the session that had gone, and `RX.idle` never returned."""
+    page = twisted
+    proxy.cut()
+    page.wait_for_selector("#rx-gone")
+    proxy.cut(off=False)
+    page.wait_for_selector("#rx-gone", state="detached")
+    page.evaluate("() => { RX.idle().then(() => { window.__idle = true; }); }")
+    press = "document.querySelector('.rxf-modes [data-value=optimise]').click()"
+    page.wait_for_function(f"() => !document.documentElement.hasAttribute('data-held') && ({press}, true)")
+    page.wait_for_function("() => window.__idle")
+    page.wait_for_function("() => RX.state.bar?.mode === 'optimise'")
+    assert "-7.9" in page.url
+
+
 def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy: Proxy):
     """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
     page, watched = twisted, Watched(twisted)

@@ -99,6 +99,10 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
     watched.until(lambda: value(watched, "Outboard") > -3.0)
+    for _ in range(20):
+        page.keyboard.press("Shift+ArrowUp")
+    assert "limit of Outboard" in page.evaluate("() => RX.part('rubber').textContent")
+    watched.until(lambda: value(watched, "Outboard") == 10.0)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)
     page.wait_for_function("() => RX.state.rubber === null")

@@ -90,7 +90,7 @@ class Watched:
 
     def grab_tip(self) -> tuple[float, float]:
         """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
-        x, y = self.page.evaluate(ON_SCREEN, 7.2)
+        x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))  # The camera goes where the cards leave room.
         self.page.mouse.move(x, y)
         self.page.wait_for_timeout(300)  # viser looks for what is below the pointer.
         self.page.mouse.down()

@@ -13,6 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState, baseline_of
+from explorer.model.units import number
 from explorer.picture.picture import make_picture
 from explorer.picture.poses import rotate
 from explorer.tabs.actuator import actuator_words
@@ -24,14 +25,18 @@ from explorer.tabs.actuator.actuator_inputs import (
     ActuatorInputs,
     concept_divisions,
     drive_of,
+    lean_verdict,
     question_of,
     swing_of,
+    verdict_on,
+    verdict_tasks,
 )
-from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers, lean_verdict, verdict_on, verdict_tasks
 from explorer.tabs.actuator.actuator_words import section_svg
 from explorer.tabs.actuator.lifted_picture import TIMES, drive_colour, flown_twist, glow, lifted_picture
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from rotor.actuator.limits import actuator_stability
 from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
@@ -238,9 +243,22 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     limits = actuator_words.limits_panel(verdict)
     assert all(actuator_words.limit_words(limit.name) in limits for limit in verdict.limits)
     assert "torsion least" not in limits
+    assert re.search(r"stable down to \d+ % of its torsional stiffness", limits)
     table = table_panel({"MFC_P1": verdict}, question)
     assert table.count("computing…") == len(ALL) - 1
     assert "▲" in table  # Recalled data are marked.
+
+
+def test_modes_stand_beside_those_of_the_blade_with_its_actuator(verdict: Verdict):
+    """Flap is damped by γ/16 of the critical damping over its frequency; plies lower the frequency of torsion."""
+    found = actuator_stability(verdict.installed, DESIGN)
+    panel = actuator_words.modes_panel(found)
+    for mode in found.fitted.modes:
+        assert f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %" in panel
+    assert found.fitted.mode("torsion 1").frequency < found.without.mode("torsion 1").frequency
+    assert panel.count("torsional stiffness") == len(found.cases)
+    assert "computing…" in actuator_words.modes_panel(None)
+    assert "no torsion here" in actuator_words.modes_panel("no torsion here")
 
 
 def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):

@@ -82,7 +82,7 @@ class TestEveryRotor:
 
 
 def test_the_file_is_what_its_script_makes():
-    """Triangle by triangle, and to the last bit of the numbers of 32 bits that it holds."""
+    """Triangle by triangle, to the rounding of its 32-bit numbers: processors differ in the last bit of a sine."""
     path = asset_path("airframe.glb")
     assert path.stat().st_size < 300_000
     shipped = trimesh.load_scene(path, process=False)
@@ -94,7 +94,7 @@ def test_the_file_is_what_its_script_makes():
         held = shipped.geometry[name]
         assert isinstance(held, trimesh.Trimesh)
         assert np.array_equal(held.faces, mesh.faces)
-        assert np.array_equal(np.asarray(held.vertices, dtype=np.float32), mesh.vertices.astype(np.float32))
+        np.testing.assert_allclose(held.vertices, mesh.vertices, rtol=0, atol=1e-6 * np.abs(mesh.vertices).max())
 
 
 def test_a_viewer_shows_the_file_upright():

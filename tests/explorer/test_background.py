@@ -1,7 +1,6 @@
 """What a button begins and a worker process does, without a page: begun once, stopped, begun anew, and heard of."""
 
 from collections.abc import Callable
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -42,8 +41,8 @@ class Work(BackgroundWork):
 class Bench:
     def __init__(self, *, restarts: bool = False) -> None:
         self.pool, self.woken = FakePool(), 0
-        context: Any = SimpleNamespace(pool=self.pool, wake=self.wake)
-        self.work = Work(context, 60.0, 2, restarts=restarts)
+        pool: Any = self.pool
+        self.work = Work(pool, self.wake, 60.0, 2, restarts=restarts)
 
     def wake(self) -> None:
         self.woken += 1

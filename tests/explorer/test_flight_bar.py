@@ -15,8 +15,7 @@ from numpy.testing import assert_allclose
 from explorer.model.inputs import Inputs
 from explorer.model.units import AVIATION, SI
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, question_of
-from explorer.tabs.actuator.actuator_tasks import flight_legs, flight_of, lean_verdict
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, flight_legs, flight_of, lean_verdict, question_of
 from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -51,12 +50,18 @@ def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs(
 def test_the_page_draws_the_flight_as_it_was_computed(flight: ActuatorFlight):
     state = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, SI)
     assert state["kind"] == "ready"
-    assert_allclose(state["wanted"], np.degrees(flight.wanted), atol=6e-4)
-    assert_allclose(state["reached"], np.degrees(flight.reached), atol=6e-4)
+    lines = {one["label"]: one["y"] for one in state["chart"]["series"] if one["kind"] == "line"}
+    assert_allclose(lines["wanted"], np.degrees(flight.wanted), atol=6e-4)
+    assert_allclose(lines["reached"], np.degrees(flight.reached), atol=6e-4)
     assert_allclose(state["net"], 1e-3 * flight.net_saving, atol=6e-3)
-    low, high = state["range"]
-    for curve in ("wanted", "reached", "reach"):
-        assert low < min(state[curve]) <= max(state[curve]) < high
+    low, high = state["chart"]["y"]["range"]
+    for angles in (flight.wanted, flight.reached, flight.reach):
+        assert low < math.degrees(min(angles)) <= math.degrees(max(angles)) < high
+    bands = [one for one in state["chart"]["series"] if one["kind"] == "band" and len(one["x"]) == 2]
+    assert [bands[0]["x"][0], bands[-1]["x"][-1]] == [0.0, 3.0]
+    for band in bands:  # Green where the flight gains.
+        net = np.interp(np.mean(band["x"]), np.arange(len(LEGS)) / HALVES, flight.net_saving)
+        assert ("gain" in band["colour"]) == (net > 0.0)
     assert [name for name, _ in state["legs"]] == ["hover", "climb", "cruise", "fast"]
     assert condition_at(LEGS, state["at"])[0] == pytest.approx(0.2, abs=2e-3)
     other = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, AVIATION)
@@ -70,9 +75,9 @@ def test_what_is_being_computed_is_said_and_keeps_its_place(flight: ActuatorFlig
     first, before = (flight_state(LEGS, one, False, 0.2, speed, SI) for one in (None, flight))
     wrong = flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim")
     assert (first["kind"], first["words"]) == ("computing", "computing…")
-    assert "wanted" not in first
+    assert first["chart"]["series"] == []
     assert before["kind"] == "computing"
-    assert before["wanted"] == flight_state(LEGS, flight, True, 0.2, speed, SI)["wanted"]
+    assert before["chart"] == flight_state(LEGS, flight, True, 0.2, speed, SI)["chart"]
     assert (wrong["kind"], wrong["words"]) == ("problem", "hover: does not trim")
     assert earns_state(None, False, SI).keys() == earns_state(verdict, True, SI).keys()
     assert earns_state(None, False, SI)["kind"] == earns_state(verdict, False, SI)["kind"] == "computing"
@@ -85,7 +90,9 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert sum(bar["value"] for bar in parts) == pytest.approx(total["value"], abs=5e-3)
     assert total["value"] == pytest.approx(1e-3 * verdict.net_saving, abs=1e-3)
     assert total["total"]
-    assert state["net"] == f"{total['text']} kW"
+    size = abs(total["value"])
+    assert state["net"] == (f"{size:.0f} kW" if size >= 10.0 else f"{size:.1f} kW")
+    assert state["net_words"].startswith("more" if total["value"] < 0.0 else "less")
     assert state["sentence"] == verdict_sentence(verdict)
     for bar in state["bars"]:  # Red is loss and green is gain.
         assert bar["kind"] == ("" if abs(bar["value"]) < 0.05 else "gain" if bar["value"] > 0.0 else "loss")
@@ -104,7 +111,13 @@ class Stage:
         self.inputs = Inputs()
         bridge = SimpleNamespace(set=self.shown.update, on=self.actions.__setitem__)
         self.context: Any = SimpleNamespace(
-            bridge=bridge, held=False, units=SI, inputs=lambda: self.inputs, drag_to=self._drag
+            bridge=bridge,
+            held=False,
+            units=SI,
+            inputs=lambda: self.inputs,
+            drag_to=self._drag,
+            gui=server.gui,
+            wake=lambda: None,
         )
         self.controls = ActuatorControls(server.gui, lambda _: None, lambda: self.bar.leave_to_hand())
         self.bar = FlightBar(self.context, self.controls)
@@ -161,6 +174,22 @@ def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(
     stage.bar.leave_to_hand()
     stage.bar.hide()
     assert stage.tip() != 0.0
+
+
+def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(stage: Stage, flight: ActuatorFlight, verdict: Verdict):
+    stage.show(verdict, flight)
+    stage.actions["fly"](0)
+    frozen = stage.tip()
+    stage.bar._stopped.value = True
+    stage.actions["fly"](3)
+    assert stage.inputs.advance_ratio == LEGS[-1].advance_ratio
+    assert stage.tip() == frozen != 0.0
+    stage.bar._stopped.value = False
+    stage.bar._follow()  # As by hand.
+    assert_allclose(stage.tip(), flight.reached[-1], atol=math.radians(0.02))
+    stage.bar._stopped.value = True
+    stage.bar.hide()
+    assert not stage.bar._stopped.value
 
 
 def test_a_follower_does_not_fly(stage: Stage, flight: ActuatorFlight, verdict: Verdict):

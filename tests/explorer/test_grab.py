@@ -242,6 +242,20 @@ class TestTwistCurve:
         assert bridge.state["rubber"] is None
         assert took == [True, False]
 
+    def test_the_blade_stops_where_its_first_slider_ends(self):
+        """Of the tip's turn relative to 0.75 R, half a radius of the outboard slider's rate is a quarter."""
+        editor, bridge, now, _ = editor_of(TWO)
+        editor.grab(1.0)
+        start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
+        wanted = [(start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")]
+        for (theta, title), (expected, name) in zip(bridge.state["rubber"]["ends"], wanted, strict=True):
+            assert (theta, title) == (pytest.approx(expected, abs=0.02), name)
+        bridge.actions["knot"](["2", [None, 60.0]])
+        assert now[0].two_outer == limits("two_outer")[1]
+        editor.grab(1.0)  # At its end, it turns back as far as it came.
+        bridge.actions["knot"](["2", [None, start]])
+        assert now[0].two_outer == pytest.approx(TWO.two_outer, abs=0.1)
+
     def test_a_blade_without_stations_is_pressed_as_the_nearest_two_segments(self):
         editor, bridge, now, _ = editor_of(replace(TWO, law="ideal"))
         editor.grab(1.0)

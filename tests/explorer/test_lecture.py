@@ -176,9 +176,9 @@ class TestAnswers:
         assert weak < strong
 
     def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, Facts]):
-        """The band over wakes is that of `python -m rotor ladder`, row by row."""
+        """The band over inflow models is that of `python -m rotor ladder`, row by row."""
         found = facts["fixed_or_moving"]
-        gains = [moving_twist(tuple(RUNGS), SPEEDS, wake).gain for wake in INFLOW_MODELS]
+        gains = [moving_twist(tuple(RUNGS), SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
         numbers = found.numbers
         assert (numbers["gain_low"].value, numbers["gain_high"].value) == (min(gains), max(gains))
         assert min(gains) <= numbers["gain"].value <= max(gains) < 0.01

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 from urllib.parse import parse_qsl, quote
@@ -84,6 +85,10 @@ def random_inputs(chance: random.Random) -> Inputs:
         elastic_twist=chance.random() < 0.8,
         fuselage=chance.random() < 0.8,
         bending=chance.random() < 0.3,
+        rotor_speed_percent=chance.choice((100.0, chance.randint(70, 110))),
+        load_factor=chance.choice((1.0, chance.randint(10, 16) / 10.0)),
+        unsteady=chance.choice(("auto", "auto", "on", "off")),
+        dynamic_stall=chance.choice(("auto", "auto", "on", "off")),
     )
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)
@@ -151,11 +156,35 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
         assert shown.design().pitch_waves == design.pitch_waves
         assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
         assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
+        assert again.condition.rotor_speed_percent == design.condition.rotor_speed_percent
+        assert again.condition.load_factor == pytest.approx(design.condition.load_factor, rel=1e-9)
         r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
         assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # Links hold a millionth of a degree.
     assert sums > 200
     chance = random.Random(20)
     assert {random_inputs(chance).law for _ in range(200)} == set(LAWS) - {"optimised"}
+
+
+LINKS_OF_0_2 = (Path(__file__).parents[1] / "data" / "links_0.2.txt").read_text(encoding="utf-8").split()
+"""What the page of version 0.2.0 wrote of random designs."""
+
+
+@pytest.mark.parametrize("code", LINKS_OF_0_2)
+def test_a_link_of_0_2_opens_with_the_design_that_it_names(code: str):
+    words = dict(part.split("=", 1) for part in code.split(";")[2:])
+    said: list[str] = []
+    inputs = inputs_from(code, tell=said.append)
+    design = inputs.design()
+    assert len(said) == (words.get("preset") == "thesis")  # That preset has another meaning now.
+    assert design.aircraft.key == words.get("rotor", "uh60a")
+    assert design.condition.advance_ratio == pytest.approx(float(words.get("mu", "0.2")))
+    assert design.models.bending == ("bending" in words)
+    if "mass" in words:
+        assert design.condition.mass == pytest.approx(float(words["mass"]))
+    r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
+    wanted = design.with_twist(code.split(";")[1].replace("~", "+")).twist
+    assert design.twist(r) == pytest.approx(wanted(r), abs=1e-6)
+    assert code_of(inputs_from(code_of(design)).design()) == code_of(design)
 
 
 def test_the_changed_twist_as_built_is_again_on_its_sliders():

@@ -3,11 +3,15 @@
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
+import viser
 
-from explorer.tabs.actuator.pay_panel import PayAnswer, drive_chart, mass_chart, pay_panel
+from explorer.tabs.actuator.pay_panel import PayAnswer, PayPanel, PayTask, drive_chart, mass_chart, pay_panel
+from explorer.workers.pool import Job, JobEnded, JobProgress
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.estimate import Estimate
 from rotor.actuator.installation import InstalledActuator, install
@@ -84,3 +88,36 @@ def test_drive_falls_to_nothing_at_the_mass_that_pays():
     assert whole.x[-1] > half.x[-1]  # More twist pays for more mass,
     assert whole.y[0] > half.y[0]  # and more power at no mass.
     assert whole.y[-1] == pytest.approx(half.y[-1], abs=0.002)  # Both end on the axis.
+
+
+def test_the_search_reports_the_line_first_and_says_why_there_is_none(server: viser.ViserServer):
+    jobs: list[Job] = []
+
+    def submit(task: Any, on_event: Any, limit: float, urgency: int) -> Job:
+        jobs.append(Job(len(jobs), task, on_event, limit, urgency))
+        return jobs[-1]
+
+    pool = SimpleNamespace(submit=submit, stop=lambda job, quiet=False: job.silence() if quiet else None)
+    context: Any = SimpleNamespace(gui=server.gui, pool=pool, wake=lambda: None)
+    panel, pair = PayPanel(context), ConditionPair(DESIGN, (0.0, 0.3))
+
+    def shown(pair: ConditionPair | None = pair) -> str:
+        panel.refresh(pair, None)
+        return panel._html.content
+
+    panel.begin()  # No blade that carries an actuator is shown yet.
+    assert jobs == []
+    assert 'data-kind="problem"' in shown()
+    panel.begin()
+    assert jobs[0].task == PayTask(pair)
+    assert 'data-kind="computing"' in shown()
+    jobs[0].tell(JobProgress(answer()))
+    assert 'data-kind="ready"' in shown()
+    assert panel.running
+    jobs[0].tell(JobEnded(answer()))
+    assert not panel.running
+    assert "find again" not in shown()
+    assert "find again" in shown(ConditionPair(DESIGN, (0.0, 0.2)))
+    panel.begin()
+    jobs[1].tell(JobEnded("No twist saves anything here."))
+    assert "No twist saves anything here." in shown()

@@ -16,20 +16,21 @@ from numpy.testing import assert_allclose
 
 from explorer import web
 from explorer.export.provenance import provenance_lines
-from explorer.export.still_rotor import flown_pitch
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
 from explorer.model.pinned import Pinned
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.poses import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
+from explorer.scene.still_scene import flown_pitch
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
 from explorer.tabs.actuator.per_rev import (
+    FrontDot,
     TwistDial,
     dial_matrix,
+    front_chart,
     front_dots,
     programme_table,
     programme_words,
-    published,
     with_wave,
 )
 from explorer.tabs.controls import DesignControls
@@ -38,6 +39,7 @@ from explorer.text.design_words import pinned_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
 from rotor.actuator import programmes
+from rotor.chart import Points
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -229,8 +231,28 @@ def test_every_published_programme_is_there_with_its_source():
         assert one.source in words
         assert one.kind in words
         assert one.kind in table
-    shown = published()
-    assert len(shown) == sum(one.vibration_percent is not None for one in programmes())
-    # Power and vibration are one point only where both belong to one input.
-    assert sum(one["power"] is not None for one in shown) == 3
-    assert {one["name"] for one in shown if one["power"] is not None} >= {"XH-59A 3/rev", "XH-59A 2+3/rev"}
+    chart = front_chart(())
+    points = [one for one in chart.series if isinstance(one, Points)]
+    drawn = {name: x for one in points for name, x in zip(one.names, one.x, strict=True)}
+    assert sum(len(one.x) for one in points) == sum(one.vibration_percent is not None for one in programmes())
+    # Power and vibration are one point only where both belong to one input; the others stand beyond the axis of power.
+    beyond = chart.rules[0].at
+    assert {name for name, x in drawn.items() if x < beyond} == {"XH-59A 3/rev", "XH-59A 2+3/rev", "flaps, 1 to 5/rev"}
+    assert chart.span("x")[1] > max(drawn.values()) > beyond > max(chart.x.ticks[:-1])
+
+
+def test_only_where_wakes_agree_in_sign_is_anything_best():
+    agreed, apart = (FrontDot(WAVES, -0.5, -40.0, over) for over in ((-60.0, -20.0), (-60.0, 51.0)))
+    assert agreed.agreed
+    assert not apart.agreed
+    labels = [one.label for one in front_chart((agreed, apart)).series if isinstance(one, Points)]
+    assert labels[-2:] == ["best, press to apply", "models disagree"]
+    words = [one.words for one in front_chart((apart,)).series if isinstance(one, Points)][-1]
+    assert words is not None
+    assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
+
+
+def test_the_dial_knows_every_wake(answer: dict[str, Any]):
+    """3/rev adds vibration with linear inflow where it takes vibration away with the lifting line."""
+    assert len(answer["inflows"]) == 3
+    assert all(one.keys() | {"inflows"} == answer.keys() for one in answer["inflows"])

@@ -9,6 +9,7 @@ from fake_bridge import Bridge
 from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.undo import PowerTracker
+from explorer.model.units import number
 from explorer.tabs.results import PowerCard, beside_labels
 from rotor.trim.solve import solve
 
@@ -39,6 +40,14 @@ def test_autorotation_is_marked():
     descent = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))
     assert descent["status"]["words"] != "autorotation"
     assert descent["change"].endswith(" %")
+
+
+def test_more_than_the_engines_give_is_said_on_the_chip():
+    """The UH-60A's two T700 give 2,327 kW by its rotor file."""
+    fast = card(replace(OPENING, advance_ratio=0.42))
+    assert fast["status"]["words"] == f"engines give only {number(2327.0)} kW"
+    assert "The rotors take" in fast["status"]["title"]
+    assert "engines" not in card(replace(OPENING, advance_ratio=0.3))["status"]["words"]
 
 
 def test_two_rotors_beside_each_other_have_their_power():

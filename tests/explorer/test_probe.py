@@ -12,12 +12,14 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from explorer.charts import svg
+from explorer.hosting.gate import PRESSES
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import DISK_DROP
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.element import FlowRegion, probe
 from explorer.tabs.probe.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe.probe_measured import lift_chart, public_table
+from explorer.tabs.probe.ride import AZIMUTHS, turn_of
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
@@ -246,6 +248,30 @@ class TestDrawing:
         placed = svg.spread([10.0, 11.0, 40.0, 9.0], 12.0)
         assert placed[3] < placed[0] < placed[1] < placed[2] == 40.0
         assert min(np.diff(sorted(placed))) > 11.5
+
+
+class TestRide:
+    """One turn with a section: a steady section's point is on its lift curve all the way round."""
+
+    @pytest.mark.parametrize("near", [0.3, 0.75])
+    def test_the_point_is_on_its_curve_and_the_triangle_closes(self, near: float, fast: Solution):
+        r = float(fast.disk.r[np.abs(fast.disk.r - near).argmin()])
+        turn, step = turn_of(fast, r, 40.0), AZIMUTHS // math.gcd(AZIMUTHS, len(fast.disk.psi))
+        reversed_flow = np.array(turn["u"]) < 0.0
+        assert reversed_flow.any() == (near < 0.37)  # At ψ 270° the air comes from behind inboard of µ.
+        for k in range(0, AZIMUTHS, step):  # Where the disk has a station.
+            on_curve = np.interp(turn["alpha"][k], turn["angles"], turn["curves"][k])
+            if abs(turn["alpha"][k]) < max(turn["angles"]):  # Beside the hub the flow stands across the section.
+                assert on_curve == pytest.approx(turn["cl"][k], abs=0.01)
+            assert turn["lift"][k] == pytest.approx(probe(fast, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
+            if not reversed_flow[k]:
+                assert turn["theta"][k] - turn["phi"][k] == pytest.approx(turn["alpha"][k], abs=0.02)
+
+    def test_a_ride_is_asked_for_by_its_place_and_ended_by_a_word(self):
+        check = PRESSES["ride"]
+        assert check([0.75, 270.0]) == [0.75, 270.0]
+        assert check("off") == "off"
+        assert check(None) is None
 
 
 @pytest.fixture(scope="module")

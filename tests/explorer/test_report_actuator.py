@@ -4,13 +4,11 @@ import math
 import re
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import pytest
 
-from explorer.export.report import document
 from explorer.export.report.contents import JudgedActuator, ReportEntry, judged_actuator, report_of
-from explorer.export.report.document import main, report_html
+from explorer.export.report.document import report_html
 from explorer.export.report.figures import actuator_section
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
@@ -97,18 +95,3 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
     for actuator, found in ((judged(), 1), ("", 0)):
         report = report_of(baseline, entries, ViewState(), actuator=actuator)
         assert report_html(report, None).count('<section class="actuator">') == found
-
-
-def test_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    """`--actuator` judges it on the first design."""
-    monkeypatch.setattr(document, "make_stage", lambda *_: None)
-    DESIGN.save(tmp_path / "a.json")
-    out = tmp_path / "r.html"
-    assert main([str(tmp_path / "a.json"), "--actuator", "MFC_P1", "--out", str(out)]) == 0
-    assert earns_state(verdict(), True, SI)["sentence"] in out.read_text(encoding="utf-8")
-    capsys.readouterr()
-    assert main([str(tmp_path / "a.json"), "--actuator", "glue", "--out", str(out)]) == 2
-    assert "actuator 'glue' is not known" in capsys.readouterr().err
-    make_design(rotor="s61").save(tmp_path / "s61.json")
-    assert main([str(tmp_path / "s61.json"), "--actuator", "MFC_P1", "--out", str(out)]) == 2
-    assert "choose that rotor" in capsys.readouterr().err

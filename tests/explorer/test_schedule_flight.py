@@ -201,7 +201,7 @@ def test_no_change_since_a_grab_counts_once_the_playback_begins_or_ends(
 ):
     resets: list[bool] = []
     context: Any = SimpleNamespace(
-        gui=server.gui, bridge=SimpleNamespace(on=lambda *_: None), wake=lambda: None,
+        pool=None, gui=server.gui, bridge=SimpleNamespace(on=lambda *_: None), wake=lambda: None,
         tracker=SimpleNamespace(reset=lambda: resets.append(True)),
     )  # fmt: skip
     search: Any = SimpleNamespace(request=SearchRequest)

@@ -13,8 +13,7 @@ import pytest
 import viser
 
 from explorer import __main__ as command
-from explorer.model.inputs import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
-from explorer.model.pinned import FLIGHT
+from explorer.model.inputs import FLIGHT, LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
 from explorer.model.sliders import SLIDERS
 from explorer.model.units import SI
 from explorer.picture.picture import make_picture
@@ -127,7 +126,7 @@ class TestControls:
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
     def test_the_break_point_is_inert_while_there_is_no_change(self, controls: DesignControls):
-        place, built = controls._inputs["built_division"], Inputs(law="builtin")
+        place, built = controls._form._handles["built_division"], Inputs(law="builtin")
         changed, moved = replace(built, built_outer=-1.0), replace(built, built_division=0.7)
         assert built.design().twist == moved.design().twist  # It has no effect indeed.
         for inputs, inert in ((built, True), (changed, False), (built, True)):
@@ -142,14 +141,14 @@ class TestControls:
         controls.hold(False)
         controls.refresh(built, SI)
         assert place.disabled
-        assert not controls._inputs["built_outer"].disabled
+        assert not controls._form._handles["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         controls.refresh(Inputs(law="two"), SI)
-        shown = {name for name in SLIDERS if controls._inputs[name].visible}
+        shown = {name for name in SLIDERS if controls._form._handles[name].visible}
         assert shown == {"two_inner", "two_outer", "two_division", *FLIGHT}
         controls.refresh(Inputs(preset="thesis", law="two"), SI)
-        assert not controls._inputs["climb_m_s"].visible
+        assert not controls._form._handles["climb_m_s"].visible
 
 
 class TestScene:

@@ -12,7 +12,7 @@ from explorer import session as session_module
 from explorer.charts import plots
 from explorer.hosting.browser import PageFacts
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Failure, Reading, SessionState
+from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page
 from explorer.session import Session
 from explorer.workers.newest_wins import NewestWins, UpdatePool
@@ -28,7 +28,7 @@ class RecordingPage:
         self.frames: list[SimpleNamespace] = []
         """What each frame showed."""
         self.states: list[SessionState] = []
-        self.failures: list[Failure] = []
+        self.failures: list[FailedTrim] = []
         self.found: Design | None = None
         self.moves_sliders = False
         self.pin = None
@@ -61,7 +61,7 @@ class RecordingPage:
         self.calls.append("show_results")
         self.states.append(state)
 
-    def show_failure(self, failure: Failure) -> None:
+    def show_failure(self, failure: FailedTrim) -> None:
         self.calls.append("show_failure")
         self.failures.append(failure)
 
@@ -121,7 +121,7 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
 def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
     assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
-    assert page.calls[3:6] == ["solve_pinned", "show_results", "show_power"]
+    assert page.calls[3:7] == ["solve_pinned", "write_address", "show_results", "show_power"]
     assert page.calls[-1] == "solve_deferred"
     assert page.calls.index("follow") < page.calls.index("solve_deferred")
     assert page.frames[-1].solution is page.states[-1].solution
@@ -186,7 +186,7 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
     session._update()
-    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned"]
+    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "write_address"]
 
 
 def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -207,11 +207,12 @@ def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Sessi
         assert [one for one in calls if one in ("sweep", "keep")] == expected
 
 
-def test_in_a_crowd_the_number_comes_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
+def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
+    """What follows a frame waits 1.7 s with six pages; one that is loaded anew meanwhile would lose its edit."""
     monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3))
     page: Any = session.page
     session._update()
-    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
+    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_power_number", "write_address"]
 
 
 def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):

@@ -8,7 +8,7 @@ from explorer.charts.measured import MeasuredChart
 from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.pinned import Pinned
-from explorer.model.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
+from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
 from explorer.sharing.share import code_of, inputs_from
 from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
@@ -80,27 +80,43 @@ class TestWidgets:
     def test_choices_by_hand(self, controls: DesignControls):
         panel = controls.stand
 
-        panel._trim_chosen(TRIM_TITLES["wind-tunnel"])
+        def choose(name: str, value: object) -> None:
+            panel.form.place(name, value)
+            panel._heard(name, by_hand=True)
+
+        choose("trim", "wind-tunnel")
         assert controls.inputs().stand == StandInputs()
-        assert panel._test.visible
-        panel._load_chosen(LOAD_TITLES["collective_deg"])
-        panel._slid("collective_deg", 6.5)
+        assert panel.form._handles["measured_test"].visible
+        choose("stand_load", "collective_deg")
+        choose("collective_deg", 6.5)
         assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
-        panel._trim_chosen(TRIM_TITLES["controls"])
+        choose("trim", "controls")
         assert controls.inputs().stand == StandInputs("controls", "collective_deg", 6.5, flapping="free")
-        panel._trim_chosen(TRIM_TITLES["flight"])
+        choose("trim", "flight")
         assert controls.inputs().stand is None
-        assert not panel._test.visible
+        assert not panel.form._handles["measured_test"].visible
         controls._choose_rotor("xv15")
-        assert TRIM_TITLES["flight"] not in panel._trim.options
-        panel._test_chosen(XV15.test)
+        assert TRIM_TITLES["flight"] not in panel.form._handles["trim"].options
+        choose("measured_test", XV15.test)
         assert controls.inputs().stand is not None
-        assert panel._point.visible
-        panel._slid("shaft_tilt_deg", 12.0)
+        assert panel.form._handles["measured_point"].visible
+        choose("shaft_tilt_deg", 12.0)
         controls.refresh(controls.inputs(), controls._units)
-        assert not panel._point.visible
+        assert not panel.form._handles["measured_point"].visible
         controls.set_inputs(FORWARD)
         assert controls.inputs() == FORWARD
+
+    def test_the_tip_mach_number_follows_the_rotor_speed(self, controls: DesignControls):
+        given = StandInputs(load="thrust_n", value=5e4)
+        controls.set_inputs(replace(OPENING, stand=given))
+        shown, thrust = (controls.stand.form._handles[name] for name in ("tip_mach", "thrust_n"))
+        before, most = shown.value, thrust.max
+        controls._form.place("rotor_speed_percent", 80.0)
+        controls.refresh(controls.inputs(), controls._units)
+        assert shown.value == pytest.approx(0.8 * before, rel=1e-5)
+        controls.set_inputs(controls.inputs())
+        assert thrust.max == pytest.approx(0.64 * most, rel=0.02)
+        assert controls.inputs().stand == given
 
 
 def test_the_chart_has_every_point_its_scatter_and_our_error():

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.testing import assert_allclose
 
-from explorer.export.still_rotor import flown_pitch, point_record
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
+from explorer.scene.still_scene import flown_pitch, point_record
 from rotor import make_design, parse_twist, solve
 
 DESIGN = make_design(twist="linear:-12", mu=0.2)

@@ -1,4 +1,4 @@
-"""The charts of the results strip as values: differences, stall limits, lift, sensitivity with its clipped spike."""
+"""The charts of the results strip as values: differences, speeds, stall limits, lift."""
 
 import json
 import math
@@ -18,13 +18,11 @@ from explorer.charts.strip import (
     lift_per_metre,
     power_change_chart,
     total_power_chart,
-    where_to_twist_chart,
+    with_speeds,
 )
 from explorer.model.units import AVIATION
 from rotor.chart import Chart, Line, Points, as_json
 from rotor.files.make_design import make_design
-from rotor.files.rotor_file import shipped_aircraft
-from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution, Status
 from rotor.trim.solve import solve
 
@@ -89,17 +87,41 @@ class TestPowerChange:
 
     def test_the_top_speed_is_where_power_meets_that_of_the_engines(self):
         """A parabola meets a level at a place known in closed form; the points lie .025 apart."""
-        curve, black_hawk = self.curve(0.0), shipped_aircraft("uh60a")
+        curve, black_hawk = self.curve(0.0), make_design()
         curve.design[:] = 700.0 + 40000.0 * (np.array(SWEEP) - 0.15) ** 2
-        chart = total_power_chart(curve, 0.2, 720e3, aircraft=black_hawk)
+        chart = total_power_chart(curve, 0.2, 720e3, design=black_hawk)
         mu = 0.15 + math.sqrt((2327.0 - 700.0) / 40000.0)
         kmh = float(re.findall(r"[\d.]+", chart.value)[-1])
         assert kmh == pytest.approx(3.6 * mu * black_hawk.rotor.tip_speed, rel=0.005)
         assert roles(chart)[0] == "limit"
         assert_allclose(lines(chart)[0].y, 2327.0)
         curve.design[:] = 700.0
-        assert total_power_chart(curve, 0.2, 700e3, aircraft=black_hawk).value.startswith("least near")
-        assert "limit" not in roles(total_power_chart(curve, 0.2, 700e3, aircraft=shipped_aircraft("s61")))
+        assert total_power_chart(curve, 0.2, 700e3, design=black_hawk).value.startswith("least near")
+        assert "limit" not in roles(total_power_chart(curve, 0.2, 700e3, design=make_design(rotor="s61")))
+
+    def test_speeds_of_endurance_and_range_and_the_walls(self):
+        """Power a/µ + bµ³ is least at (a/3b)^¼, power over speed a/µ² + bµ² at (a/b)^¼."""
+        curve, design, mus = self.curve(0.0), make_design(), np.array(SWEEP)
+        a, b = 60.0, 15000.0
+        with np.errstate(divide="ignore"):
+            curve.design[:] = np.where((mus > 0.06) & (mus < 0.4), a / mus + b * mus**3, math.nan)
+        plain = total_power_chart(curve, 0.2, 420e3)
+        chart, fastest = with_speeds(plain, curve, design)
+        pressed = {one.names[0]: one.x[0] for one in chart.series if isinstance(one, Points) and one.action == "speed"}
+        assert pressed == {
+            "endurance": pytest.approx((a / (3.0 * b)) ** 0.25, abs=0.002),
+            "range": pytest.approx((a / b) ** 0.25, abs=0.002),
+        }
+        last = mus[mus < 0.4][-1]
+        assert (fastest, [rule.at for rule in chart.rules]) == (last, [last])  # The engines give more.
+        curve.design[:] *= 5.0
+        meets = np.linspace(0.2, 0.4, 20001)
+        wall = meets[np.argmin(np.abs(5.0 * (a / meets + b * meets**3) - 2327.0))]
+        chart, fastest = with_speeds(plain, curve, design)
+        assert fastest == pytest.approx(wall, abs=0.002)
+        assert len(chart.rules) == 2
+        climbing = replace(design, condition=replace(design.condition, climb_speed=3.0))
+        assert not any(isinstance(one, Points) and one.action for one in with_speeds(plain, curve, climbing)[0].series)
 
     def test_autorotation_is_marked_below_zero(self):
         curve = self.curve(0.0)
@@ -163,24 +185,6 @@ class TestLift:
         assert chart.span("y")[0] <= 0.0
 
 
-class TestWhereToTwist:
-    def test_the_spike_at_the_tip_is_clipped_and_said(self, cruise: Solution):
-        """That of linear inflow on 40 elements, without elastic twist, which takes it from the UH-60A as built."""
-        design = cruise.design
-        rigid = replace(design, models=replace(design.models, elastic_twist=False, inflow="pitt-peters"))
-        gradient = power_gradient(solve(rigid))
-        chart = where_to_twist_chart(gradient)
-        values = np.array(lines(chart)[0].y)
-        assert_allclose(values, gradient.density * math.pi / 180.0 / 1e3)
-        flat = PitchGradient(gradient.r, np.full_like(gradient.r, 0.02), np.ones_like(gradient.r))
-        assert where_to_twist_chart(flat).note == ""
-        outside = (values > chart.span("y")[1]) | (values < chart.span("y")[0])
-        assert outside.any()
-        assert outside.mean() < 0.15
-        worst = int(np.argmax(np.abs(values)))
-        assert f"{gradient.r[worst]:.2f} R" in chart.note
-
-
 def test_every_chart_is_plain_json_without_nan(cruise: Solution, linear: Solution):
     design, reference, ideal = (np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan))
     curve = PowerCurve(design, reference, ideal)
@@ -188,7 +192,6 @@ def test_every_chart_is_plain_json_without_nan(cruise: Solution, linear: Solutio
         power_change_chart(curve, 0.2, -10e3, "A"),
         alpha_chart(cruise, linear, 270.0),
         lift_chart(cruise, linear),
-        where_to_twist_chart(power_gradient(cruise)),
     )
     for chart in charts:
         text = json.dumps(as_json(chart), allow_nan=False)

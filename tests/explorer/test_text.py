@@ -158,7 +158,8 @@ class TestPowerCurves:
         curves = PowerCurves(haste=math.inf)
         curves.sweep(design, design, lambda: True)
         known = np.isfinite(curves.known(design, design).design)
-        assert known.tolist() == [mu == 0.0 or mu >= 0.075 for mu in plots.SWEEP]
+        # At µ 0.45 40 % of the disk would be stalled; of a few points the curve ends at the last that trims.
+        assert known.tolist() == [mu == 0.0 or 0.075 <= mu < 0.39 for mu in plots.SWEEP]
 
     def test_a_descent_has_its_curve_beyond_the_vortex_ring_state(self):
         design = Inputs(law="linear", linear=-8.0, climb_m_s=-13.0).design()

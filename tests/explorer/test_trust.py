@@ -3,16 +3,13 @@
 import re
 
 from explorer.text.status import trust_page
-from rotor.validation.trust import KINDS, sensitivity_rows, trust_rows
+from rotor.validation.trust import KINDS, trust_rows
 
 
 def test_every_row_and_kind_is_on_the_page():
     html = trust_page()
     assert html.count('class="rx-trust-row"') == len(trust_rows())
-    assert html.count('class="rx-trust-change"') == len({row.change for row in sensitivity_rows()})
-    assert html.count("<h4>") == len(KINDS) + 1
+    assert html.count("<h4>") == len(KINDS)
     assert "rotor/trim/test_power.py::test_energy_identity" in html
-    columns = [line.count("<span>") for line in re.findall(r'rx-trust-speeds">(.*?)</div>', html)]
-    assert set(columns) == {3}  # A speed each.
     shown = re.sub(r'title="[^"]*"', "", html)
     assert not re.search(r"[> ]-\d|\b(nan|inf)\b", shown, re.IGNORECASE)

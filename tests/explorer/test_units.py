@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.model.inputs import Inputs
-from explorer.model.sliders import SLIDERS, limits, meant, shown, slider
+from explorer.model.inputs import ROWS, Inputs
+from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.undo import History, KeptDesign
-from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
+from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS, meant, shown
 from explorer.tabs import history_panel as history_view
 from explorer.tabs.controls import DesignControls
 from explorer.text import readout
@@ -58,13 +58,14 @@ def test_searches_and_history_in_horsepower(cruise: Solution):
 
 @pytest.mark.parametrize("name", ["mass_t", "altitude_m", "climb_m_s"])
 def test_an_input_is_itself_after_other_units(name: str):
+    row = ROWS[name]
     for value in np.linspace(*limits(name), 173):
         kept = round(float(value), 6)
-        assert meant(name, shown(name, kept, AVIATION), AVIATION) == kept
+        assert meant(row, shown(row, kept, AVIATION), AVIATION) == kept
     low, high = limits(name)
     for units in UNITS.values():
         form = slider(name, units)
-        assert low <= meant(name, form.low, units) <= meant(name, form.high, units) <= high
+        assert low <= meant(row, form.low, units) <= meant(row, form.high, units) <= high
     assert slider("linear", AVIATION) is SLIDERS["linear"]
 
 
@@ -74,11 +75,11 @@ class TestControls:
         controls.set_inputs(wanted)
         controls.refresh(wanted, UNITS["Aviation"])
         assert controls.inputs() == wanted
-        handle = controls._inputs["mass_t"]
+        handle = controls._form._handles["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
         assert handle.label == "Mass [lb]"
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
-        assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
+        assert controls._form._handles["altitude_m"].value == pytest.approx(10_000.0)
         controls.refresh(wanted, SI)
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05

@@ -219,7 +219,7 @@ class TestPanel:
         page.panel.solve_deferred(lambda: next(asked))  # Newer input leaves the band for later.
         row = page.shown["vibration"]
         assert row["index"] == f"{loads.index:.1f}"
-        assert row["band"] == "band over wakes: computing"
+        assert row["band"] == "band over inflow models: computing"
         assert "0.5 aft, 0.67 to starboard, 1 vertical" in row["title"]
         assert row["at"] == "at 4/rev"
         assert row["scale"] == "1 m drawn: 2 kN, 2 kN m"

@@ -32,7 +32,7 @@ def found() -> Waterfall:
 
 def numbers(svg: str) -> list[float]:
     """The column at the right, as written."""
-    shown = re.findall(r'class="rx-w rx-w-number[^"]*">([^<]+)<', svg)
+    shown = re.findall(r'class="rx-w rx-w-number[^>]*>([^<]+)<', svg)
     return [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
 
 
@@ -75,8 +75,8 @@ class TestDrawing:
         short, long = "no drag in hover", "no blade element is in reverse flow at this speed"
         steps = (found.steps[0], *(replace(found.steps[1], note=note) for note in (short, long)))
         drawn = waterfall_chart(steps)
-        assert re.search(rf'<text x="98.0" y="[\d.]+" class="rx-w rx-w-note">{short}', drawn)
-        assert re.search(rf'<text x="312.0" y="[\d.]+" class="rx-w rx-w-note rx-w-number">{long}', drawn)
+        assert re.search(rf'<text class="rx-w rx-w-note" x="98" [^>]*>{short}', drawn)
+        assert re.search(rf'<text class="rx-w rx-w-note rx-w-number" x="312" [^>]*>{long}', drawn)
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")

@@ -10,11 +10,11 @@ from typing import Any
 
 import numba
 import pytest
-from numba.core import caching
+from numba.core import caching, config
 from numba.core.codegen import CPUCodegen
 
 import rotor
-from rotor.compiled import compiled, compiling, tell_in_a_log
+from rotor.compiled import _watch, compiled, compiling, tell_in_a_log
 
 SOURCE = """
 import numba
@@ -37,6 +37,12 @@ def module(path: Path) -> Any:
     made = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(made)
     return made
+
+
+@pytest.fixture(autouse=True)
+def _kept_beside_the_source(monkeypatch: pytest.MonkeyPatch):
+    """Also where `NUMBA_CACHE_DIR` names a folder for all."""
+    monkeypatch.setattr(config, "CACHE_DIR", "")
 
 
 @pytest.fixture
@@ -98,6 +104,22 @@ def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, s
     assert (damaged(1.0), hits(damaged)) == (2.0, 0)
     again = module(source).kernel
     assert (again(1.0), hits(again)) == (2.0, 1)
+
+
+@pytest.mark.parametrize("ending", ["nbi", "nbc"])
+def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
+    """LLVM ended the program over such code; here no bit of code is looked at that has not its checksum."""
+    assert module(source).kernel(1.0) == 2.0
+    (kept,) = source.parent.rglob(f"*kernel*.{ending}")
+    whole = kept.read_bytes()
+    for place in range(len(whole) - 1, 0, -max(1, len(whole) // 12)):
+        kept.write_bytes(whole[:place] + bytes([whole[place] ^ 16]) + whole[place + 1 :])
+        damaged = module(source).kernel
+        assert damaged(1.0) == 2.0
+        assert hits(damaged) == 0
+        again = module(source).kernel
+        assert (again(1.0), hits(again)) == (2.0, 1)
+        (kept,) = source.parent.rglob(f"*kernel*.{ending}")
 
 
 def test_code_of_another_version_of_numba_is_compiled_anew(source: Path, monkeypatch: pytest.MonkeyPatch):
@@ -172,6 +194,22 @@ def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monk
     said.truncate(0)
     assert module(source).kernel(1.0) == 2.0
     assert said.getvalue() == ""  # Kept code.
+
+
+def test_the_count_goes_on_where_the_run_before_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Hover after forward flight, each in a process of its own: here a module that is read anew stands for it."""
+    names = ("first", "second", "third")
+    lines = [f"@compiled()\ndef {name}(x):\n    return x + 1.0\n" for name in names]
+    path = tmp_path / "kernels.py"
+    path.write_text("\n".join(["from rotor.compiled import compiled\n", *lines]), encoding="utf-8")
+    counted = []
+    for name in names:
+        said = Terminal()
+        monkeypatch.setattr(sys, "stderr", said)
+        monkeypatch.setattr(_watch, "kernels", [])
+        getattr(module(path), name)(1.0)
+        counted.append(re.findall(r"\d+ of \d+", said.getvalue())[0])
+    assert counted == ["1 of 3", "2 of 3", "3 of 3"]
 
 
 def test_elsewhere_one_line_tells_it_where_that_is_asked_for(source: Path, monkeypatch: pytest.MonkeyPatch):

@@ -8,13 +8,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import psutil
 import pytest
 
 from rotor.blas_threads import _libraries
-from rotor.processes import Processes, WorkerLost, run_tasks
+from rotor.processes import Processes, WorkerLost, WorkerProcess, run_tasks
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 120.0
@@ -67,6 +68,37 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
     with pytest.raises(RuntimeError, match="shut down"):
         pool.submit(pow, 2, 3)
+
+
+def echo(value: Any, pause: float = 0.0) -> Any:
+    time.sleep(pause)
+    return value
+
+
+def test_no_call_takes_the_answer_of_one_that_was_given_up():
+    """A warm-up of more than a minute was given up; from then on each job had the answer of the one before."""
+    process = WorkerProcess("late")
+    try:
+        process.call(echo, "first", 0.5)
+        process.call(echo, "second")
+        begin, reply = time.monotonic(), None
+        while reply is None and time.monotonic() < begin + PATIENCE:
+            reply = process.receive(0.1)
+        assert reply is not None
+        assert reply.value == "second"
+    finally:
+        process.close()
+
+
+def test_a_listener_that_fails_leaves_its_process_at_no_other_call():
+    with Processes(1) as pool:
+
+        def fail_to_hear(item: Any) -> None:
+            raise ZeroDivisionError(item)
+
+        with pytest.raises(ZeroDivisionError):
+            pool.stream([(count, (0, 50, 0.01))], fail_to_hear)
+        assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
 
 
 def test_a_lost_process_costs_its_own_call_and_is_replaced():

@@ -80,7 +80,8 @@ def test_warm_starts_end_at_the_same_trim() -> None:
     )  # fmt: skip
     for given in cases:
         design = rotor.make_design(mu=0.25, twist="linear:-10", **given)
-        start = rotor.solve(rotor.make_design(mu=0.28, twist="linear:-14", **{**given, "altitude_m": 1000.0}))
+        near: dict[str, Any] = {**given, "altitude_m": 1000.0}
+        start = rotor.solve(rotor.make_design(mu=0.28, twist="linear:-14", **near))
         warm, cold = (rotor.solve(design, own).require().power.total for own in (start, None))
         assert_allclose(warm, cold, rtol=1e-9)
 

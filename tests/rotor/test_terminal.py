@@ -3,6 +3,7 @@
 import contextlib
 import io
 import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -96,3 +97,30 @@ def test_a_stop_whose_exception_is_lost_still_ends_the_program():
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+@pytest.mark.parametrize(
+    ("module", "where", "sent", "code", "said"),
+    [
+        ("rotor", "rotor.trim.solve", signal.SIGINT, 130, "rotor: stopped\n"),
+        ("explorer", "rotor.trim.solve", signal.SIGTERM, 0, ""),
+        ("explorer", "explorer.app", signal.SIGTERM, 0, ""),
+        ("explorer", "explorer.app", signal.SIGINT, 0, ""),
+    ],
+)
+def test_a_signal_while_modules_are_read_ends_without_a_traceback(
+    module: str, where: str, sent: signal.Signals, code: int, said: str
+):
+    """For 0.4 s Ctrl-C gave a traceback, and a service's stop before serving ended with -15."""
+    program = f"""
+import os, runpy, sys
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == {where!r}:
+            os.kill(os.getpid(), {int(sent)})
+sys.meta_path.insert(0, Finder())
+sys.argv = ["-m", "--version"] if {module!r} == "rotor" else ["-m", "--no-browser", "--port", "0"]
+runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stderr) == (code, said)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.tools.lowest import lowest
 from tests.tools.release import unfit, version_faults
 
 PROJECT = '[project]\nversion = "1.2.0"\n'
@@ -37,3 +38,10 @@ def test_licences_that_bind_or_are_not_stated_are_found():
         ("h", "1", "BSD-3-Clause AND GPL-3.0-or-later WITH GCC-exception-3.1"),
     ]
     assert unfit(rows) == ["b", "c", "e", "g"]
+
+
+def test_the_lowest_versions_are_those_that_are_stated():
+    project = '[project]\ndependencies = ["numpy>=2.1", "websockets>=16.1,<17", "viser==1.1.1"]\n'
+    assert lowest(project) == ["numpy==2.1", "websockets==16.1", "viser==1.1.1"]
+    with pytest.raises(ValueError, match="scipy states no lowest version"):
+        lowest(project.replace("numpy>=2.1", "scipy"))

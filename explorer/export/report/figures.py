@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from html import escape
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -23,6 +22,7 @@ from rotor.actuator.verdict import count
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.chart_svg import svg
+from rotor.markup import Content, Markup, group, tag
 
 PIXELS = 480
 """Pixels of a disk along each edge: the labels of its regions can be read."""
@@ -35,10 +35,10 @@ _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0
 _WANTED, _REACHED, _RANGE = "#e8590c", "#1c7ed6", "#868e96"
 
 
-def overview(report: DesignReport, curves: PowerCurves) -> str:
+def overview(report: DesignReport, curves: PowerCurves) -> Markup:
     """Power over advance ratio and twist along the blade, all designs together."""
     pairs = list(zip(report.all, colours_of(report), strict=True))
-    power = [one for entry, colour in reversed(pairs) for one in _power(report, entry, colour, curves)]
+    power = [series for entry, colour in reversed(pairs) for series in _power(report, entry, colour, curves)]
     r = np.linspace(report.entries[0].solution.design.rotor.blade.root_cutout, 1.0, 160)
     twist, load = [], []
     for entry, colour in reversed(pairs):
@@ -46,10 +46,10 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
         solution = entry.solution
         twist.append(Line(entry.title, r, np.degrees(solution.design.twist(r)), colour, dashes=dashed))
         load.append(Line(entry.title, solution.disk.r, lift_per_metre(solution) / 1e3, colour, dashes=dashed))
-    seen = [y for one in power for x, y in zip(one.x, one.y, strict=True) if x <= 0.4 and math.isfinite(y)]
+    seen = [y for series in power for x, y in zip(series.x, series.y, strict=True) if x <= 0.4 and math.isfinite(y)]
     y_range, unit = held_range(None, 0.0, max(seen, default=1.0)), report.units.power[0].symbol
     speed, speeds, along_r = "advance ratio µ", (-0.01, 0.46), (0.1, 1.01)
-    changes = [one for entry, colour in pairs for one in _change(report, entry, colour, curves)]
+    changes = [series for entry, colour in pairs for series in _change(report, entry, colour, curves)]
     zero = Line("", speeds, (0.0, 0.0), BASELINE, dashes=True)
     against = f"vs. {report.reference.title} [%]"
     charts = [
@@ -61,17 +61,16 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
         Chart("Jig twist along the blade", Axis("r/R", range=along_r), Axis("twist [°], zero at 0.75 R"), tuple(twist)),
         Chart("Load along the blade", Axis("r/R", range=along_r), Axis("dT/dr, mean over azimuth [kN/m]"), tuple(load)),
     ]  # fmt: skip
-    return f"<section><h2>Over speed and along the blade</h2>{_charts(charts)}</section>"
+    return tag("section", tag("h2", "Over speed and along the blade"), _charts(charts))
 
 
-def _charts(charts: Sequence[Chart]) -> str:
-    return f'<div class="charts">{"".join(map(figure, charts))}</div>'
+def _charts(charts: Sequence[Chart]) -> Markup:
+    return tag("div.charts", map(figure, charts))
 
 
-def figure(chart: Chart) -> str:
+def figure(chart: Chart) -> Markup:
     """A chart with its title, as HTML."""
-    title = f"<figcaption><b>{escape(chart.title)}</b></figcaption>"
-    return f'<figure class="chart">{title}{svg(chart, inline=True)}</figure>'
+    return tag("figure.chart", tag("figcaption", tag("b", chart.title)), svg(chart, inline=True))
 
 
 def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
@@ -83,13 +82,13 @@ def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerC
     unit = report.units.power[0]
     here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
     total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
-    found: list[Line | Points] = [
+    series: list[Line | Points] = [
         Line(entry.title, *_smooth(total), colour, dashes=is_reference),
         Points("", mu[:1], total[:1], colour),
     ]
     if entry is report.entries[0]:
-        found.insert(0, Line("ideal for its lift", *_smooth(ideal), IDEAL, dashes=True))
-    return found if is_reference else [*found, Points("", *here, colour)]
+        series.insert(0, Line("ideal for its lift", *_smooth(ideal), IDEAL, dashes=True))
+    return series if is_reference else [*series, Points("", *here, colour)]
 
 
 def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
@@ -117,37 +116,31 @@ def _smooth(values: Array) -> tuple[Array, Array]:
     return line, PchipInterpolator(mu[known], values[known])(line)
 
 
-def disks(report: DesignReport, entry: ReportEntry, k: int) -> str:
+def disks(report: DesignReport, entry: ReportEntry, k: int) -> Markup:
     """The fields over the disk, each with its scale, and the key of the marked regions."""
-    solution, figures = entry.solution, []
+    solution = entry.solution
+    drawings: list[Markup] = []
+    keys: dict[str, Markup] = {}
+    box = f"{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}"
     for n, field in enumerate(fields_of(report)):
-        colour_range = report.colour_range(field)
+        colour_range, label = report.colour_range(field), f"{field.title} over the disk"
         drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)
-        figures.append(
-            f'<figure><svg viewBox="{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}" role="img" '
-            f'aria-label="{escape(field.title, quote=True)} over the disk">{drawn}</svg>'
-            f"{bar(field, colour_range, f'bar-{k}-{n}')}</figure>"
-        )
-    keys: dict[str, str] = {}
-    for field in fields_of(report):
+        disk = tag("svg", drawn, viewBox=box, role="img", aria_label=label)
+        drawings.append(tag("figure", disk, bar(field, colour_range, f"bar-{k}-{n}")))
         keys.update(key_entries(solution, field))
-    key = "".join(
-        f'<span><svg width="14" height="8">{swatch}</svg> {escape(title)}</span>' for title, swatch in keys.items()
-    )
+    key = [tag("span", tag("svg", swatch, width=14, height=8), f" {title}") for title, swatch in keys.items()]
     several = " Colours are the same for all designs." if len(report.shown) > 1 else ""
-    return (
-        f'<h3>Over the disk</h3><div class="disks">{"".join(figures)}</div><p class="key">{key}'
-        f'<span class="dim">From above, nose up, advancing side right.{several}</span></p>'
-    )
+    seen = tag("span.dim", f"From above, nose up, advancing side right.{several}")
+    return group(tag("h3", "Over the disk"), tag("div.disks", drawings), tag("p.key", key, seen))
 
 
-def bar(field: Field, colour_range: tuple[float, float], name: str) -> str:
+def bar(field: Field, colour_range: tuple[float, float], name: str) -> Markup:
     """A colour bar as a separate SVG."""
     drawn = bar_drawing(field, colour_range, _BAR, name, _LETTERS)
-    return f'<svg class="bar-svg" viewBox="-14 0 {_BAR + 28:g} {4 * _LETTERS:g}">{drawn}</svg>'
+    return tag("svg.bar-svg", drawn, viewBox=f"-14 0 {_BAR + 28:g} {4 * _LETTERS:g}")
 
 
-def along(solution: Solution) -> str:
+def along(solution: Solution) -> Markup:
     """Angle of attack and lift coefficient along the blade at four azimuths."""
     r = solution.disk.r
     alpha, lift = [], []
@@ -164,34 +157,41 @@ def along(solution: Solution) -> str:
         Chart("Angle of attack", Axis(x_label, range=x_range), Axis("α [°]", range=(-15.0, 20.0)), tuple(alpha)),
         Chart("Lift coefficient", Axis(x_label, range=x_range), Axis("C_l", range=(-0.5, 1.5)), tuple(lift)),
     ]
-    return f"<h3>Along the blade</h3>{_charts(charts)}"
+    return tag("h3", "Along the blade") + _charts(charts)
 
 
-def actuator_section(actuator: JudgedActuator | str, units: Units) -> str:
+def actuator_section(actuator: JudgedActuator | str, units: Units) -> Markup:
     """The section; empty where no actuator was chosen."""
     if not actuator:
-        return ""
+        return Markup()
+    title = tag("h2", "Actuator")
     if isinstance(actuator, str):
-        return f'<section class="actuator"><h2>Actuator</h2><ul class="care"><li>{escape(actuator)}</li></ul></section>'
+        return tag("section.actuator", title, tag("ul.care", tag("li", actuator)))
     verdict, flight = actuator.verdict, actuator.flight
-    kind = "less" if verdict.pays else "more"
     placement, first = verdict.installed.placement, verdict.installed.actuator.name
     low, high = placement.span
     where = f"{count(verdict)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
-    flown = f"<p class='note'>{escape(flight)}</p>" if isinstance(flight, str) else _over_flight(flight)
-    legs = "" if isinstance(flight, str) else _legs(flight, verdict, units)
-    return (
-        f'<section class="actuator"><h2>Actuator</h2><p class="lead">{escape(first)}, {escape(where)}</p>'
-        f'<p class="{kind} lead" data-report="verdict">{escape(verdict_sentence(verdict))}</p>'
-        f'<p class="dim">{escape(verdict_details(verdict))}</p>'
-        f'<div class="charts"><figure class="chart"><figcaption><b>Balance of power</b>'
-        f'<span class="dim">{units.power[0].symbol}, {escape(pair_words(verdict))}</span></figcaption>'
-        f'{_bars(verdict, units)}<p data-report="fuel"><b>{escape(fuel_words(verdict))}</b></p></figure>'
-        f"{flown}</div>{legs}{_cares(verdict)}</section>"
+    unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
+    shares = tag(
+        "figure.chart",
+        tag("figcaption", tag("b", "Balance of power"), unit),
+        balance_bars(verdict, units),
+        tag("p", tag("b", fuel_words(verdict)), data_report="fuel"),
+    )
+    flown = tag("p.note", flight) if isinstance(flight, str) else twist_over_flight(flight)
+    return tag(
+        "section.actuator",
+        title,
+        tag("p.lead", f"{first}, {where}"),
+        tag("p.lead", verdict_sentence(verdict), class_="less" if verdict.pays else "more", data_report="verdict"),
+        tag("p.dim", verdict_details(verdict)),
+        tag("div.charts", shares, flown),
+        None if isinstance(flight, str) else legs_table(flight, verdict, units),
+        _cares(verdict),
     )
 
 
-def _bars(verdict: Verdict, units: Units) -> str:
+def balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
     rows = balance(verdict)
     ends, reached = [], 0.0
@@ -205,27 +205,24 @@ def _bars(verdict: Verdict, units: Units) -> str:
     def at(power: float) -> float:
         return _NAME + room * (power - low) / max(high - low, 1.0)
 
-    drawn = f'<line x1="{at(0.0):.1f}" x2="{at(0.0):.1f}" y1="0" y2="{_ROW * len(rows):g}" class="zero"/>'
+    height = _ROW * len(rows)
+    drawn: list[Content] = [tag("line.zero", x1=at(0.0), x2=at(0.0), y1=0, y2=height)]
     for k, ((name, power), (start, end)) in enumerate(zip(rows, ends, strict=True)):
         text, top = signed(power, units), _ROW * k
         kind = {"−": "more", "+": "less"}.get(text[0], "dim")
         left, width = min(at(start), at(end)), abs(at(end) - at(start))
-        weight = ' font-weight="650"' if k == len(rows) - 1 else ""
+        weight = 650 if k == len(rows) - 1 else None
         if kind != "dim":
-            drawn += f'<rect x="{left:.1f}" y="{top + 6:g}" width="{width:.1f}" height="{_ROW - 12:g}" class="{kind}"/>'
-        drawn += (
-            f'<text x="0" y="{top + 20:g}"{weight}>{escape(name)}</text>'
-            f'<text x="{_WIDE:g}" y="{top + 20:g}" text-anchor="end" class="{kind}"{weight} data-report="balance">'
-            f"{text}</text>"
-        )
+            drawn.append(tag("rect", x=left, y=top + 6, width=width, height=_ROW - 12, class_=kind))
+        drawn.append(tag("text", name, x=0, y=top + 20, font_weight=weight))
+        look = {"text_anchor": "end", "class_": kind, "font_weight": weight, "data_report": "balance"}
+        drawn.append(tag("text", text, x=_WIDE, y=top + 20, **look))
     said = ", ".join(f"{name} {signed(power, units)}" for name, power in rows)
-    return (
-        f'<svg viewBox="0 0 {_WIDE:g} {_ROW * len(rows):g}" class="balance" role="img" '
-        f'aria-label="{escape(said)} {units.power[0].symbol}">{drawn}</svg>'
-    )
+    label, box = f"{said} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
+    return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)
 
 
-def _over_flight(flight: ActuatorFlight) -> str:
+def twist_over_flight(flight: ActuatorFlight) -> Markup:
     """Tip twist wanted and reached, and what the actuator can reach, over the legs by advance ratio."""
     mu = np.array([leg.advance_ratio for leg in flight.legs])
     low, high = (np.full(len(mu), math.degrees(end)) for end in flight.reach)
@@ -242,10 +239,10 @@ def _over_flight(flight: ActuatorFlight) -> str:
     )
 
 
-def _legs(flight: ActuatorFlight, verdict: Verdict, units: Units) -> str:
-    """A row for each leg."""
+def legs_table(flight: ActuatorFlight, verdict: Verdict, units: Units, link: Content = None) -> Markup:
+    """A row for each leg, `link` at its end."""
     tip_speed = verdict.baseline.pair.design.rotor.tip_speed
-    rows = ""
+    rows: list[Markup] = []
     for k, leg in enumerate(flight.legs):
         speed = units.speed[0].text(leg.advance_ratio * tip_speed)
         climb = units.climb_rate(leg.climb_speed)
@@ -257,14 +254,13 @@ def _legs(flight: ActuatorFlight, verdict: Verdict, units: Units) -> str:
             signed(float(flight.net_saving[k]), units),
             fuel,
         )
-        rows += f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>"
+        rows.append(tag("tr", [tag("td", cell) for cell in cells], tag("td.link", link) if link else None))
     heads = ("Leg", "wanted °", "reached °", "short °", f"net {units.power[0].symbol}", "fuel kg/h")
-    head = "".join(f"<th>{name}</th>" for name in heads)
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    head = tag("thead", tag("tr", [tag("th", name) for name in heads], tag("th") if link else None))
+    return tag("div.wide", tag("table", head, tag("tbody", rows)))
 
 
-def _cares(verdict: Verdict) -> str:
+def _cares(verdict: Verdict) -> Markup:
     """Limits that are exceeded, then caveats."""
     sentences = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
-    items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
-    return f'<ul class="care">{items}</ul>' if items else ""
+    return tag("ul.care", [tag("li", sentence) for sentence in sentences]) if sentences else Markup()

@@ -1,68 +1,69 @@
 """Tables of the report as HTML: the comparison of designs, and condition, power, trim and twist of each."""
 
-from collections.abc import Callable
-from html import escape
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from explorer.charts.doubt import MOST_ROWS
 from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
 from explorer.export.report.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
-from explorer.model.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, number
+from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
-from rotor import Design, Solution
+from rotor import Design, Solution, doubt
 from rotor.aero.problem import grid_of
+from rotor.design.quantities import BESIDE
+from rotor.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
+from rotor.trim.doubt import decimals
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""
-Row = tuple[str, str]
+Row = tuple[Content, Content]
 
 
-def change_words(report: DesignReport, entry: ReportEntry) -> str:
+def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
     """Change of total power against the reference, where the flight condition is the same."""
     reference = report.reference
     if entry is reference:
-        return '<span class="change dim">reference</span>'
+        return tag("span.change.dim", "reference")
     if not report.comparable(entry):
-        return '<span class="change dim">other flight condition</span>'
+        return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
-    kind = "" if abs(change) < 0.05 else " less" if change < 0.0 else " more"
-    return f'<span class="change{kind}">{number(change, 1, sign=True)} %</span>'
+    kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
+    return tag("span.change", f"{number(change, 1, sign=True)} %", class_=kind)
 
 
-def comparison(report: DesignReport) -> str:
+def comparison(report: DesignReport) -> Markup:
     """Every design in a column, the reference last; differences beside the powers."""
     reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
     note = (
-        f"<p class='note'>{escape(', '.join(elsewhere))}: at another flight condition than "
-        f"{escape(report.reference.title)}; the power difference is not due to the blade alone.</p>"
-        if elsewhere
-        else ""
+        f"{', '.join(elsewhere)}: at another flight condition than {report.reference.title}; "
+        "the power difference is not due to the blade alone."
     )
 
-    def compared(value: Callable[[Solution], float]) -> list[str]:
+    def compared(value: Callable[[Solution], float]) -> list[Content]:
         return [
             _with_change(entry.solution, reference if report.comparable(entry) else entry.solution, value, report.units)
             for entry in report.all
         ]
 
-    head = "".join(f"<th>{escape(entry.title)}</th>" for entry in report.all)
+    head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
     width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
-        _row("Twist", [escape(twist_words(entry.solution.design.twist)) for entry in report.all], "words"),
+        _row("Twist", [twist_words(entry.solution.design.twist) for entry in report.all], "words"),
         _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
         _row("Mass, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
         _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
-        _row("<b>Total power</b>", compared(lambda solution: solution.power.total), "total"),
+        _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
         *(
             _row(
-                f'<i style="background:{PARTS[name]}"></i>{title}',
+                _named(name, title),
                 compared(lambda solution, name=name: getattr(solution.power, name)),
             )
             for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
@@ -71,32 +72,33 @@ def comparison(report: DesignReport) -> str:
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
         _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
     ]
-    return (
-        f'<section class="comparison"><h2>Side by side</h2><div class="wide">'
-        f'<table style="width:{width}px"><thead><tr><th></th>{head}</tr>'
-        f"</thead><tbody>{''.join(rows)}</tbody></table></div>{note}</section>"
+    return tag(
+        "section.comparison",
+        tag("h2", "Side by side"),
+        tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"width:{width}px")),
+        tag("p.note", note) if elsewhere else None,
     )
 
 
 def _load(design: Design) -> list[tuple[str, str]]:
     """What the rotor carries and where, or the test."""
     condition, stand = design.condition, stand_of(design)
+    set_here = [row for row in BESIDE.values() if row.of(design) != row.default]
+    beside = [(row.heading, in_both(row, row.of(design))) for row in set_here]
     if stand is not None:
-        return [("Test stand", stand_words(stand))]
-    climb = condition.climb_speed
-    rate = f"{number(climb, 1)} m/s · {FOOT_PER_MINUTE.text(climb)}"
+        return [*beside, ("Test stand", stand_words(stand))]
     return [
-        *([("Rate of climb", rate)] if climb else []),
+        *beside,
         ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
         ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
     ]
 
 
-def conditions(solution: Solution) -> str:
+def conditions(solution: Solution) -> Markup:
     """Flight condition, rotor and models."""
     design = solution.design
     condition, rotor = design.condition, design.rotor
-    rows = [
+    rows: list[Row] = [
         ("Advance ratio µ", number(condition.advance_ratio, 3)),
         ("Airspeed", SI.airspeed(design.airspeed)),
         *_load(design),
@@ -112,30 +114,30 @@ def conditions(solution: Solution) -> str:
     return _table("Condition and model", rows)
 
 
-def parts(report: DesignReport, entry: ReportEntry) -> str:
+def parts(report: DesignReport, entry: ReportEntry) -> Markup:
     """Power by parts with shares and the change against the reference."""
     power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)
-    rows = [
-        (f'<i style="background:{PARTS[name]}"></i>{title}', _share(getattr(power, name), power.total, units))
+    rows: list[Row] = [
+        (_named(name, title), _share(getattr(power, name), power.total, units))
         for name, title in part_titles(entry.solution.design).items()
     ]
     rows += [
         ("Main rotor", units.watts(power.main_rotor, 1)),
-        ("<b>Total</b>", f"<b>{units.watts(power.total, 1)}</b>"),
+        (tag("b", "Total"), tag("b", units.watts(power.total, 1))),
     ]
     if report.comparable(entry):
         change = units.watts(power.total - report.reference.solution.power.total, 1, sign=True)
-        rows.append((f"vs. {escape(report.reference.title)}", change))
+        rows.append((f"vs. {report.reference.title}", change))
     rows.append(("Least induced, any circulation", "not settled" if ideal is None else units.watts(ideal, 1)))
-    return _table("Power", rows, raw=True)
+    return _table("Power", rows)
 
 
-def trim(solution: Solution) -> str:
+def trim(solution: Solution) -> Markup:
     """The trim and the coefficients of the rotor."""
     c = solution.controls
     stalled = [number(100 * part, 1) for part in (solution.stalled_area, solution.stalled_thrust)]
-    rows = [
+    rows: list[Row] = [
         ("Collective θ0, at 0.75 R", degrees(c.collective)),
         ("Cyclic θ1c, θ1s", f"{degrees(c.cyclic_1c)}, {degrees(c.cyclic_1s)}"),
         ("Shaft tilt α, forward", degrees(c.shaft_tilt)),
@@ -152,14 +154,31 @@ def trim(solution: Solution) -> str:
     return _table("Trim", rows)
 
 
-def vibration(solution: Solution) -> str:
+def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
+    """How sure power and its change from the reference are, and what that rests on; nothing for a free rotor."""
+    solution, other = entry.solution, report.reference.solution
+    if solution.design.models.trim == "free-rotor" or other.design.models.trim == "free-rotor":
+        return Markup()
+    band = doubt(solution, other if entry is not report.reference else None)
+    unit = report.units.power[0]
+    rows: list[Row] = [("Power", f"± {unit.text(band.band, decimals(unit.of(band.band)))}")]
+    if (percent := band.change_band_percent) is not None:
+        rows.append(("Change", f"± {number(percent, decimals(percent))} %: {band.sureness}"))
+    for row in band.rows[:MOST_ROWS]:
+        size = unit.of(abs(row.power if row.change is None else row.change))
+        name = f"{row.words} ± {row.size:g} {row.unit}".rstrip()
+        rows.append((name, f"± {number(size, decimals(size))} {unit.symbol}"))
+    return _table("How sure", rows)
+
+
+def vibration(solution: Solution) -> Markup:
     """Loads on the hub and frequencies of blades that bend; nothing for others."""
     if not solution.design.models.bending:
-        return ""
+        return Markup()
     rows: list[Row] = []
     if (frequencies := solution.blade_frequencies) is not None:
-        for name, own in vars(frequencies).items():
-            rows.append((f"Blade in {name}", f"{', '.join(number(value, 2) for value in own[:3])} per rev"))
+        for name, values in vars(frequencies).items():
+            rows.append((f"Blade in {name}", f"{', '.join(number(value, 2) for value in values[:3])} per rev"))
     if (reason := why_no_hub_loads(solution.design)) is not None:
         rows.append(("Hub loads", reason.sentence))
     elif (loads := solution.hub_loads) is not None:
@@ -171,13 +190,13 @@ def vibration(solution: Solution) -> str:
             (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
             (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
             ("Vibration index", f"{number(loads.index, 1)} {index_unit(solution.design)}"),
-            ("The same over wakes", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
+            ("The same over inflow models", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
             ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments over the radius"),
         ]
     return _table("Vibration", rows)
 
 
-def blade(design: Design) -> str:
+def blade(design: Design) -> Markup:
     """Twist, zero at 0.75 R, chord and section at given stations."""
     shape = design.rotor.blade
     stations = [shape.root_cutout, *(r for r in STATIONS if r > shape.root_cutout)]
@@ -187,58 +206,63 @@ def blade(design: Design) -> str:
     rows = [
         _row("Twist [°]", [number(angle, 2, sign=True) for angle in angles]),
         _row("Chord [m]", [number(chord, 3) for chord in chords]),
-        _row("Section", [escape(name) for name in sections], "words"),
+        _row("Section", sections, "words"),
     ]
-    head = "".join(f"<th>{number(r, 2)}</th>" for r in stations)
-    return (
-        f'<h3>Blade</h3><div class="wide blade"><table><thead><tr><th>r/R</th>{head}</tr></thead>'
-        f"<tbody>{''.join(rows)}</tbody></table></div>"
-    )
+    head = tag("tr", tag("th", "r/R"), [tag("th", number(r, 2)) for r in stations])
+    table = tag("table", tag("thead", head), tag("tbody", rows))
+    return group(tag("h3", "Blade"), tag("div.wide.blade", table))
 
 
-def _table(title: str, rows: list[Row], raw: bool = False) -> str:
-    """Two columns; `raw`: the cells are HTML already."""
-    body = "".join(
-        f"<tr><td>{name if raw else escape(name)}</td><td>{value if raw else escape(value)}</td></tr>"
-        for name, value in rows
-    )
-    return f"<div><h3>{escape(title)}</h3><table>{body}</table></div>"
+def _table(title: str, rows: Iterable[Row]) -> Markup:
+    """Two columns under a title."""
+    body = [tag("tr", tag("td", name), tag("td", value)) for name, value in rows]
+    return tag("div", tag("h3", title), tag("table", body))
 
 
-def _row(name: str, cells: list[str], kind: str = "") -> str:
-    return f'<tr class="{kind}"><td>{name}</td>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
+def _row(name: Content, cells: Iterable[Content], kind: str = "") -> Markup:
+    return tag("tr", tag("td", name), [tag("td", cell) for cell in cells], class_=kind)
 
 
-def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> str:
+def _named(part: str, title: str) -> Markup:
+    """The name of a part of the power behind its colour."""
+    return tag("i", style=f"background:{PARTS[part]}") + title
+
+
+def _below(first: str, second: str) -> Markup:
+    """A value, and a smaller line below it."""
+    return group(first, tag("br"), tag("small", second))
+
+
+def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> Content:
     """A power, and below it the difference in its unit and in per cent."""
     here, there = value(solution), value(reference)
     if solution is reference:
         return units.watts(here, 1)
     per_cent = f" · {number(100.0 * (here / there - 1.0), 1, sign=True)} %" if abs(there) > 1.0 else ""
-    return f"{units.watts(here, 1)}<br><small>{units.watts(here - there, 1, sign=True)}{per_cent}</small>"
+    return _below(units.watts(here, 1), f"{units.watts(here - there, 1, sign=True)}{per_cent}")
 
 
-def _share(part: float, total: float, units: Units) -> str:
-    return f"{units.watts(part, 1)} <small>{number(100.0 * part / total)} %</small>"
+def _share(part: float, total: float, units: Units) -> Content:
+    return units.watts(part, 1), " ", tag("small", f"{number(100.0 * part / total)} %")
 
 
-def _speed(design: Design, units: Units) -> str:
-    climb = units.climb_rate(design.condition.climb_speed)
+def _speed(design: Design, units: Units) -> Content:
+    climb = ", ".join(units.beside(design.condition))
     if design.hovering:
-        return f"hover<br><small>{climb}</small>" if climb else "hover"
+        return _below("hover", climb) if climb else "hover"
     speed = units.speed[0].text(design.airspeed) + (f", {climb}" if climb else "")
-    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{speed}</small>"
+    return _below(f"µ {number(design.condition.advance_ratio, 3)}", speed)
 
 
-def _weight(design: Design, units: Units) -> str:
+def _weight(design: Design, units: Units) -> Content:
     if (stand := stand_of(design)) is not None:
         return stand_words(stand)
     mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
-    return f"{mass}<br><small>{units.altitude.text(design.condition.altitude)}</small>"
+    return _below(mass, units.altitude.text(design.condition.altitude))
 
 
-def _model(design: Design) -> str:
-    return f"{escape(inflow_words(design))}<br><small>{escape(design.preset)}, {escape(physics_words(design))}</small>"
+def _model(design: Design) -> Markup:
+    return _below(inflow_words(design), f"{design.preset}, {physics_words(design)}")
 
 
 def _efficiency_number(solution: Solution, merit: str = "", ratio: str = "") -> str:

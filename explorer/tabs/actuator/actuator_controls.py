@@ -2,8 +2,6 @@
 
 import math
 from collections.abc import Callable, Mapping
-from html import escape
-from typing import Any
 
 import numpy as np
 import viser
@@ -17,12 +15,12 @@ from explorer.tabs.actuator.actuator_inputs import (
     CONCEPTS,
     MOST_SEGMENTS,
     ActuatorInputs,
+    Outcome,
     Question,
     drive_of,
 )
-from explorer.tabs.actuator.actuator_tasks import Outcome
+from explorer.tabs.form import Form
 from explorer.tabs.live_charts import PanelChart
-from explorer.text.glossary import hint
 from rotor.actuator import (
     Actuator,
     ExtensionTwist,
@@ -36,28 +34,31 @@ from rotor.actuator import (
 )
 from rotor.actuator.pictures import twist_comparison
 from rotor.chart import Axis, Chart, Line
+from rotor.design.quantity import Slider
+from rotor.markup import Content, Markup, tag
 from rotor.optimisation import find_concept
 
 
-def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> str:
+def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> Markup:
     """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
-    rows = "".join(_row(id, outcomes.get(id), id == question.actuator) for id in actuators())
-    titles = ("Actuator", "avail.<br>°", "kg", "net<br>kW", "verdict")
-    head = f"<tr>{''.join(f'<th>{title}</th>' for title in titles)}</tr>"
+    rows = [_row(id, outcomes.get(id), id == question.actuator) for id in actuators()]
+    titles = ("Actuator", ("avail.", tag("br"), "°"), "kg", ("net", tag("br"), "kW"), "verdict")
+    head = tag("tr", [tag("th", title) for title in titles])
     first, second = question.pair.advance_ratios
-    return (
-        f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
-        f'<div class="rx-dim rx-small">µ {first:g} ↔ {second:g}, {escape(question.host.label)}, half the time each. '
-        "▲: some data not verified. Hover over a verdict for the full text.</div></div>"
+    note = (
+        f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. "
+        "▲: some data not verified. Hover over a verdict for the full text."
     )
+    table = tag("table.rxa-table", head, rows)
+    return tag("div.rx", table, tag("div.rx-dim.rx-small", note), data_explorer="actuator-table")
 
 
-def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
+def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
     actuator = find_actuator(id)
-    care = ' <span title="some data not verified" class="rxa-bad">▲</span>' if actuator.provenance.recalled else ""
-    cells = '<td class="rx-num rx-dim" colspan="4">computing…</td>'
+    care = " ", tag("span.rxa-bad", "▲", title="some data not verified")
+    cells: Content = tag("td.rx-num.rx-dim", "computing…", colspan=4)
     if isinstance(outcome, str):
-        cells = f'<td class="rx-num rxa-bad" colspan="4" title="{escape(outcome)}">cannot be built</td>'
+        cells = tag("td.rx-num.rxa-bad", "cannot be built", colspan=4, title=outcome)
     elif outcome is not None:
         words, kind = short_verdict(outcome)
         numbers = (
@@ -65,11 +66,10 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
             number(outcome.installed.masses.aircraft),
             number(1e-3 * outcome.net_saving, 1, sign=True),
         )
-        why = escape(verdict_sentence(outcome))
-        cells = "".join(f'<td class="rx-num">{one}</td>' for one in numbers)
-        cells += f'<td class="rx-num {kind}" title="{why}">{words}</td>'
-    look = ' class="rxa-chosen"' if chosen else ""
-    return f'<tr{look}><td title="{escape(actuator.name)}">{escape(short_name(id))}{care}</td>{cells}</tr>'
+        verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
+        cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
+    name = tag("td", short_name(id), care if actuator.provenance.recalled else None, title=actuator.name)
+    return tag("tr", name, cells, class_="rxa-chosen" if chosen else None)
 
 
 def short_verdict(verdict: Verdict) -> tuple[str, str]:
@@ -88,7 +88,7 @@ def short_name(id: str) -> str:
 
 
 def actuator_titles() -> dict[str, str]:
-    """Of the menu, by id."""
+    """Titles of the menu of actuators, by id."""
     return {id: f"{short_name(id)}: {_kind(actuator)}" for id, actuator in actuators().items()}
 
 
@@ -119,12 +119,13 @@ def reach_chart(
         lines = [Line("required", r, np.degrees(required), NOW), Line("used", r, np.degrees(used), _USED, width=1.5)]
     attainable = Line("attainable", r, np.degrees(limit), BASELINE, width=1.5)
     lines = [attainable, *lines, Line("now", r, np.degrees(now), THIS)]
-    seen = [value for one in lines for value in one.y if math.isfinite(value)]
+    seen = [value for line in lines for value in line.y if math.isfinite(value)]
     y_axis = Axis("°", held_range(previous, min(0.0, *seen), max(0.2, *seen)))
     return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
 
 
 _USED = "#2f9e44"
+_DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 class ActuatorControls:
@@ -132,66 +133,58 @@ class ActuatorControls:
 
     def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None], driven: Callable[[], None]) -> None:
         """`moved`: something changed, by a hand or not. `driven`: a hand moved a voltage."""
-        self._gui, self._moved, self._driven = gui, moved, driven
-        self._handles: dict[str, Any] = {}
-        """By field of `ActuatorInputs`."""
-        self._menus: dict[str, dict[str, Any]] = {}
-        """What each title of a menu means."""
+        self._moved, self._driven = moved, driven
+        start = ActuatorInputs()
+        form = self._form = Form(gui, self._heard)
         self.verdict = gui.add_html("")
-        self._menu("actuator", "Actuator", {title: id for id, title in actuator_titles().items()})
-        self._slider("plies", "Plies per side", 1, 8, 1)
-        self._range("span", "Span [R]", 0.14, 1.0, 0.05)
-        self._drives = [
-            self._watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")), self._driven)
-            for _ in range(MOST_SEGMENTS)
-        ]
+        form.menu("actuator", "Actuator", actuator_titles())
+        form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)
+        form.span("span", "Span [R]", (0.14, 1.0), start.span, 0.05)
+        for name in _DRIVES:
+            form.slider(name, Slider("Voltage [%]", -100.0, 100.0, 1.0), 0.0, entry="voltage")
         self.bar = gui.add_html("")
         self.now = gui.add_html("")
         with gui.add_folder("Placement and blade", expand_by_default=False):
-            self._range("chord", "Chord [c]", 0.0, 0.95, 0.05, "chord_range")
-            self._menu("blade", "Blade type", BLADES, "blade_type")
-            self._slider("stiffness", "New blade GJ ×", 0.2, 1.5, 0.05)
-            self._handles["crossed"] = self._watched(gui.add_checkbox("Fibres at −45°", False, hint=hint("crossed")))
+            form.span("chord", "Chord [c]", (0.0, 0.95), start.chord, 0.05, "chord_range")
+            form.menu("blade", "Blade type", BLADES, entry="blade_type")
+            form.slider("stiffness", Slider("New blade GJ ×", 0.2, 1.5, 0.05), start.stiffness)
+            form.box("crossed", "Fibres at −45°", start.crossed)
         with gui.add_folder("Mission conditions", expand_by_default=False):
-            titles = {find_concept(name).title: name for name in CONCEPTS}
-            self._menu("concept", "Concept", titles, "actuator_concept")
-            self._range("advance_ratios", "µ from, to", 0.0, 0.4, 0.02, "pair")
-            self._menu("against", "Savings against", AGAINST)
+            titles = {name: find_concept(name).title for name in CONCEPTS}
+            form.menu("concept", "Concept", titles, entry="actuator_concept")
+            form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
+            form.menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
             self.numbers = gui.add_html("")
             self.chart = PanelChart(gui)
             self.segments = gui.add_html("")
             self.section = gui.add_html("")
             self.limits = gui.add_html("")
+        with gui.add_folder("Modes and damping", expand_by_default=False):
+            self.modes = gui.add_html("")
         with gui.add_folder("All actuators on this blade", expand_by_default=False):
             self.table = gui.add_html("")
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
-        values = {name: _read(handle.value) for name, handle in self._handles.items()}
-        values |= {name: menu[self._handles[name].value] for name, menu in self._menus.items()}
-        drives = tuple(float(handle.value) for handle in self._drives)
+        values = self._form.values()
+        drives = tuple(float(values.pop(name)) for name in _DRIVES)
         return ActuatorInputs(**values, drives=drives)
 
     def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
         """Which widgets there are, and what they are called."""
-        count = len(installed.shapes)
-        word = "Voltage" if isinstance(installed.actuator, PiezoPly) else "Drive"
-        for k, handle in enumerate(self._drives):
-            handle.visible = k < count
-            handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
-        self._handles["plies"].label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies per side"
-        passive = isinstance(installed.actuator, ExtensionTwist)
-        ply = isinstance(installed.actuator, PiezoPly)
-        seen = {
-            "plies": not passive, "span": not passive, "chord": ply, "crossed": ply,
-            "stiffness": inputs.blade == "new",
-        }  # fmt: skip
-        for name, visible in seen.items():
-            self._handles[name].visible = visible
-        self._handles["span"].label = "Span {:.2f}–{:.2f}".format(*inputs.span)
-        self._handles["chord"].label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
-        self._handles["advance_ratios"].label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
+        actuator, count, form = installed.actuator, len(installed.shapes), self._form
+        ply, passive = isinstance(actuator, PiezoPly), isinstance(actuator, ExtensionTwist)
+        word = "Voltage" if ply else "Drive"
+        for k, name in enumerate(_DRIVES):
+            form.call(name, f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]")
+        form.call("plies", "Tubes" if isinstance(actuator, TorqueTube) else "Plies per side")
+        form.show({name: k < count for k, name in enumerate(_DRIVES)})
+        form.show({"plies": not passive, "span": not passive, "chord": ply, "crossed": ply})
+        form.show({"stiffness": inputs.blade == "new"})
+        form.call("span", "Span {:.2f}–{:.2f}".format(*inputs.span))
+        form.call("chord", "Chord {:.2f}–{:.2f}".format(*inputs.chord))
+        form.call("advance_ratios", "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios))
 
     def undrive(self) -> None:
         """No voltage."""
@@ -199,8 +192,8 @@ class ActuatorControls:
 
     def other_baseline(self) -> None:
         """Count savings from the other blade."""
-        now = self._handles["against"]
-        now.value = next(title for title in AGAINST if title != now.value)
+        now = self._form["against"]
+        self._form.place("against", next(other for other in AGAINST if other != now))
 
     def drive_through(
         self,
@@ -218,45 +211,18 @@ class ActuatorControls:
         if isinstance(actuator, PiezoPly):
             wanted, shares = shares, np.asarray(voltages, dtype=float) / actuator.voltage_swing
             opposed = installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
-            self._handles["crossed"].value = opposed
+            self._form.place("crossed", opposed)
         legs = np.arange(len(shares))
         drives = [drive_of(actuator, float(np.interp(x, legs, share))) for share in shares.T]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
 
     def drive(self, drives: tuple[float, ...]) -> None:
         """Move the voltage sliders."""
-        for handle, drive in zip(self._drives, drives, strict=True):
-            handle.value = round(drive)
+        for name, drive in zip(_DRIVES, drives, strict=True):
+            self._form.place(name, round(drive))
         self._moved(False)
 
-    def _slider(self, name: str, label: str, low: float, high: float, step: float, entry: str = "") -> None:
-        """`entry`: of the glossary, where it has another name."""
-        start = getattr(ActuatorInputs(), name)
-        handle = self._gui.add_slider(label, low, high, step, start, hint=hint(entry or name))
-        self._handles[name] = self._watched(handle)
-
-    def _range(self, name: str, label: str, low: float, high: float, least: float, entry: str = "") -> None:
-        start = getattr(ActuatorInputs(), name)
-        handle = self._gui.add_multi_slider(label, low, high, 0.01, start, min_range=least, hint=hint(entry or name))
-        self._handles[name] = self._watched(handle)
-
-    def _menu(self, name: str, label: str, meanings: Mapping[str, Any], entry: str = "") -> None:
-        self._menus[name] = dict(meanings)
-        handle = self._gui.add_dropdown(label, tuple(meanings), hint=hint(entry or name))
-        self._handles[name] = self._watched(handle)
-
-    def _watched(self, handle: Any, by_hand: Callable[[], None] = lambda: None) -> Any:
-        """`by_hand`: called on top where the user moves it."""
-
-        def heard(event: Any) -> None:
-            if event.client is not None:
-                by_hand()
-            self._moved(event.client is not None)
-
-        handle.on_update(heard)
-        return handle
-
-
-def _read(value: Any) -> Any:
-    """Both ends of a range in their order; anything else as it is."""
-    return tuple(sorted(round(float(end), 4) for end in value)) if isinstance(value, tuple) else value
+    def _heard(self, name: str, by_hand: bool) -> None:
+        if by_hand and name in _DRIVES:
+            self._driven()
+        self._moved(by_hand)

@@ -1,23 +1,35 @@
-"""What is set on the Actuator tab, as a value; per cent, degrees and volts end here."""
+"""What is set on the Actuator tab, as a value, and what it asks of the worker processes.
+
+Per cent, degrees and volts end here.
+"""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import chain, pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from explorer.tabs.background import Call
 from rotor import Design, Rotor
 from rotor.actuator import (
     Actuator,
+    ActuatorFlight,
     ConditionPair,
     ExtensionTwist,
+    FlightLeg,
     Host,
     InstalledActuator,
     PiezoPly,
     Placement,
+    Verdict,
+    actuators,
     default_placement,
     find_actuator,
+    fly,
     install,
+    judge,
+    standard_flight,
 )
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, divisions_of, twisted
 from rotor.actuator.section import BladeKind
@@ -27,10 +39,10 @@ from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept
 
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
-"""Those whose divisions an actuator can be laid out for before any optimum is known."""
+"""Concepts whose divisions an actuator can be laid out for before any optimum is known."""
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
-BLADES: dict[str, BladeKind] = {"Existing blade (retrofit)": "retrofit", "New blade, softer in torsion": "new"}
-AGAINST: dict[str, Against] = {"Best fixed blade": "best-fixed", "Blade as built": "as-built"}
+BLADES: dict[BladeKind, str] = {"retrofit": "Existing blade (retrofit)", "new": "New blade, softer in torsion"}
+AGAINST: dict[Against, str] = {"best-fixed": "Best fixed blade", "as-built": "Blade as built"}
 """The blade that savings count from."""
 
 
@@ -75,14 +87,14 @@ class ActuatorInputs:
         return tuple(sign * swing_of(installed.actuator, drive) for drive in self._segments(installed))
 
     def volts(self, installed: InstalledActuator) -> tuple[float, ...]:
-        """Of each segment [V]; empty when voltage does not drive it."""
+        """Voltage of each segment [V]; empty when voltage does not drive it."""
         actuator = installed.actuator
         if not isinstance(actuator, PiezoPly):
             return ()
         return tuple(swing_of(actuator, drive) * actuator.voltage_swing for drive in self._segments(installed))
 
     def drive_shares(self, installed: InstalledActuator) -> tuple[float, ...]:
-        """Of each segment, −1…1."""
+        """Drive of each segment, −1…1."""
         return tuple(0.01 * drive for drive in self._segments(installed))
 
     def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
@@ -151,3 +163,55 @@ def concept_divisions(name: str) -> tuple[float, ...]:
     concept = find_concept(name)
     law = concept.twist([0.5 * (p.low + p.high) for p in concept.parameters])
     return divisions_of(law, len(concept.parameters))
+
+
+Outcome = Verdict | str
+"""A verdict, or the sentence that says why there is none."""
+
+
+def verdict_on(question: Question) -> Verdict:
+    """The verdict on the actuator asked about; ValueError or RuntimeError with a sentence where there is none."""
+    return judge(
+        find_actuator(question.actuator),
+        question.pair,
+        find_concept(question.concept),
+        question.placement,
+        question.host,
+        against=question.against,
+    )
+
+
+def lean_verdict(question: Question) -> Verdict:
+    """A verdict, its trims with their disks left behind: a few kilobytes for three megabytes."""
+    verdict = verdict_on(question)
+    base = verdict.baseline
+    first, second = (replace(best, solutions=()) for best in base.best)
+    base = replace(base, best=(first, second), fixed=replace(base.fixed, solutions=()))
+    resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
+    return replace(verdict, baseline=base, resting=resting, optimum=optimum)
+
+
+def verdict_tasks(question: Question) -> dict[str, Call]:
+    """By actuator: the chosen one first, then all others."""
+    ids = dict.fromkeys((question.actuator, *actuators()))
+    return {id: Call(lean_verdict, (replace(question, actuator=id),)) for id in ids}
+
+
+def flight_of(verdict: Verdict) -> ActuatorFlight:
+    """The flight of a judged actuator."""
+    return fly(verdict, flight_legs(verdict.baseline.pair.design))
+
+
+@lru_cache(maxsize=8)
+def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
+    """The standard flight of a design, with a leg half way between any two."""
+    legs = standard_flight(design)
+    halves = [
+        FlightLeg(
+            f"{a.name} to {b.name}",
+            0.5 * (a.advance_ratio + b.advance_ratio),
+            0.5 * (a.climb_speed + b.climb_speed),
+        )
+        for a, b in pairwise(legs)
+    ]
+    return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])

@@ -2,15 +2,22 @@
 
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.actuator_tasks import Call, Outcome, PoolAnswers, flight_of, verdict_tasks
+from explorer.tabs.actuator.actuator_inputs import (
+    ActuatorInputs,
+    Outcome,
+    Question,
+    flight_of,
+    question_of,
+    verdict_tasks,
+)
 from explorer.tabs.actuator.flight_bar import FlightBar
 from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture
 from explorer.tabs.actuator.pay_panel import PayPanel
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
 from rotor import Design, Solution
-from rotor.actuator import InstalledActuator, Verdict
+from rotor.actuator import InstalledActuator, Verdict, actuator_stability
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
 
@@ -40,6 +47,8 @@ class ActuatorPanel:
         self._drawn: tuple[object, ...] | None = None
         self._before: tuple[object, ...] = ()
         self._flights = PoolAnswers(context.pool, 4, context.wake)
+        self._modes = PoolAnswers(context.pool, 6, context.wake)
+        """Modes of the blade with the actuator and without, worked out behind all else."""
         self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
         self._flight_bar = FlightBar(context, self._controls)
         context.bridge.on("against", lambda _: self._controls.other_baseline())
@@ -50,6 +59,7 @@ class ActuatorPanel:
         """The browser has left."""
         self._verdicts.stop()
         self._flights.stop()
+        self._modes.stop()
         self._blade.stop()
         self._pay.stop()
 
@@ -94,6 +104,7 @@ class ActuatorPanel:
             self._blade.release(self._radius)
             self._drawn = None
             self.show_problem(str(error))
+            self._pay.refresh(None, None)
             return
         self._controls.arrange(inputs, installed)
         alone = self._undriven.solve(design) if inputs.driven else None
@@ -104,7 +115,7 @@ class ActuatorPanel:
         tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
         self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._pay.show(question.pair, self._show_verdict(inputs, installed, question, design))
+        self._pay.refresh(question.pair, self._show_verdict(inputs, installed, question, design))
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
@@ -125,6 +136,9 @@ class ActuatorPanel:
         places.numbers.content = words.fit_panel(installed, verdict)
         places.segments.content = words.segments_panel(installed, verdict)
         places.limits.content = words.limits_panel(verdict)
+        modes = None if verdict is None else Call(actuator_stability, (installed, design))
+        self._modes.ask(() if modes is None else (modes,), _IDLE)
+        places.modes.content = words.modes_panel(self._modes.answer(modes) if modes is not None else None)
         places.table.content = table_panel(outcomes, question)
         task = None if verdict is None else Call(flight_of, (verdict,))
         self._flights.ask(() if task is None else (task,), 0.0)

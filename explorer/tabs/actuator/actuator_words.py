@@ -3,19 +3,18 @@
 import math
 from collections.abc import Iterable
 from functools import lru_cache
-from html import escape
 
 import numpy as np
 
-from explorer.charts.svg import line, polygon
+from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.units import number
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
-from explorer.tabs.actuator.actuator_tasks import Outcome
+from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Outcome
 from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
 from rotor import Solution
 from rotor.actuator import (
     Actuator,
+    ActuatorStability,
     ExtensionTwist,
     InstalledActuator,
     PiezoPly,
@@ -25,6 +24,8 @@ from rotor.actuator import (
 )
 from rotor.actuator.limits import Limit
 from rotor.actuator.pictures import Part, section_picture
+from rotor.markup import Attribute, Content, Markup, group, tag
+from rotor.trim.stability import DampedMode
 from rotor.units import typographic
 
 _NONE = "–"
@@ -32,46 +33,38 @@ _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 """The outer numbers stay within the bar."""
 
 
-def voltage_bar(actuator: Actuator) -> str:
+def voltage_bar(actuator: Actuator) -> Markup:
     """The colours of the plies: both sides of the voltage range, each to its own end."""
     low, high, unit = -100.0, 100.0, "%"
     if isinstance(actuator, PiezoPly):
         low, high, unit = *actuator.voltage_range, "V"
     stops = ",".join(css(drive_colour(k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
-    ticks = "".join(
-        f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'
-        f"{number(value)}{' ' + unit if at == 100.0 else ''}</span>"
-        for at, value in marks
-    )
-    return (
-        '<div class="rx rx-scale" data-explorer="voltage-bar">'
-        f'<div class="rx-gradient" style="background:linear-gradient(90deg,{stops})"></div>'
-        f'<div class="rx-ticks">{ticks}</div></div>'
-    )
+    ticks: list[Markup] = []
+    for at, value in marks:
+        place = f"left:{at:g}%"
+        words = f"{number(value)} {unit}" if at == 100.0 else number(value)
+        ticks.append(tag("i", style=place))
+        ticks.append(tag("span", words, style=f"{place}{_SHIFT.get(at, '')};white-space:nowrap"))
+    colours = tag("div.rx-gradient", style=f"background:linear-gradient(90deg,{stops})")
+    return tag("div.rx.rx-scale", colours, tag("div.rx-ticks", ticks), data_explorer="voltage-bar")
 
 
-def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: Solution) -> str:
+def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: Solution) -> Markup:
     """What the sliders make of the blade at this moment. `solution` with the actuator."""
     tip = math.degrees(inputs.tip(installed, solution.design))
     drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
     words = f"tip twist at {drives}" if inputs.driven else "tip twist, at rest"
-    return (
-        '<div class="rx" data-explorer="actuator-now"><div class="rxa-now">'
-        f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b><span class="rx-dim">{words}</span>'
-        "</div></div>"
-    )
+    twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
+    return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words)), data_explorer="actuator-now")
 
 
-def named_lines(entries: Iterable[tuple[str, str]]) -> str:
-    """Names with their values, one a line; as HTML."""
-    return "".join(
-        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for name, value in entries
-    )
+def named_lines(entries: Iterable[tuple[str, str]]) -> Markup:
+    """Names with their values, one a line."""
+    return group(tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value)) for name, value in entries)
 
 
-def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> str:
+def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
     masses = installed.masses
     entries = [
@@ -84,45 +77,43 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> str:
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]
-    return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{named_lines(entries)}</div>'
+    return tag("div.rx.rx-grid", named_lines(entries), data_explorer="actuator-numbers")
 
 
-def verdict_panel(outcome: Outcome | None, before: Verdict | None = None) -> str:
+def verdict_panel(outcome: Outcome | None, before: Verdict | None = None) -> Markup:
     """The verdict in one line, and what it rests on folded; on its way, the one before; or why there is none."""
     if isinstance(outcome, str):
-        return _box("wrong", "problem", escape(outcome))
+        return _box("wrong", "problem", outcome)
     shown = outcome or before
     if shown is None:
-        return _box("wait", "computing", "<b>Computing what the actuator saves and what it costs…</b>")
-    name = escape(shown.installed.actuator.name)
-    why = f"<details><summary>{name}: reach and limits</summary>{escape(verdict_details(shown))}</details>"
-    text = f"<b>{escape(verdict_sentence(shown))}</b>{why}"
+        return _box("wait", "computing", tag("b", "Computing what the actuator saves and what it costs…"))
+    title = tag("summary", f"{shown.installed.actuator.name}: reach and limits")
+    words = tag("b", verdict_sentence(shown)) + tag("details", title, verdict_details(shown))
     if outcome is None:
-        return _box("wait", "computing", f'<div class="rx-faded">{text}</div><small>computing…</small>')
-    return _box("yes" if shown.pays else "no", "ready", text)
+        return _box("wait", "computing", tag("div.rx-faded", words), tag("small", "computing…"))
+    return _box("yes" if shown.pays else "no", "ready", words)
 
 
-def _box(look: str, kind: str, text: str) -> str:
-    return f'<div class="rxa-box rxa-{look}" data-explorer="verdict" data-kind="{kind}">{text}</div>'
+def _box(look: str, kind: str, *content: Content) -> Markup:
+    return tag(f"div.rxa-box.rxa-{look}", *content, data_explorer="verdict", data_kind=kind)
 
 
-def segments_panel(installed: InstalledActuator, verdict: Verdict | None) -> str:
+def segments_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     """Bars: what each segment can make, with a mark where the optimum asks for it."""
     if isinstance(installed.actuator, ExtensionTwist) and verdict is None:
-        return ""
+        return Markup()
     can = np.degrees(installed.segment_twists)
     need = None if verdict is None else np.degrees(np.abs(verdict.required_segments))
     largest = max(float(can.max()), 0.0 if need is None else float(need.max()), 0.1) * 1.05
-    rows: list[str] = []
+    rows: list[Markup] = []
     for k, each in enumerate(can):
-        mark = "" if need is None else f'<b style="left:{100 * need[k] / largest:.1f}%"></b>'
+        mark = None if need is None else tag("b", style=f"left:{100 * need[k] / largest:.1f}%")
         asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
-        rows.append(
-            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / available'}</span>"
-            f'<span class="rxa-track"><i style="width:{100 * each / largest:.1f}%;background:#1c7ed6"></i>{mark}</span>'
-            f'<span class="rx-num">{asked} / {number(float(each), 1)}°</span>'
-        )
-    return f'<div class="rx rxa-bars" data-explorer="segments">{"".join(rows)}</div>'
+        filled = tag("i", style=f"width:{100 * each / largest:.1f}%;background:#1c7ed6")
+        rows.append(tag("span", f"Segment {k + 1}" if len(can) > 1 else "Required / available"))
+        rows.append(tag("span.rxa-track", filled, mark))
+        rows.append(tag("span.rx-num", f"{asked} / {number(float(each), 1)}°"))
+    return tag("div.rx.rxa-bars", rows, data_explorer="segments")
 
 
 def limit_words(name: str) -> str:
@@ -130,20 +121,44 @@ def limit_words(name: str) -> str:
     return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
 
 
-def limits_panel(verdict: Verdict | None) -> str:
-    """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
+def limits_panel(verdict: Verdict | None) -> Markup:
+    """Every limit: those broken and flutter with their sentence, the others by name, and the data to be wary of."""
     if verdict is None:
-        return ""
-    broken = "".join(_limit(limit) for limit in verdict.broken)
-    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
-    good = f'<div><span class="rx-good">✓</span><span class="rx-dim">met: {escape(kept)}</span></div>' if kept else ""
-    cares = "".join(f'<div class="rx-care"><span>▲</span><span>{escape(text)}</span></div>' for text in verdict.caveats)
-    return f'<div class="rx rxa-limits" data-explorer="limits">{broken}{good}{cares}</div>'
+        return Markup()
+    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok and limit.name != "flutter")
+    good = tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
+    flutter = [_limit(limit) for limit in verdict.limits if limit.ok and limit.name == "flutter"]
+    cares = [tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats]
+    return tag("div.rx.rxa-limits", map(_limit, verdict.broken), good, flutter, cares, data_explorer="limits")
 
 
-def _limit(limit: Limit) -> str:
-    name = escape(limit_words(limit.name))
-    return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(typographic(limit.sentence))}</span></div>'
+def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
+    """Frequency and damping of each mode of the blade as it is and with the actuator, and the margins in words; or why
+    there are none."""
+    if outcome is None or isinstance(outcome, str):
+        return tag("div.rx.rx-dim.rx-small", outcome or "computing…", data_explorer="modes")
+    blades = {"as it is": outcome.without, "with actuator": outcome.fitted}
+    head = tag("tr", tag("th", "Mode"), [tag("th", name) for name in blades])
+    rows = [
+        tag("tr", tag("td", name), [tag("td.rx-num", _mode_words(blade.mode(name))) for blade in blades.values()])
+        for name in (mode.name for mode in outcome.without.modes)
+    ]
+    sentences = [
+        tag("div.rx-small", tag("b", name.capitalize()), f": {typographic(blade.margins.sentence)}")
+        for name, blade in outcome.cases.items()
+        if blade.margins is not None
+    ]
+    note = tag("div.rx-dim.rx-small", "Per cent of critical damping, in this flight; linear, quasi-steady air.")
+    return tag("div.rx", tag("table.rxa-table", head, rows), sentences, note, data_explorer="modes")
+
+
+def _mode_words(mode: DampedMode) -> str:
+    return f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %"
+
+
+def _limit(limit: Limit) -> Markup:
+    sentence = tag("span", tag("b", limit_words(limit.name)), f" {typographic(limit.sentence)}")
+    return tag("div", tag("span.rx-good", "✓") if limit.ok else tag("span.rxa-bad", "✕"), sentence)
 
 
 def _kw(power: float | None) -> str:
@@ -158,56 +173,53 @@ _GAP = 0.2
 
 
 @lru_cache(maxsize=32)
-def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> str:
+def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> Markup:
     """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
     middle = len(shares) // 2
     share = shares[middle]
     picture = section_picture(installed, exaggerate=1.6)
     scale = (_WIDTH - 12.0) / picture.chord
-    looks = {
-        "spar": 'fill="#5c6b80"',
-        "skin": 'fill="#9aa3ad"',
-        "web": 'fill="#3f4b5c"',
-        "outline": 'fill="rgba(128,128,128,.14)" stroke="currentColor" stroke-width=".7"',
-        "tube": f'fill="{css(drive_colour(share))}" stroke="currentColor" stroke-width=".6"',
+    looks: dict[str, dict[str, Attribute]] = {
+        "spar": {"fill": "#5c6b80"},
+        "skin": {"fill": "#9aa3ad"},
+        "web": {"fill": "#3f4b5c"},
+        "outline": {"fill": "rgba(128,128,128,.14)", "stroke": "currentColor", "stroke_width": 0.7},
+        "tube": {"fill": css(drive_colour(share)), "stroke": "currentColor", "stroke_width": 0.6},
     }
     marks = [
         _ply(part, scale, share)
         if part.role == "ply"
-        else polygon(((6.0 + scale * y, _MIDDLE - scale * z) for y, z in part.points), looks[part.role])
+        else polygon(((6.0 + scale * y, _MIDDLE - scale * z) for y, z in part.points), **looks[part.role])
         for part in picture.parts
     ]
-    return (
-        f'<div class="rx" data-explorer="section"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
-        f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(installed)}</svg>'
-        f'<div class="rx-dim rx-small">{escape(_caption(installed, middle + 1))}</div></div>'
-    )
+    box, label = f"0 0 {_WIDTH:g} {_HEIGHT:g}", "Section of the blade with its plies"
+    drawn = tag("svg", marks, _scale(installed), viewBox=box, width="100%", role="img", aria_label=label)
+    return tag("div.rx", drawn, tag("div.rx-dim.rx-small", _caption(installed, middle + 1)), data_explorer="section")
 
 
-def _ply(part: Part, scale: float, share: float) -> str:
+def _ply(part: Part, scale: float, share: float) -> Markup:
     """A band outside the contour along the ply's own line."""
     along = part.points[: len(part.points) // 2] * scale
     upper = "upper" in part.label.rsplit(",", 1)[-1]
     offset = (_GAP + 0.5 * _PLY) * (1.0 if upper else -1.0)
     points = " ".join(f"{6.0 + x:.1f},{_MIDDLE - y - offset:.1f}" for x, y in along)
-    return (
-        f'<polyline class="rx-ply" points="{points}" fill="none" stroke="currentColor" stroke-width="{_PLY + 1.2:g}"/>'
-        f'<polyline points="{points}" fill="none" stroke="{css(drive_colour(share))}" stroke-width="{_PLY:g}"/>'
+    return group(
+        tag("polyline.rx-ply", points=points, fill="none", stroke="currentColor", stroke_width=_PLY + 1.2),
+        tag("polyline", points=points, fill="none", stroke=css(drive_colour(share)), stroke_width=_PLY),
     )
 
 
-def _scale(installed: InstalledActuator) -> str:
+def _scale(installed: InstalledActuator) -> Markup:
     front, rear = installed.placement.chord
     ends = (0.0, front, rear, 1.0) if isinstance(installed.actuator, PiezoPly) else (0.0, 1.0)
-    marks = []
+    marks: list[Markup] = []
     for end in ends:
         x = 6.0 + (_WIDTH - 12.0) * end
         marks.append(line((x, 76.0), (x, 80.0), width=0.8))
         place = "start" if end < 0.03 else "end" if end > 0.97 else "middle"
         if not (0.0 < end < 0.08 or 0.9 < end < 1.0):
-            look = f'font-size="12.5" fill="currentColor" text-anchor="{place}"'
-            marks.append(f'<text x="{x:.1f}" y="90" {look}>{end:g} c</text>')
-    return "".join(marks) + line((6.0, 78.0), (_WIDTH - 6.0, 78.0), width=0.5)
+            marks.append(text(x, 90.0, f"{end:g} c", 12.5, anchor=place))
+    return group(marks, line((6.0, 78.0), (_WIDTH - 6.0, 78.0), width=0.5))
 
 
 def _caption(installed: InstalledActuator, segment: int) -> str:

@@ -3,28 +3,36 @@
 `explorer/web/flight.js` draws both; the bar sets the flight condition by the inputs of the sliders, and the voltages.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from explorer.model.inputs import Inputs
-from explorer.model.units import Units
+from explorer.model.units import Units, number
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_tasks import flight_legs
+from explorer.tabs.actuator.actuator_inputs import flight_legs
 from explorer.tabs.context import TabContext
+from explorer.tabs.layout import by_hand
+from explorer.text.glossary import hint
 from explorer.text.readout import balance, fuel_used, fuel_words, pair_words, signed
 from rotor import Design
 from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict, verdict_sentence
 from rotor.actuator.verdict import reference
-from rotor.chart import round_ticks
+from rotor.arrays import Array
+from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
 
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
-_LEAST = math.radians(1.5)
-"""Least height of the chart either way [rad]: with little twist the curves do not fill it."""
+_LEAST = 1.5
+"""Least height of the chart either way [°]: with little twist the curves do not fill it."""
+_SHORT = 0.15
+"""What is wanted beyond reach [°] and not worth a word."""
+_WHOLE = 10.0
+"""A net power from here on, in its unit, is shown without decimals: models do not agree to a tenth."""
+_GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
 
 
 def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
@@ -49,7 +57,7 @@ def flight_state(
     units: Units,
     problem: str = "",
 ) -> dict[str, Any]:
-    """What the page draws the tip twist from: angles in degrees, powers in the main unit.
+    """What the page draws the tip twist from: a chart of degrees over the legs, powers in the main unit.
 
     `known`: the flight is that of the present question, else one before.
     """
@@ -60,20 +68,51 @@ def flight_state(
         "kind": "ready" if known and flight else "problem" if problem else "computing",
         "words": problem or ("computing…" if not known else ""),
         "unit": unit.symbol,
+        "chart": as_json(flight_chart(flight, (len(legs) - 1) / HALVES)),
     }
+    if flight is not None:
+        state["net"] = [round(unit.of(float(net)), 2) for net in flight.net_saving]
+    return state
+
+
+def flight_chart(flight: ActuatorFlight | None, last: float) -> Chart:
+    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach; green where flown at a gain."""
+    series: list[Series] = []
     low, high = -_LEAST, _LEAST
     if flight is not None:
-        curves = np.concatenate((flight.wanted, flight.reached, flight.reach))
+        wanted, reached, reach = (np.degrees(angles) for angles in (flight.wanted, flight.reached, flight.reach))
+        curves = np.concatenate((wanted, reached, reach))
         low, high = min(low, float(curves.min())), max(high, float(curves.max()))
-        state |= {
-            "wanted": _degrees(flight.wanted),
-            "reached": _degrees(flight.reached),
-            "reach": _degrees(flight.reach),
-            "net": [round(unit.of(float(net)), 2) for net in flight.net_saving],
-        }
+        at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
+        for a, b, gains in _stretches(at, flight.net_saving):
+            series.append(Band("", (a, b), (reach[0],) * 2, (reach[1],) * 2, _GAIN if gains else "var(--rx-dim)"))
+        above = bool(wanted[-1] > reached[-1])
+        series += [
+            Band("", at, held, wanted, _LOSS),
+            Line("reached", at, reached, "var(--rx-accent)", width=4.0),
+            Line("wanted", at, wanted, "var(--rx-ink)"),
+            _named("wanted", last, wanted[-1], "var(--rx-ink)", above),
+            _named("reached", last, reached[-1], "var(--rx-accent)", not above),
+            _named("within reach", 0.0, reach[1], "var(--rx-dim)", above=False),
+        ]
+        worst = int(np.argmax(np.abs(wanted - held)))
+        if (short := abs(float(wanted[worst] - held[worst]))) > _SHORT:
+            words = f"short by {number(short, 1)}°"
+            series.append(_named(words, at[worst], 0.5 * (wanted[worst] + held[worst]), "var(--rxa-loss)", above=False))
     margin = 0.06 * (high - low)
-    ends = math.degrees(low - margin), math.degrees(high + margin)
-    return state | {"range": [round(end, 3) for end in ends], "ticks": round_ticks(*ends, 4)}
+    return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
+
+
+def _stretches(at: Array, net: Array) -> list[tuple[float, float, bool]]:
+    """Where the flight gains and where it does not, from place to place."""
+    changes = [k for k in range(len(at) - 1) if (net[k] > 0.0) != (net[k + 1] > 0.0)]
+    ends = [at[0], *(at[k] + (at[k + 1] - at[k]) * net[k] / (net[k] - net[k + 1]) for k in changes), at[-1]]
+    return [(a, b, bool(np.interp(0.5 * (a + b), at, net) > 0.0)) for a, b in pairwise(ends)]
+
+
+def _named(name: str, x: float, y: float, colour: str, above: bool) -> Points:
+    """A name alone, at a place of the chart."""
+    return Points("", (x,), (y,), colour, size=0.0, names=(name,), beside="above" if above else "below")
 
 
 def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
@@ -81,10 +120,6 @@ def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
         return "0 kt" if units.speed[0].symbol == "kt" else "µ 0"
     speed = units.speed[0].text(leg.advance_ratio * tip_speed)
     return f"{speed}, {units.climb.text(leg.climb_speed, 1, sign=True)}" if leg.climb_speed else speed
-
-
-def _degrees(angles: Any) -> list[float]:
-    return [round(math.degrees(float(angle)), 3) for angle in angles]
 
 
 def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> dict[str, Any]:
@@ -106,7 +141,8 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
         "fuel": fuel_words(verdict),
         "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         "fuel_note": " ".join(text for text in verdict.caveats if "uel" in text),
-        "net": f"{signed(net, units)} {unit.symbol}",
+        "net": unit.text(abs(net), 0 if abs(unit.of(net)) >= _WHOLE else 1),
+        "net_words": "more power needed" if net < 0.0 else "less power needed",
         "net_kind": "loss" if net < 0.0 else "gain",
         "sentence": verdict_sentence(verdict),
     }
@@ -130,6 +166,9 @@ class FlightBar:
         self._installed: InstalledActuator | None = None
         self._flown: float | None = None
         """Where on the bar the voltages follow the flight; None where a hand set them."""
+        self._stopped = context.gui.add_checkbox("Actuator stops here", False, hint=hint("stops_here"))
+        """While it is set, voltages stay as they are and the flight goes on."""
+        by_hand(self._stopped, lambda _: self._follow())
         context.bridge.on("fly", self._fly)
 
     def show(
@@ -164,6 +203,7 @@ class FlightBar:
         self._context.bridge.set(flight=None, earns=None)
         if self._flown is not None:
             self.leave_to_hand()
+            self._stopped.value = False
             self._controls.undrive()
 
     def leave_to_hand(self) -> None:
@@ -178,8 +218,14 @@ class FlightBar:
         self._drive(self._flown)
         self._context.drag_to(replace(self._context.inputs(), advance_ratio=mu, climb_m_s=climb))
 
+    def _follow(self) -> None:
+        """Work again, where the flight is now."""
+        if self._flown is not None:
+            self._drive(self._flown)
+            self._context.wake()
+
     def _drive(self, x: float) -> None:
-        """Voltages as the flight has them there."""
+        """Voltages as the flight has them there, unless the actuator has stopped."""
         flight, installed = self._flight, self._installed
-        if flight is not None and installed is not None and flight.swings:
+        if not self._stopped.value and flight is not None and installed is not None and flight.swings:
             self._controls.drive_through(installed, flight.swings, flight.voltages, HALVES * x)

@@ -54,7 +54,7 @@ class LiftedBlade:
     rings: Array
     """Section outlines from the upper trailing edge over the nose, (stations, points, 2)."""
     r: Array
-    """Of the rings."""
+    """Radii of the rings."""
     box: tuple[float, float]
     """Where the electronics sit, r/R."""
     radius: float
@@ -67,8 +67,8 @@ class LiftedBlade:
     def spans(self) -> list[tuple[float, float]]:
         """Driven stretches, root to tip."""
         numbers = sorted({part.segment for part in self.parts if part.segment >= 0})
-        own = [[part.r for part in self.parts if part.segment == number] for number in numbers]
-        return [(min(float(r[0]) for r in each), max(float(r[-1]) for r in each)) for each in own]
+        stations = [[part.r for part in self.parts if part.segment == number] for number in numbers]
+        return [(min(float(r[0]) for r in each), max(float(r[-1]) for r in each)) for each in stations]
 
 
 @lru_cache(maxsize=8)
@@ -306,7 +306,7 @@ _AROUND, _ABOVE = math.radians(62.0), math.radians(15.0)
 _NEARER, _RISING, _ROLLED = math.radians(27.0), math.radians(2.0), math.radians(18.0)
 """The lifted blade: its tip towards the viewer, its tip up, its upper side towards the viewer."""
 _FROM_HUB = (-1.55, -1.55, 7.0)
-"""Of the lifted blade, in radii: right, up and towards the viewer."""
+"""Place of the lifted blade from the hub, in radii: right, up and towards the viewer."""
 _MARGIN = 0.96
 
 
@@ -327,7 +327,7 @@ def lifted_pose(radius: float) -> Pose:
 
 
 def fit_lifted(radius: float, aspect: float) -> Camera:
-    """As near to the lifted blade as it allows, root at the far left, tip at the near right; the helicopter beyond."""
+    """The nearest view of the lifted blade: root at the far left, tip at the near right, the helicopter beyond."""
     pose = lifted_pose(radius)
     ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
     box = np.array(

@@ -44,7 +44,7 @@ SURFACES = {
     "laminate": Surface((90, 84, 60), 0.5),
 }
 EDGE: Rgb = (178, 20, 6)
-"""Of the lifted blade: that of the reference blade."""
+"""Colour of the lifted blade's edge, as of the reference blade."""
 GHOST: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
 FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
@@ -97,8 +97,8 @@ def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwis
     r, design = solution.disk.r, solution.design
     at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
     moved = driven[:, at] - alone[:, at] + design.twist(r) - undriven.design.twist(r)
-    given = [np.zeros(len(r)) if one is None else one(r, np.array([psi]))[:, 0]
-             for one in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
+    given = [np.zeros(len(r)) if active is None else active(r, np.array([psi]))[:, 0]
+             for active in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
     moved = moved + given[0] - given[1]
     return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
 
@@ -170,14 +170,14 @@ def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
 
 
 def drive_colour(share: float) -> Rgb:
-    """Of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
+    """Colour of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
     colour, strength = glow(share)
     return mixed(SURFACES["ply"].colour, colour, strength)
 
 
-def mixed(one: Rgb, other: Rgb, share: float) -> Rgb:
+def mixed(rgb: Rgb, other: Rgb, share: float) -> Rgb:
     """A colour on the way from one to another."""
-    red, green, blue = (round(a + (b - a) * share) for a, b in zip(one, other, strict=True))
+    red, green, blue = (round(a + (b - a) * share) for a, b in zip(rgb, other, strict=True))
     return red, green, blue
 
 

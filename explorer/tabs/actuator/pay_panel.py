@@ -4,26 +4,33 @@ Worked out in the background when asked for, and kept until the design or the fl
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from explorer.model.units import number
-from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers
+from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import hint
+from explorer.workers.pool import JobEnded, JobEvent, JobProgress
 from rotor.actuator import BreakEven, ConditionPair, PaySearch, Verdict, break_even, pay_sentence, what_would_pay
 from rotor.actuator.pay import Candidate, search_sentence
 from rotor.chart import Axis, Band, Chart, Line, Points, Series
 from rotor.markup import Markup, tag
+from rotor.processes import Stop, Tell
 
 _LIMIT = 300.0
-"""Of a search [s], which takes ten on an idle machine."""
+"""Longest time of a search [s], which takes ten on an idle machine."""
 _KEPT_SPACE = "\u00a0"
 _SHOWN = 5
 """Builds in the table."""
 _START = "How far an actuator must twist this blade, and how light it must be, before it saves more than it costs."
+_URGENCY = 4
+"""Asked for by hand, so before the verdicts on the other actuators."""
+_NO_BLADE = "This blade carries no actuator, as the sentence above says: choose the UH-60A, or change the build."
 _COMPUTING = "Trimming the break-even line, then material, layers, span and stiffness…"
 
 
@@ -46,49 +53,62 @@ def pay_answer(pair: ConditionPair, builds: bool) -> PayAnswer:
     return PayAnswer(search.even, said, search.candidates[:_SHOWN])
 
 
-def pay_tasks(pair: ConditionPair) -> tuple[Call, Call]:
-    """The line alone, which comes first, and all of the answer."""
-    return Call(pay_answer, (pair, False)), Call(pay_answer, (pair, True))
+@dataclass(frozen=True)
+class PayTask:
+    """Reports the line, then searches the builds; its result is a sentence where there is no answer."""
+
+    pair: ConditionPair
+
+    def run(self, tell: Tell, stop: Stop) -> PayAnswer | str:
+        del stop  # Ten seconds.
+        try:
+            tell(pay_answer(self.pair, builds=False))
+            return pay_answer(self.pair, builds=True)
+        except (ValueError, RuntimeError) as error:
+            return str(error)
 
 
-class PayPanel:
+class PayPanel(BackgroundWork):
     """One client's, where the context stands."""
 
     def __init__(self, context: TabContext) -> None:
-        # Asked for by hand, so before the verdicts on the other actuators.
-        self._answers = PoolAnswers(context.pool, 4, context.wake, _LIMIT)
+        super().__init__(context.pool, context.wake, _LIMIT, _URGENCY, restarts=True)
+        self._pair: ConditionPair | None = None
+        """Conditions of the design on the sliders; None where it carries no actuator."""
         self._asked: ConditionPair | None = None
-        self._wanted = False
-        self._context = context
+        self._answer: PayAnswer | None = None
+        """To what was asked last."""
+        self.line = _START
         with context.gui.add_folder("What would pay"):
-            self._button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
-            self._html = context.gui.add_html(str(_small("start", _START, ".rx-dim")))
-        self._button.on_click(lambda _: self._ask())
+            button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
+            self._html = context.gui.add_html("")
+        button.on_click(lambda _: self.begin())
+        self.refresh(None, None)
 
-    def show(self, pair: ConditionPair, verdict: Verdict | None) -> None:
+    def prepare(self) -> tuple[PayTask, Callable[[JobEvent], None], str]:
+        """The search for the pair of conditions that is shown."""
+        if self._pair is None:
+            raise ValueError(_NO_BLADE)
+        self._asked, self._answer = self._pair, None
+        return PayTask(self._pair), partial(self._hear, self._pair), _COMPUTING
+
+    def refresh(self, pair: ConditionPair | None, verdict: Verdict | None) -> None:
         """Follow the design; `verdict` on its actuator, once there is one."""
-        if self._wanted:
-            self._wanted, self._asked = False, pair
-            self._answers.ask(pay_tasks(pair), 0.0)
-        asked = self._asked
-        if asked is None:
+        self._pair = pair
+        if self._answer is not None:
+            self._html.content = pay_panel(self._answer, verdict, stale=self._asked != pair)
             return
-        line_alone, answer = (self._answers.answer(task) for task in pay_tasks(asked))
-        if not isinstance(answer, PayAnswer):
-            answer = line_alone or answer
-        if isinstance(answer, PayAnswer):
-            self._html.content = pay_panel(answer, verdict, stale=asked != pair)
-        else:
-            self._html.content = _small("computing" if answer is None else "problem", answer or _COMPUTING)
+        kind = "computing" if self.running else "start" if self.line == _START else "problem"
+        self._html.content = _small(kind, self.line, ".rx-dim" if kind == "start" else "")
 
-    def stop(self) -> None:
-        """The browser has left."""
-        self._answers.stop()
-
-    def _ask(self) -> None:
-        """On a thread of viser's: the question is put when the design is known, by `show`."""
-        self._wanted = True
-        self._context.wake()
+    def _hear(self, pair: ConditionPair, news: JobEvent) -> None:
+        if pair is not self._asked:
+            return  # Of the search before.
+        match news:
+            case JobProgress(PayAnswer() as answer) | JobEnded(PayAnswer() as answer):
+                self._answer = answer
+            case _:
+                self._ended_without(news)
 
 
 def _small(kind: str, text: str, look: str = "") -> Markup:
@@ -108,7 +128,7 @@ def pay_panel(answer: PayAnswer, verdict: Verdict | None, *, stale: bool = False
         "div.rx.rx-small.rx-faded" if stale else "div.rx.rx-small",
         tag("div.rx-dim", earlier) if stale else None,
         tag("b", lead),
-        [tag("div", one) for one in more],
+        [tag("div", sentence) for sentence in more],
         charts,
         _table(answer.builds),
         data_explorer="pay",
@@ -120,15 +140,15 @@ def _table(builds: tuple[Candidate, ...]) -> Markup | None:
     if not builds:
         return None
     rows = list[Markup]()
-    for one in builds:
-        cells = (math.degrees(one.installed.attainable), 1), (one.mass, 0), (100.0 * one.earned, 0)
-        name = one.name.replace(" × ", _KEPT_SPACE.join(("", "×", ""))).replace(" R", f"{_KEPT_SPACE}R")
-        net = one.estimate.net
+    for build in builds:
+        cells = (math.degrees(build.installed.attainable), 1), (build.mass, 0), (100.0 * build.earned, 0)
+        name = build.name.replace(" × ", _KEPT_SPACE.join(("", "×", ""))).replace(" R", f"{_KEPT_SPACE}R")
+        net = build.estimate.net
         numbers = [tag("td", number(value, places)) for value, places in cells]
         last = tag("td.rx-less" if net > 0.0 else "td.rxa-bad", number(1e-3 * net, 1, sign=True))
         rows.append(tag("tr", tag("td", name), numbers, last))
     heads = ("nearest builds", "°", "kg", ("earns", tag("br"), "%"), ("net", tag("br"), "kW"))
-    head = tag("tr", [tag("th", one) for one in heads])
+    head = tag("tr", [tag("th", head) for head in heads])
     return tag("table.rxa-table.rxa-pay", head, rows, data_explorer="pay-builds")
 
 
@@ -146,12 +166,12 @@ def mass_chart(even: BreakEven, verdict: Verdict | None) -> Chart:
     x_most = 1.08 * math.degrees(float(even.twists[-1]))
     y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 2.0 * max(mass, largest)
     fine = np.linspace(0.0, float(even.twists[-1]), 60)[1:].tolist()
-    x, allowed = [*map(math.degrees, fine), x_most], [*(even.mass_allowed(one) for one in fine), largest]
-    half = [even.mass_allowed(one, 0.5 * even.ideal_saving) for one in fine]
+    x, allowed = [*map(math.degrees, fine), x_most], [*(even.mass_allowed(twist) for twist in fine), largest]
+    half = [even.mass_allowed(twist, 0.5 * even.ideal_saving) for twist in fine]
     series: list[Series] = [
         Band("pays", x, (y_range[0],) * len(x), allowed, _PAYS),
         Line("no drive power", x, allowed, _LINE),
-        Line("driven", x[:-1], [one if one >= y_range[0] else math.nan for one in half], _LINE, "4 3"),
+        Line("driven", x[:-1], [mass_kg if mass_kg >= y_range[0] else math.nan for mass_kg in half], _LINE, "4 3"),
     ]
     if verdict is not None:
         name = verdict.installed.actuator.id.replace("_", " ")

@@ -7,30 +7,35 @@ follows, so that the same drag is trimmed. The front stands beside it with what 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from html import escape
+from functools import partial
 from typing import Any
 
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.design_words import harmonic_words
 from rotor import Design, t_matrix, vibration_front
 from rotor.actuator import Programme, programmes
 from rotor.aero.bending import can_bend
+from rotor.chart import Axis, Chart, Line, Points, Rule, as_json, round_ticks, tick_text
 from rotor.design import Harmonic
+from rotor.markup import Markup, tag
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim import why_no_hub_loads
-from rotor.trim.hub_loads import index_gains
+from rotor.trim.hub_loads import BAND, index_gains
 
 HARMONICS = (2, 3, 4, 5)
-"""Of the dial: those at which a blade of four passes vibration on to the hub, and 2/rev, which saves power."""
+"""Harmonics of the dial: those at which four blades pass vibration on to the hub, and 2/rev, which saves power."""
 REACH = 2.0
 """Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
 _FRONT_HARMONICS, _FRONT_REACH, _FRONT_POINTS = (2, 3), 1.0, 7
 _LEAST = 0.02
 """An amplitude below this [°] is none."""
+_BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
+_FAINT = "var(--rx-faint)"
+_VIBRATIONS = (-100.0, -75.0, -50.0, -25.0, 0.0, 25.0)
 _STILL = 0.4
 """How long the design must stand before it is worked on [s]."""
 _DIGITS = 6
@@ -42,6 +47,23 @@ def dial_matrix(design: Design) -> dict[str, Any]:
 
     The shape of the design's active twist counts, its harmonics do not. ValueError or RuntimeError with a sentence.
     """
+    others = (inflow for inflow in BAND if inflow != design.models.inflow)
+    numbers = _numbers_of(design)
+    return numbers | {
+        "inflows": [each for each in map(partial(_with_inflow_model, design), others) if each is not None]
+    }
+
+
+def _with_inflow_model(design: Design, inflow: str) -> dict[str, Any] | None:
+    """What `dial.js` needs of one further inflow model; None where it does not trim."""
+    try:
+        return _numbers_of(replace(design, models=replace(design.models, inflow=inflow)))
+    except RuntimeError:
+        return None
+
+
+def _numbers_of(design: Design) -> dict[str, Any]:
+    """What `dial.js` needs with the inflow model of the design."""
     matrix, degree = t_matrix(design, HARMONICS), math.radians(1.0)
     return {
         "base": _rounded(matrix.base),
@@ -61,9 +83,14 @@ class FrontDot:
     power: float
     """Change from the blade without n/rev twist [%]."""
     index: float
-    """The same of the vibration index [%]."""
-    over_wakes: tuple[float, float] | None
-    """Least and largest change of the index over wakes [%]."""
+    """Change of the vibration index from the blade without n/rev twist [%]."""
+    over_inflows: tuple[float, float] | None
+    """Least and largest change of the index over inflow models [%]."""
+
+    @property
+    def agreed(self) -> bool:
+        """Whether the index changes with the same sign with every inflow model."""
+        return self.over_inflows is None or self.over_inflows[0] * self.over_inflows[1] > 0.0
 
 
 def front_dots(design: Design) -> tuple[FrontDot, ...]:
@@ -72,7 +99,7 @@ def front_dots(design: Design) -> tuple[FrontDot, ...]:
     dots = list[FrontDot]()
     for point, (power, index) in zip(front.points, front.changes, strict=True):
         twist = point.design.active_twist
-        dots.append(FrontDot(() if twist is None else twist.harmonics, power, index, point.over_wakes))
+        dots.append(FrontDot(() if twist is None else twist.harmonics, power, index, point.over_inflows))
     return tuple(dots)
 
 
@@ -80,19 +107,18 @@ class TwistDial:
     """One session's."""
 
     def __init__(self, context: TabContext, grabbed: Callable[[bool], None]) -> None:
-        """Its place is where the context stands. `grabbed`: the dot was taken (True) or let go."""
+        """The panel stands where the context does. `grabbed`: the dot was taken (True) or let go."""
         self._context, self._grabbed, gui = context, grabbed, context.gui
         self._answers = PoolAnswers(context.pool, 3, context.wake)
         self._dots: tuple[FrontDot, ...] = ()
         with gui.add_folder("Pitch and twist at n/rev"):
             self._set = gui.add_html("")
             self._vibration = gui.add_html("", visible=False)
-            gui.add_html('<div class="rxd" data-dial data-explorer="dial"></div>')
-            gui.add_html(f'<div class="rx rx-dim rx-small" data-explorer="unmeasured">{_UNMEASURED}</div>')
-            gui.add_html(f'<div class="rx rx-small" data-explorer="programmes">{programme_table()}</div>')
+            gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
+            gui.add_html(tag("div.rx.rx-dim.rx-small", _UNMEASURED, data_explorer="unmeasured"))
+            gui.add_html(tag("div.rx.rx-small", programme_table(), data_explorer="programmes"))
         self.refresh(context.inputs())
         bridge = context.bridge
-        bridge.set(dial_published=published())
         bridge.on("dial", self._act)
         bridge.on("dial_front", self._take_dot)
         bridge.on("dial_bend", lambda _: self._bend())
@@ -101,13 +127,12 @@ class TwistDial:
         """Say what these inputs have set, by file, link or measured condition too."""
         words = harmonic_words(inputs.twist_per_rev, inputs.pitch_per_rev) or "none set"
         shaped = " The twist has the shape of its design file." if inputs.active_shape else ""
-        self._set.content = (
-            f'<div class="rx rx-dim rx-small" data-explorer="per-rev">{words[:1].upper()}{words[1:]}.{shaped}</div>'
-        )
+        sentence = f"{words[:1].upper()}{words[1:]}.{shaped}"
+        self._set.content = tag("div.rx.rx-dim.rx-small", sentence, data_explorer="per-rev")
 
     def show(self, state: SessionState, vibration: str, index: float | None) -> None:
         """Follow a converged state; `vibration` and its `index` [%]: empty and None, blades do not bend."""
-        content = f'<div class="rx rx-small" data-explorer="per-rev-vibration">{escape(vibration)}</div>'
+        content = tag("div.rx.rx-small", vibration, data_explorer="per-rev-vibration")
         self._vibration.visible, self._vibration.content = bool(vibration), content if vibration else ""
         if self._context.layout.mode != "actuate":
             self._answers.ask((), _STILL)
@@ -126,22 +151,22 @@ class TwistDial:
         settled = None
         if matrix is not None and index is not None:
             settled = [solution.power.total / matrix["power"] - 1.0, index / matrix["index"] - 1.0]
+        reach = max(REACH, *(math.ceil(_polar(wave)[0]) for wave in inputs.twist_per_rev), 0.0)
         self._context.bridge.set(
             dial={
                 "harmonics": HARMONICS,
-                "now": [[one.per_rev, *_polar(one)] for one in inputs.twist_per_rev],
-                "reach": max(REACH, *(math.ceil(_polar(one)[0]) for one in inputs.twist_per_rev), 0.0),
+                "now": [[wave.per_rev, *_polar(wave)] for wave in inputs.twist_per_rev],
+                "reach": reach,
+                "rings": [(at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]],
                 "words": words,
                 "action": action,
                 "computing": not words and matrix is None,
-                "settled": None if settled is None else [round(100.0 * one, 2) for one in settled],
+                "settled": None if settled is None else [round(100.0 * change, 2) for change in settled],
                 "held": self._context.held,
             },
             dial_matrix=matrix,
-            dial_front={
-                "words": front if isinstance(front, str) else "" if front or words else "Computing the front …",
-                "dots": [_dot(one) for one in self._dots],
-            },
+            dial_front=as_json(front_chart(self._dots))
+            | {"words": front if isinstance(front, str) else "" if front or words else "Computing the front …"},
         )
 
     def stop(self) -> None:
@@ -179,7 +204,7 @@ class TwistDial:
     def _take_dot(self, number_of: Any) -> None:
         """Apply the twist of a dot of the front."""
         if not self._context.held and 0 <= int(number_of) < len(self._dots):
-            twist = tuple(_on_sliders(one) for one in self._dots[int(number_of)].twist)
+            twist = tuple(_on_sliders(wave) for wave in self._dots[int(number_of)].twist)
             self._context.set_inputs(replace(self._context.inputs(), twist_per_rev=twist))
 
     def _bend(self) -> None:
@@ -193,66 +218,118 @@ def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase
     return _replaced(waves, Harmonic(per_rev, math.radians(size), math.radians(phase % 360.0)))
 
 
-def _replaced(waves: tuple[Harmonic, ...], own: Harmonic) -> tuple[Harmonic, ...]:
+def _replaced(waves: tuple[Harmonic, ...], harmonic: Harmonic) -> tuple[Harmonic, ...]:
     """The harmonics with `own` in place of that of its order; none there where its amplitude is zero."""
-    others = [one for one in waves if one.per_rev != own.per_rev]
-    return tuple(sorted([*others, own] if own.amplitude else others, key=lambda one: one.per_rev))
+    others = [wave for wave in waves if wave.per_rev != harmonic.per_rev]
+    return tuple(sorted([*others, harmonic] if harmonic.amplitude else others, key=lambda wave: wave.per_rev))
 
 
-def _on_sliders(one: Harmonic) -> Harmonic:
+def _on_sliders(wave: Harmonic) -> Harmonic:
     """With the digits that the page shows."""
-    size, phase = _polar(one)
-    return Harmonic(one.per_rev, math.radians(size), math.radians(phase))
+    size, phase = _polar(wave)
+    return Harmonic(wave.per_rev, math.radians(size), math.radians(phase))
 
 
-def _polar(one: Harmonic) -> tuple[float, float]:
+def _polar(wave: Harmonic) -> tuple[float, float]:
     """Amplitude and phase [°]."""
-    return round(math.degrees(one.amplitude), 2), round(math.degrees(one.phase), 1) % 360.0
+    return round(math.degrees(wave.amplitude), 2), round(math.degrees(wave.phase), 1) % 360.0
 
 
-def _dot(one: FrontDot) -> dict[str, Any]:
-    words = f"power {number(one.power, 1, sign=True)} %, vibration {number(one.index, 0, sign=True)} %"
-    if one.over_wakes is not None:
-        low, high = one.over_wakes
-        words += f" ({number(low, 0, sign=True)} to {number(high, 0, sign=True)} over wakes)"
-    return {
-        "power": round(one.power, 3),
-        "index": round(one.index, 2),
-        "wakes": None if one.over_wakes is None else [round(end, 1) for end in one.over_wakes],
-        "words": f"{words}: {harmonic_words(tuple(map(_on_sliders, one.twist)), ())}",
-    }
+def _dot_words(dot: FrontDot) -> str:
+    words = f"power {number(dot.power, 1, sign=True)} %, vibration {number(dot.index, 0, sign=True)} %"
+    if dot.over_inflows is not None:
+        low, high = dot.over_inflows
+        words += f" ({number(low, 0, sign=True)} to {number(high, 0, sign=True)} over inflow models"
+        words += ")" if dot.agreed else ", which disagree in sign)"
+    return f"{words}: {harmonic_words(tuple(map(_on_sliders, dot.twist)), ())}. Press to apply it."
 
 
-def published() -> list[dict[str, Any]]:
-    """What other programmes reached, for the chart: with power where both belong to one input, else without."""
-    return [
-        {
-            "name": f"{one.short}{_orders(one)}",
-            "power": one.power_change_percent if one.together else None,
-            "vibration": one.vibration_percent,
-            "kind": one.kind,
-            "words": programme_words(one),
-        }
-        for one in programmes()
-        if one.vibration_percent is not None
+def front_chart(dots: Sequence[FrontDot]) -> Chart:
+    """The front beside what other programmes reached: with power where both belong to one input, else at the side."""
+    shown = [result for result in programmes() if result.vibration_percent is not None]
+    paired = [result for result in shown if result.together and result.power_change_percent is not None]
+    powers = [0.0, *(dot.power for dot in dots), *(result.power_change_percent or 0.0 for result in paired)]
+    low, high = math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6)
+    alone = [result for result in shown if result not in paired]
+    column = 0.09 * (high - low)
+    end = high + column * (len(alone) + 0.5)
+    ticks = [at for at in round_ticks(low, high, 4) if at < high]
+    spreads = [
+        Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0)
+        for dot in dots
+        if dot.over_inflows is not None
     ]
+    line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
+    best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
+    return Chart(
+        "Vibration by power",
+        Axis("power [%]", (low, end), (*ticks, 0.5 * (high + end)), (*map(tick_text, ticks), "vibration alone")),
+        Axis("changes [%]", (-100.0, 40.0), _VIBRATIONS),
+        (
+            *spreads,
+            _published(
+                "published, measured", [result for result in shown if result.kind != "computed"], high, column, alone
+            ),
+            _published("computed", [result for result in shown if result.kind == "computed"], high, column, alone),
+            *(best if dots else ()),
+        ),
+        (Rule(high, colour=_FAINT, dashes=""), Rule(0.0, colour=_FAINT, dashes="")),
+    )
 
 
-def _orders(one: Programme) -> str:
+def _pressed(dots: Sequence[FrontDot], agreed: bool) -> Points:
+    """The dots on whose sign all inflow models agree, which alone are called best, or the others."""
+    chosen = [(k, dot) for k, dot in enumerate(dots) if dot.agreed == agreed]
+    return Points(
+        "best, press to apply" if agreed else "models disagree",
+        [dot.power for _, dot in chosen],
+        [dot.index for _, dot in chosen],
+        _BEST,
+        "dot" if agreed else "ring",
+        words=[_dot_words(dot) for _, dot in chosen],
+        action="dial_front",
+        press=[str(k) for k, _ in chosen],
+        size=5.0,
+    )
+
+
+def _published(
+    label: str, shown: Sequence[Programme], high: float, column: float, alone: Sequence[Programme]
+) -> Points:
+    """Programmes at their power, or where they are one of those `alone` in a column of its own beyond `high`."""
+    ends = [result.vibration_percent or (0.0, 0.0) for result in shown]
+    return Points(
+        label,
+        [
+            high + column * (alone.index(result) + 0.75) if result in alone else result.power_change_percent or 0.0
+            for result in shown
+        ],
+        [0.5 * (low + high) for low, high in ends],
+        "var(--rx-dim)",
+        "ring" if label == "computed" else "dot",
+        scatter=[0.5 * abs(high - low) for low, high in ends],
+        words=[programme_words(result) for result in shown],
+        names=[f"{result.short}{_orders(result)}" for result in shown],
+        beside="upward" if shown and shown[0] in alone else "below",
+        size=4.5,
+    )
+
+
+def _orders(result: Programme) -> str:
     """The harmonics, where the short name alone does not tell two results apart."""
-    twins = [other for other in programmes() if other.short == one.short]
-    return f" {'+'.join(map(str, one.per_rev))}/rev" if len(twins) > 1 and one.per_rev else ""
+    twins = [other for other in programmes() if other.short == result.short]
+    return f" {'+'.join(map(str, result.per_rev))}/rev" if len(twins) > 1 and result.per_rev else ""
 
 
-def programme_words(one: Programme) -> str:
+def programme_words(result: Programme) -> str:
     """A published result in a sentence or two, with its source."""
-    said = [f"{one.name}: {one.control}, {'measured in ' if one.kind != 'computed' else ''}{one.kind}"]
-    if one.vibration_percent is not None:
-        said.append(f"{one.vibration} {_range(one.vibration_percent)}")
-    if one.power_change_percent is not None:
-        said.append(f"power {number(one.power_change_percent, 1, sign=True)} %")
-    apart = "" if one.together or one.power_change_percent is None else " Each is the largest of its kind."
-    return f"{', '.join(said)}.{apart} {one.note} {one.source}."
+    said = [f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"]
+    if result.vibration_percent is not None:
+        said.append(f"{result.vibration} {_range(result.vibration_percent)}")
+    if result.power_change_percent is not None:
+        said.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
+    apart = "" if result.together or result.power_change_percent is None else " Each is the largest of its kind."
+    return f"{', '.join(said)}.{apart} {result.note} {result.source}."
 
 
 def _range(ends: tuple[float, float]) -> str:
@@ -260,32 +337,42 @@ def _range(ends: tuple[float, float]) -> str:
     return f"{low} %" if low == high else f"{low} to {high} %"
 
 
-def programme_table() -> str:
-    """HTML: every published result with its kind and its source."""
-    rows = "".join(
-        f'<tr title="{escape(programme_words(one))}"><td>{escape(one.short + _orders(one))}</td>'
-        f"<td>{escape(one.kind)}</td>"
-        f'<td class="rx-num">{"–" if one.vibration_percent is None else _range(one.vibration_percent)}</td>'
-        f'<td class="rx-num">{_power_of(one)}</td></tr>'
-        f'<tr class="rx-dim"><td colspan="4">{escape(one.control.capitalize())}. {escape(one.source)}.</td></tr>'
-        for one in programmes()
+def programme_table() -> Markup:
+    """Every published result with its kind and its source."""
+    rows = [tag("tr.rx-dim", tag("td"), tag("td"), tag("td.rx-num", "vibration"), tag("td.rx-num", "power"))]
+    for programme in programmes():
+        vibration = programme.vibration_percent
+        source = f"{programme.control.capitalize()}. {programme.source}."
+        rows += [
+            tag(
+                "tr",
+                tag("td", programme.short + _orders(programme)),
+                tag("td", programme.kind),
+                tag("td.rx-num", "–" if vibration is None else _range(vibration)),
+                tag("td.rx-num", _power_of(programme)),
+                title=programme_words(programme),
+            ),
+            tag("tr.rx-dim", tag("td", source, colspan=4)),
+        ]
+    note = (
+        "Other rotors, other measures of vibration. * Largest of its kind, not together with the vibration beside it."
     )
-    return (
-        "<details><summary>Published programmes and their sources</summary><table class='rxd-table'>"
-        '<tr class="rx-dim"><td></td><td></td><td class="rx-num">vibration</td><td class="rx-num">power</td></tr>'
-        f"{rows}</table><div class='rx-dim'>Other rotors, other measures of vibration. * Largest of its kind, not "
-        "together with the vibration beside it.</div></details>"
+    return tag(
+        "details",
+        tag("summary", "Published programmes and their sources"),
+        tag("table.rxd-table", rows),
+        tag("div.rx-dim", note),
     )
 
 
-def _power_of(one: Programme) -> str:
-    if one.power_change_percent is None:
+def _power_of(result: Programme) -> str:
+    if result.power_change_percent is None:
         return "–"
-    return f"{number(one.power_change_percent, 1, sign=True)} %{'' if one.together else ' *'}"
+    return f"{number(result.power_change_percent, 1, sign=True)} %{'' if result.together else ' *'}"
 
 
 def _rounded(values: Any) -> Any:
     """Nested lists of a few digits."""
     if getattr(values, "ndim", 0):
-        return [_rounded(one) for one in values]
+        return [_rounded(value) for value in values]
     return float(f"{float(values):.{_DIGITS}g}")

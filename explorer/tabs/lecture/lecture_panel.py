@@ -18,11 +18,12 @@ from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, facts_at
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
-from explorer.tabs.actuator.actuator_tasks import Call, PoolAnswers
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed
+from rotor.markup import tag
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -80,6 +81,9 @@ class PageSnapshot:
         context.set_inputs(inputs)
 
 
+_WORDS = "Ten steps: each sets the page, asks for a guess and answers it. End gives your own design back."
+
+
 class LecturePanel(Tab):
     """One session's. Buttons act at once; the numbers follow the session."""
 
@@ -94,10 +98,7 @@ class LecturePanel(Tab):
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
         self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
-        gui.add_html(
-            '<div class="rx rx-dim">Ten steps: each sets the page, asks for a guess and answers it. '
-            "End gives your own design back.</div>"
-        )
+        gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
@@ -250,8 +251,8 @@ class LecturePanel(Tab):
 
     def _facts(self, step: int) -> Facts | None:
         """What is computed of a step; None until then."""
-        found = self._told.answer(_task(step))
-        return found if isinstance(found, Facts) else None
+        facts = self._told.answer(_task(step))
+        return facts if isinstance(facts, Facts) else None
 
     def _facts_came(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
@@ -268,10 +269,10 @@ class LecturePanel(Tab):
         if place is None:
             return
         facts, step = self._facts(place.step), STEPS[place.step]
-        own = self._kept(step.begin() if facts is None else facts.stops[place.stop].inputs)
-        self._against = self._beside(own)
+        inputs = self._kept(step.begin() if facts is None else facts.stops[place.stop].inputs)
+        self._against = self._beside(inputs)
         context.pin(self._against)
-        context.set_inputs(own)
+        context.set_inputs(inputs)
 
     def _beside(self, inputs: Inputs) -> Inputs | None:
         """A of the step for these inputs."""
@@ -289,15 +290,15 @@ class LecturePanel(Tab):
         if place is None:
             bridge.set(lecture=None)
             return
-        step, state, found = STEPS[place.step], self._state, self._told.answer(_task(place.step))
-        facts = found if isinstance(found, Facts) else None
+        step, state, answer = STEPS[place.step], self._state, self._told.answer(_task(place.step))
+        facts = answer if isinstance(answer, Facts) else None
         guessed = place.guess is not None
         values = dict[str, str]()
         if guessed and state is not None and facts is not None:
             values = {**facts.words(units), **quantities(state.solution, state.reference, units)}
         figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
-            steps=[step_record(one, self._facts(k), units) for k, one in enumerate(STEPS)],
+            steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],
             lecture={
                 "at": place.step,
                 "guess": place.guess,
@@ -305,7 +306,7 @@ class LecturePanel(Tab):
                 "stop": place.stop,
                 "figures": figures,
                 "busy": state is None,
-                "problem": found if isinstance(found, str) else "",
+                "problem": answer if isinstance(answer, str) else "",
                 "held": self._context.held,
                 "finish": "Fly it",
             },

@@ -16,15 +16,13 @@ from explorer.sharing.share import Address
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.text.glossary import hint
+from rotor.markup import Content, tag
 
 _CAMERA_EVERY = 0.1
 """[s] between two poses of the presenter's camera."""
 _LONGEST = 40
 """Characters of a name in the address that are looked at."""
-_WORDS = (
-    '<div class="rx rx-dim rx-small">Copies a link. Anyone with the link sees what you set here, as you set it, '
-    "and may leave at any time.</div>"
-)
+_WORDS = "Copies a link. Anyone with the link sees what you set here, as you set it, and may leave at any time."
 _FOLLOWING = "Following a presentation: controlled by the presenter."
 _DUPLICATE = (
     "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
@@ -72,7 +70,7 @@ class Presence(Tab):
         gui = self._context.gui
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
-            gui.add_html(_WORDS)
+            gui.add_html(tag("div.rx.rx-dim.rx-small", _WORDS))
         self._present.on_click(lambda _: self.end() if self._secret else self.present())
         self._context.client.camera.on_update(self._looked_round)
         if self._name:
@@ -149,8 +147,8 @@ class Presence(Tab):
 
     def _announce(self, count: int) -> None:
         followers = "1 follower" if count == 1 else f"{count} followers"
-        link = f'<a href="{self._link}" data-copy target="_blank" rel="noopener">copy link</a>'
-        self._say(f"Presenting: {followers} · {link}")
+        link = tag("a", "copy link", href=self._link, data_copy=True, target="_blank", rel="noopener")
+        self._say((f"Presenting: {followers} · ", link))
 
     @property
     def _link(self) -> str:
@@ -203,10 +201,9 @@ class Presence(Tab):
             self._pending.daemon = True
             self._pending.start()
 
-    def _say(self, text: str, leave: bool = False) -> None:
-        content = f'<div class="rx rx-presence" data-explorer="presence">{text}</div>' if text else ""
-        self._banner.content = content
-        self._banner.visible, self._leave.visible = bool(text), leave
+    def _say(self, words: Content, leave: bool = False) -> None:
+        self._banner.content = tag("div.rx.rx-presence", words, data_explorer="presence") if words else ""
+        self._banner.visible, self._leave.visible = bool(words), leave
 
 
 def _point(at: NDArray[np.float64]) -> Point:

@@ -7,7 +7,6 @@ The page moves balls and blade (`explorer/web/landscape.js`).
 import math
 from dataclasses import dataclass
 from functools import partial
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ from explorer.tabs.optimise.search_run import SearchRun
 from explorer.tabs.views import SceneViews
 from rotor import Design
 from rotor.arrays import Array
-from rotor.chart import round_ticks, tick_text
+from rotor.chart import bar_ticks, tick_text
 from rotor.design import TwistLaw
 from rotor.optimisation import Parameter
 from rotor.optimisation.descent import BAND
@@ -43,6 +42,7 @@ _BLADE_SCALE = 1.4
 _WATER, _NOW, _PINNED = (38, 110, 235), (214, 40, 24), (104, 64, 220)
 _COLOURS_END = 0.08
 """Power above the least, as part of it, at which the colours end."""
+_COLOUR_TICKS = (0.0, 0.005, 0.01, 0.02, 0.04, 0.08)
 _FLAT = 2.0
 """Half a valley this wide [°/R] is called flat."""
 
@@ -50,16 +50,16 @@ _FLAT = 2.0
 def half_widths(drawn: Map, land: Landscape) -> list[tuple[Parameter, float]]:
     """Half of the reach of the band along each parameter of the map, as shown."""
     return [
-        (one, 0.5 * (high - low) * (one.shown(one.high) - one.shown(one.low)))
-        for one, (low, high) in zip(drawn.parameters, land.valley(), strict=True)
+        (parameter, 0.5 * (high - low) * (parameter.shown(parameter.high) - parameter.shown(parameter.low)))
+        for parameter, (low, high) in zip(drawn.parameters, land.valley(), strict=True)
     ]
 
 
 def valley_words(drawn: Map, land: Landscape, units: Units) -> str:
     """How flat the optimum is: `±4°/R for 1 kW: a flat optimum`, of the parameter that may move most."""
     halves = half_widths(drawn, land)
-    angular = [one for one in halves if one[0].angular] or halves
-    parameter, half = max(angular, key=lambda one: one[1])
+    angular = [half for half in halves if half[0].angular] or halves
+    parameter, half = max(angular, key=lambda half: half[1])
     digits = 0 if parameter.angular and half >= 1.5 else 1 if parameter.angular else 2
     unit = parameter.shown_unit if parameter.shown_unit.startswith("°") else f" {parameter.shown_unit}"
     flat = ": a flat optimum" if parameter.angular and half >= _FLAT else ""
@@ -68,7 +68,7 @@ def valley_words(drawn: Map, land: Landscape, units: Units) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Of one start: places on the map, 0…1, power and design, each the best so far."""
+    """Path of one start: places on the map, 0…1, power and design, each the best so far."""
 
     start: int
     x: tuple[float, ...]
@@ -84,7 +84,7 @@ def paths_on(drawn: Map, run: SearchRun | None) -> tuple[Path, ...]:
         return ()
     if run.search.objective is not None and run.search.objective != task.objective:
         return ()
-    found: list[Path] = []
+    paths: list[Path] = []
     for start, steps in enumerate(run.paths):
         places = [
             tuple(
@@ -94,8 +94,8 @@ def paths_on(drawn: Map, run: SearchRun | None) -> tuple[Path, ...]:
         ]
         if places:
             x, y = zip(*places, strict=True)
-            found.append(Path(start, x, y, tuple(power for _, power in steps), tuple(v for v, _ in steps)))
-    return tuple(found)
+            paths.append(Path(start, x, y, tuple(power for _, power in steps), tuple(v for v, _ in steps)))
+    return tuple(paths)
 
 
 class LandscapePanel:
@@ -177,12 +177,12 @@ class LandscapePanel:
                 "balls": balls,
                 "blade": blade,
                 "colours": [css(rgb) for rgb in colour_map("sequential", 12)],
-                "ends": f"{100 * _COLOURS_END:g}",
+                "ticks": [(math.sqrt(1e4 * part / _COLOURS_END), tick_text(100.0 * part)) for part in _COLOUR_TICKS],
                 "water": f"within {100 * BAND:g} % ({units.watts(BAND * land.least, 1)})",
                 "least": f"{units.watts(land.least, 1)}",
                 "words": valley_words(drawn, land, units),
                 "each": "; ".join(
-                    f"{escape(p.title.lower())} ±{number(half, 1 if p.angular else 2)} {p.shown_unit}"
+                    f"{p.title.lower()} ±{number(half, 1 if p.angular else 2)} {p.shown_unit}"
                     for p, half in half_widths(drawn, land)
                 ),
                 "note": _note(drawn, paths),
@@ -317,7 +317,6 @@ def _axis_labels(drawn: Map, land: Landscape) -> list[dict[str, Any]]:
     labels: list[dict[str, Any]] = []
     near_x, near_y = land.near
     for k, p in enumerate(drawn.parameters):
-        low, high = p.shown(p.low), p.shown(p.high)
         beyond = 0.5 * SIZE + 0.55
 
         def at(part: float, further: float, along: int = k, far: float = beyond) -> list[float]:
@@ -325,10 +324,9 @@ def _axis_labels(drawn: Map, land: Landscape) -> list[dict[str, Any]]:
             place = SIZE * (part - 0.5)
             return [across, place, BASE] if along else [place, across, BASE]
 
-        for value in round_ticks(low, high, 5):
-            part = (value - low) / (high - low)
-            if 0.02 < part < 0.98:
-                labels.append({"text": tick_text(value), "node": ROOT, "at": at(part, 0.0), "kind": "tick"})
+        for percent, word in bar_ticks(p.shown(p.low), p.shown(p.high)):
+            if 2.0 < percent < 98.0:
+                labels.append({"text": word, "node": ROOT, "at": at(0.01 * percent, 0.0), "kind": "tick"})
         words = f"{p.title} [{p.shown_unit}]"
         labels.append({"text": words, "node": ROOT, "at": at(0.5, 1.25), "kind": "axis"})
     return labels

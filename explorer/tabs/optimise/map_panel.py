@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from html import escape
 
 import numpy as np
 import viser
@@ -17,6 +16,7 @@ from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.solver import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design import TwistLaw
+from rotor.markup import group, tag
 from rotor.optimisation import Concept, Parameter, nearest
 
 
@@ -67,7 +67,8 @@ _NEAR = 1e-3
 class MapPanel(BackgroundWork):
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
-        super().__init__(context, TIME_LIMIT, _URGENCY, restarts=True)
+        super().__init__(context.pool, context.wake, TIME_LIMIT, _URGENCY, restarts=True)
+        self._context = context
         self.search, gui = search, context.gui
         self.map: Map | None = None
         self.line = "Power over two parameters, the others fixed, as a landscape in the stage."
@@ -104,16 +105,15 @@ class MapPanel(BackgroundWork):
             for menu, axis in ((self._x, first), (self._y, second)):
                 menu.options = titles
                 menu.value = titles[axis]
-        self._title.content = f'<div class="rx rx-dim rx-small">Concept: {concept.title}</div>'
-        self._state.content = f'<div class="rx rx-dim rx-small" data-explorer="map-state">{self.line}</div>'
+        self._title.content = tag("div.rx.rx-dim.rx-small", f"Concept: {concept.title}")
+        self._state.content = tag("div.rx.rx-dim.rx-small", self.line, data_explorer="map-state")
         drawn = self.map
         if drawn is None:
             return
-        words = escape(least_words(drawn, self._context.units))
-        self._least.content = (
-            f'<div class="rx rx-small" data-explorer="map-least">{words}</div><div class="rx rxl-buttons">'
-            '<button data-do="landscape" data-value="on">Landscape in the stage</button></div>'
-        )
+        words = least_words(drawn, self._context.units)
+        open_it = tag("button", "Landscape in the stage", data_do="landscape", data_value="on")
+        line = tag("div.rx.rx-small", words, data_explorer="map-least")
+        self._least.content = group(line, tag("div.rx.rxl-buttons", open_it))
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:

@@ -1,14 +1,15 @@
 """The Optimise tab: what to search for, its buttons, its course, and what becomes of the optimum."""
 
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
 
-import viser
-
+from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
-from explorer.tabs.background import FRAME, BackgroundWork
+from explorer.tabs.background import FRAME, BackgroundWork, Call, PoolAnswers
 from explorer.tabs.context import TabContext
+from explorer.tabs.form import Form
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import OBJECTIVES, TRACES, SearchRequest, SearchRun
@@ -18,49 +19,57 @@ from explorer.workers.pool import JobEvent
 from explorer.workers.solver import SearchTask
 from rotor import Design
 from rotor.chart import Chart
+from rotor.design import LinearTwist
+from rotor.design.quantity import Slider
+from rotor.markup import Markup, tag
 from rotor.optimisation import CONCEPTS, WeightedCondition
+from rotor.optimisation.results import BestTwist
+from rotor.optimisation.search import best_linear_twist
 
+_STILL = 0.6
+"""[s] without a change before the best linear twist is looked for."""
+_ANY_TWIST = LinearTwist(math.radians(-12.0))
+"""In place of the twist that is set, on which the best does not depend: one question for all."""
 TIME_LIMIT = 60.0
 """[s] a search may take."""
+_LIMITS = {"limit_stall": "stalled", "limit_change": "change", "limit_index": "index"}
+"""Switch of each limit, and its number."""
+_NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
+"""Sliders that only some searches have."""
 
 
 class OptimisePanel(BackgroundWork):
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
     def __init__(self, context: TabContext) -> None:
-        super().__init__(context, TIME_LIMIT)
+        super().__init__(context.pool, context.wake, TIME_LIMIT)
+        self._context = context
         gui, bridge = context.gui, context.bridge
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
-        """Of the mission, for a design; ValueError with one sentence for a mission that is none."""
+        """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self.run: SearchRun | None = None
         """The last search; None before the first."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
-        self._titles = {name: concept.title for name, concept in CONCEPTS.items()}
-        titles, first = tuple(self._titles.values()), self._titles["two-segment-free"]
-        self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
+        form = self._form = Form(gui, lambda name, by_hand: context.wake() if by_hand else None)
+        first, where = SearchRequest(), "search_division"
+        titles = {name: concept.title for name, concept in CONCEPTS.items()}
+        form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
         self._picture = gui.add_html("")
-        self._objective = gui.add_dropdown("Objective", tuple(OBJECTIVES.values()), hint=hint("objective"))
-        defaults, where = SearchRequest(), hint("search_division")
-        self._numbers: dict[str, viser.GuiSliderHandle[float]] = {
-            "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint=hint("hover_share")),
-            "division": gui.add_slider("Break point [r/R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
-            "first": gui.add_slider("Break 1 [r/R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
-            "second": gui.add_slider("Break 2 [r/R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
-            "starts": gui.add_slider("Starting points", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
-        }
+        form.menu("objective", "Objective", OBJECTIVES)
+        form.slider("hover_share", Slider("Hover [%]", 0.0, 100.0, 5.0), first.hover_share)
+        form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
+        form.slider("first", Slider("Break 1 [r/R]", 0.2, 0.6, 0.01), first.first, entry=where)
+        form.slider("second", Slider("Break 2 [r/R]", 0.65, 0.95, 0.01), first.second, entry=where)
+        form.slider("starts", Slider("Starting points", 1, TRACES, 1), first.starts)
         with gui.add_folder("Limits", expand_by_default=False):
-            self._limit_stall = gui.add_checkbox("Limit stall", False, hint=hint("limit_stall"))
-            self._numbers["stalled"] = gui.add_slider("Stalled [%]", 0.0, 20.0, 0.5, 5.0, hint=hint("stalled_limit"))
-            self._limit_change = gui.add_checkbox("Limit change of twist", False, hint=hint("limit_change"))
-            self._numbers["change"] = gui.add_slider(
-                "Change at tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit")
-            )
-            self._limit_index = gui.add_checkbox("Limit vibration", False, hint=hint("limit_index"))
-            self._numbers["index"] = gui.add_slider("Index [%]", 0.5, 10.0, 0.1, 3.0, hint=hint("index_limit"))
-        self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
-        self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
-        self._bar = gui.add_progress_bar(0.0)
+            form.box("limit_stall", "Limit stall", False)
+            form.slider("stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit")
+            form.box("limit_change", "Limit change of twist", False)
+            form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
+            form.box("limit_index", "Limit vibration", False)
+            form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
+        self.add_buttons(gui, "Optimise", "Stop", ("optimise", "stop"))
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
         self._result = gui.add_html("")
@@ -68,8 +77,8 @@ class OptimisePanel(BackgroundWork):
         self._frame = gui.add_html("")
         self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
         self._details = gui.add_html("")
-        self._begin.on_click(lambda _: self.begin())
-        self._halt.on_click(lambda _: self.halt())
+        self._best = PoolAnswers(context.pool, 3, context.wake)
+        self._ranges = gui.add_html("")
         self._again.on_click(lambda _: self._replay())
         bridge.on("apply", lambda _: self._close(True))
         bridge.on("discard", lambda _: self._close(False))
@@ -77,24 +86,13 @@ class OptimisePanel(BackgroundWork):
         context.controls.optimise_button.on_click(lambda _: self._begin_from_rail())
         context.keyboard.bind("optimise", self.toggle)
         by_hand(self._scrubber, self._scrubbed)
-        limits = self._limit_stall, self._limit_change, self._limit_index
-        for widget in (self._concept, self._objective, *limits, *self._numbers.values()):
-            by_hand(widget, lambda _: context.wake())
 
     def request(self) -> SearchRequest:
-        number = {name: float(handle.value) for name, handle in self._numbers.items()}
-        return SearchRequest(
-            concept=next(name for name, title in self._titles.items() if title == self._concept.value),
-            objective=next(name for name, title in OBJECTIVES.items() if title == self._objective.value),
-            hover_share=number["hover_share"],
-            division=number["division"],
-            first=number["first"],
-            second=number["second"],
-            starts=round(number["starts"]),
-            stalled=number["stalled"] if self._limit_stall.value else None,
-            change=number["change"] if self._limit_change.value else None,
-            index=number["index"] if self._limit_index.value else None,
-        )
+        values = self._form.values()
+        for limit, name in _LIMITS.items():
+            if not values.pop(limit):
+                values[name] = None
+        return SearchRequest(**values | {"starts": round(values["starts"])})
 
     def _begin_from_rail(self) -> None:
         self._context.layout.show_mode("optimise")
@@ -152,7 +150,7 @@ class OptimisePanel(BackgroundWork):
         return None if frame is None else frame.design
 
     def starts_chart(self) -> Chart | None:
-        """Of the search, in place of charts along the blade; None where there is none."""
+        """Chart of the search, in place of charts along the blade; None where there is none."""
         run = self.run
         return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)
 
@@ -166,18 +164,15 @@ class OptimisePanel(BackgroundWork):
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
         run, request, units = self.run, self.request(), self._context.units
-        for name, handle in self._numbers.items():
-            handle.visible = request.asks_for(name)
+        self._form.show({name: request.asks_for(name) for name in _NUMBERS})
         concept = request.known_concept()
         self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
         under_way = run is not None and run.under_way
-        self._begin.visible, self._halt.visible = not under_way, under_way
+        self.show_progress(None if run is None else run.part_done, under_way)
         self._standing.content = text.standing(run, self.line)
-        self._bar.visible = run is not None
+        self._show_ranges(design)
         if run is None:
             return
-        self._bar.value = round(100.0 * run.part_done, 1)
-        self._bar.animated = under_way
         self._result.content = text.result(run, units)
         self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
@@ -190,6 +185,19 @@ class OptimisePanel(BackgroundWork):
         elif on_offer:
             self._frame.content = text.moved_on()
         self._headline.content = text.headline(run, units)
+
+    def _show_ranges(self, design: Design | None) -> None:
+        """How far the best linear twist can move, once the page rests in this mode."""
+        task = None
+        if design is not None and self._context.layout.mode == "optimise":
+            task = Call(best_linear_twist, (replace(design, twist=_ANY_TWIST),))
+        self._best.ask(() if task is None else (task,), _STILL)
+        answer = self._best.answer(task)
+        self._ranges.content = twist_ranges(answer, self._context.units) if isinstance(answer, BestTwist) else ""
+
+    def stop(self) -> None:
+        self._best.stop()
+        super().stop()
 
     def notice(self, design: Design | None) -> dict[str, object] | None:
         """The bar over the scene while it shows a search instead of the sliders."""
@@ -228,5 +236,5 @@ class OptimisePanel(BackgroundWork):
             self._context.wake()
 
 
-def _boxed(picture: str, words: str) -> str:
-    return f'<div class="rx rx-concept">{picture}<div class="rx-dim rx-small">{words}</div></div>'
+def _boxed(picture: Markup, words: str) -> Markup:
+    return tag("div.rx.rx-concept", picture, tag("div.rx-dim.rx-small", words))

@@ -18,6 +18,7 @@ from explorer.text.glossary import hint
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
+from rotor.markup import tag
 from rotor.optimisation import Cell, Plan, WeightedCondition
 
 TIME_LIMIT = 180.0
@@ -31,7 +32,8 @@ _URGENCY = 1
 class SchedulePanel(BackgroundWork):
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
-        super().__init__(context, TIME_LIMIT, _URGENCY)
+        super().__init__(context.pool, context.wake, TIME_LIMIT, _URGENCY)
+        self._context = context
         self._request, gui = search.request, context.gui
         search.legs = self.legs
         self._flight: ScheduleFlight | None = None
@@ -54,19 +56,13 @@ class SchedulePanel(BackgroundWork):
                 )
                 for k, row in enumerate(mission.ROWS)
             ]
-        self._begin = gui.add_button("Compute schedule", icon=viser.Icon.PLAYER_PLAY, hint=hint("schedule"))
-        self._halt = gui.add_button(
-            "Stop schedule", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("schedule_stop")
-        )
-        self._bar = gui.add_progress_bar(0.0)
+        self.add_buttons(gui, "Compute schedule", "Stop schedule", ("schedule", "schedule_stop"))
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         self._results = gui.add_button_group(
             "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         self._twists, self._savings = PanelChart(gui), PanelChart(gui)
-        self._begin.on_click(lambda _: self.begin())
-        self._halt.on_click(lambda _: self.halt())
         self._results.on_click(self._result_clicked)
 
     def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
@@ -150,18 +146,13 @@ class SchedulePanel(BackgroundWork):
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
-        self._concept.content = f'<div class="rx rx-dim rx-small">Concept: {title}</div>'
-        self._begin.visible, self._halt.visible = not self.running, self.running
+        self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
         kind = "running" if self.running else "idle" if self._progress is None else "done"
-        self._state.content = (
-            f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self.line}</div>'
-        )
+        self._state.content = tag("div.rx.rx-dim", self.line, data_explorer="schedule-state", data_kind=kind)
         progress = self._progress
-        self._bar.visible = progress is not None
+        self.show_progress(progress and (progress.part_done if self.running else 1.0), self.running)
         if progress is None:
             return
-        self._bar.value = round(100.0 * (progress.part_done if self.running else 1.0), 1)
-        self._bar.animated = self.running
         self._results.visible = not self.running and progress.at(None) is not None
         units = self._context.units
         seen = (id(progress), len(progress.cells), len(progress.fixed_powers), units)

@@ -14,12 +14,13 @@ from rotor import Design, Optimum
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line
 from rotor.design import TableTwist, TwistLaw
+from rotor.design.aircraft import told
+from rotor.markup import Markup, tag
 from rotor.optimisation import Cell, Plan, Schedule
-from rotor.optimisation.objective import MISSION_COLUMNS
 
 LEGS = 6
 """Rows of the mission table, so traces of the twist chart."""
-_COLUMNS = (*MISSION_COLUMNS, "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
+_COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
 
 @dataclass
@@ -43,7 +44,7 @@ class PlanProgress:
 
     @property
     def count(self) -> str:
-        """Of what is known."""
+        """How many optima are known, of how many."""
         return f"{len(self.cells)} of {len(self.plan.conditions) + 1} optima"
 
     @property
@@ -57,15 +58,15 @@ def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
     r, shades = np.linspace(0.13, 1.0, 80), colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
     lines: list[Line] = []
     for k, leg in enumerate((*range(len(progress.plan.conditions)), None)):
-        one = progress.at(leg)
-        if one is not None and one.best is not None:
-            twist = np.degrees(one.design.twist(r))
+        optimum = progress.at(leg)
+        if optimum is not None and optimum.best is not None:
+            twist = np.degrees(optimum.design.twist(r))
             name = "hover" if k == 0 else "fast" if k == len(progress.plan.conditions) - 1 else ""
             fixed = Line("fixed", r, twist, NOW, "5 3")
             lines.append(fixed if leg is None else Line(name, r, twist, css(shades[k]), width=1.5))
     if not lines:
         return None
-    seen = [value for one in lines for value in one.y]
+    seen = [value for line in lines for value in line.y]
     return Chart(
         "Best twist", Axis("r/R", (0.1, 1.02)), Axis("°", held_range(previous, min(seen), max(seen))), tuple(lines)
     )
@@ -74,7 +75,7 @@ def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
 def saving_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
     legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
-    mu, moving, fixed = np.array(sorted(one for one in legs if math.isfinite(one[1])) or [(math.nan,) * 3]).T
+    mu, moving, fixed = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 3]).T
     if not np.isfinite(moving).any():
         return None
     seen = [0.0, *(float(value) for value in (*moving, *fixed) if math.isfinite(value))]
@@ -84,45 +85,40 @@ def saving_chart(progress: PlanProgress, previous: Range | None) -> Chart | None
 
 
 def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
-    """Of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
-    one, fixed = progress.at(leg), progress.fixed_power(leg)
-    if one is None or one.saving is None or one.baseline_power is None:
+    """Savings of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
+    optimum, fixed = progress.at(leg), progress.fixed_power(leg)
+    if optimum is None or optimum.saving is None or optimum.baseline_power is None:
         return math.nan, math.nan
-    return 100.0 * one.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / one.baseline_power)
+    return 100.0 * optimum.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / optimum.baseline_power)
 
 
-def table(progress: PlanProgress, units: Units = SI) -> str:
-    """HTML: one row a leg, then the gain of moving."""
-    rows = []
+def table(progress: PlanProgress, units: Units = SI) -> Markup:
+    """One row a leg, then the gain of moving."""
+    heads = (f"current [{units.power[0].symbol}]", "fixed [%]", "variable [%]")
+    rows = [tag("tr.rx-dim.rx-small", tag("td", "µ"), [tag("td.rx-num", head) for head in heads])]
     for k, leg in enumerate(progress.plan.conditions):
-        one = progress.at(k)
+        optimum, mu = progress.at(k), leg.flight.advance_ratio
         moving, fixed = _saving(progress, k)
-        baseline = None if one is None or one.baseline_power is None else units.power[0].of(one.baseline_power)
-        rows.append(
-            f"<tr><td>{number(leg.flight.advance_ratio, 2) if leg.flight.advance_ratio else 'hover'}</td>"
-            f'<td class="rx-num">{number(baseline)}</td><td class="rx-num">{number(fixed, 2)}</td>'
-            f'<td class="rx-num">{number(moving, 2)}</td></tr>'
-        )
-    heading = (
-        f'<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">current [{units.power[0].symbol}]</td>'
-        '<td class="rx-num">fixed [%]</td><td class="rx-num">variable [%]</td></tr>'
-    )
-    body = f"{verdict(progress, units)}<table>{heading}{''.join(rows)}</table>"
-    return f'<div class="rx rx-found" data-explorer="schedule">{body}</div>'
+        power = None if optimum is None else optimum.baseline_power
+        baseline = None if power is None else units.power[0].of(power)
+        cells = (number(baseline), number(fixed, 2), number(moving, 2))
+        rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
+    return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
 
 
-def verdict(progress: PlanProgress, units: Units = SI) -> str:
+def verdict(progress: PlanProgress, units: Units = SI) -> Markup:
     """What the best fixed blade saves, and the gain of moving beyond it."""
     gain = progress.schedule.in_flight_gain(progress.plan.concepts[0].name)
     if gain is None:
-        return ""
+        return Markup()
     saved = gain.baseline - gain.fixed
-    return (
-        f'<table><tr><td>Best fixed blade saves</td><td class="rx-num">{units.watts(saved, 1)}</td>'
-        f'<td class="rx-num" style="width:20%">{number(100.0 * saved / gain.baseline, 2)} %</td></tr>'
-        '<tr><td style="white-space:normal"><b>Additional saving from variable twist</b></td>'
-        f'<td class="rx-num"><b>{units.watts(gain.gain, 1)}</b></td>'
-        f'<td class="rx-num"><b>{number(100.0 * gain.share, 2)} %</b></td></tr></table>'
+    saving = tag("td.rx-num", units.watts(saved, 1)), f"{number(100.0 * saved / gain.baseline, 2)} %"
+    more = tag("td", tag("b", "Additional saving from variable twist"), style="white-space:normal")
+    gained = (units.watts(gain.gain, 1), f"{number(100.0 * gain.share, 2)} %")
+    return tag(
+        "table",
+        tag("tr", tag("td", "Best fixed blade saves"), saving[0], tag("td.rx-num", saving[1], style="width:20%")),
+        tag("tr", more, [tag("td.rx-num", tag("b", words)) for words in gained]),
     )
 
 
@@ -130,20 +126,18 @@ def csv_of(progress: PlanProgress) -> bytes:
     """The schedule as a CSV file; what is not known is blank."""
     text = io.StringIO()
     writer = csv.writer(text)
-    writer.writerow(_COLUMNS)
+    names = told(leg.flight for leg in progress.plan.conditions)
+    writer.writerow((*names, *_COLUMNS))
     for k, leg in enumerate(progress.plan.conditions):
-        one, c = progress.at(k), leg.flight
-        best = None if one is None else one.best
+        optimum = progress.at(k)
+        best = None if optimum is None else optimum.best
         writer.writerow(
             (
-                f"{c.advance_ratio:g}",
-                f"{c.mass:g}",
-                f"{c.altitude:g}",
-                f"{c.climb_speed:g}",
+                *(f"{leg.flight.numbers[name]:g}" for name in names),
                 f"{leg.hours:g}",
-                _kilowatt(None if one is None else one.baseline_power),
+                _kilowatt(None if optimum is None else optimum.baseline_power),
                 _kilowatt(None if best is None else best.power),
-                "" if one is None or one.saving is None else f"{100.0 * one.saving:.3f}",
+                "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
                 _kilowatt(progress.fixed_power(k)),
                 "" if best is None else best.twist,
             )
@@ -152,7 +146,7 @@ def csv_of(progress: PlanProgress) -> bytes:
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
         mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
-        writer.writerow(("mean", "", "", "", f"{hours:g}", *mean, fixed.best.twist))
+        writer.writerow(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()
 
 
@@ -256,7 +250,7 @@ def flown_legs(progress: PlanProgress) -> tuple[FlownLeg, ...]:
         design = replace(progress.plan.design, twist=optimum.design.twist, condition=leg.flight)
         power = optimum.best.power
         legs.append(FlownLeg(leg.flight.advance_ratio, leg.hours, design, power, optimum.baseline_power))
-    return tuple(sorted(legs, key=lambda one: one.advance_ratio))
+    return tuple(sorted(legs, key=lambda leg: leg.advance_ratio))
 
 
 def twist_between(before: TwistLaw, after: TwistLaw, weight: float) -> TwistLaw:

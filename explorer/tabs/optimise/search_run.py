@@ -168,7 +168,7 @@ class StartTrace:
     """The least so far after each of them [W]."""
     state: StartState
     gap: float | None
-    """Its best above the best of all starts [W]; None before its first design."""
+    """Best power of the start above the best of all starts [W]; None before its first design."""
 
     @property
     def is_best(self) -> bool:
@@ -176,7 +176,7 @@ class StartTrace:
         return self.gap == 0.0
 
     def legend(self, units: Units = SI) -> str:
-        """Its line in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
+        """A start in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
         if self.gap is None:
             return f"Start {self.number}: {'no trim' if self.state == 'finished' else self.state}"
         behind = units.watts(self.gap, 1, sign=True)
@@ -194,7 +194,7 @@ class SearchRun:
         self.ahead = 0
         self.sentence = ""
         self.start_power: float | None = None
-        """Of the design it began from [W]."""
+        """Power of the design that the search began from [W]."""
         self.reference_power: float | None = None
         self.frames: list[SearchFrame] = []
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]

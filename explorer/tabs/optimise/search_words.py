@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from html import escape
 
 import numpy as np
 
+from explorer.charts import svg
 from explorer.charts.strip import role_line
 from explorer.colours import NOW, START_COLOURS, THIS, css
 from explorer.model.units import SI, Units, number
@@ -13,6 +13,7 @@ from explorer.tabs.optimise.search_run import SearchRun, StartTrace
 from rotor import Optimum
 from rotor.chart import Axis, Chart, Line
 from rotor.design import PiecewiseLinearTwist
+from rotor.markup import Content, Markup, tag
 from rotor.optimisation import Concept
 from rotor.optimisation.concepts import Handle
 
@@ -26,7 +27,7 @@ _NOMINAL = {"tilt": (-0.21, -0.09, -0.24), "bend": (0.28,), "lift": (0.17, 0.09,
 
 
 @lru_cache(maxsize=32)
-def concept_picture(concept: Concept) -> str:
+def concept_picture(concept: Concept) -> Markup:
     """SVG: root at the left, tip at the right, nose-up above."""
     values, counts = [], {"tilt": 0, "bend": 0, "lift": 0}
     for handle, parameter in zip(concept.handles, concept.parameters, strict=True):
@@ -47,13 +48,22 @@ def concept_picture(concept: Concept) -> str:
     curve = " ".join(f"{_x(float(at)):.1f},{y(float(at)):.1f}" for at in r)
     marks = [_mark(handle, y) for handle in concept.handles]
     if isinstance(law, PiecewiseLinearTwist):
-        marks += [f'<circle cx="{_x(place):.1f}" cy="{y(place):.1f}" r="3" fill="{THIS}"/>' for place in law.breaks]
-    return (
-        f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" width="100%" role="img" aria-label="what the concept moves">'
-        f'<line x1="{_x(_ROOT)}" y1="{_MIDDLE}" x2="{_x(1.0)}" y2="{_MIDDLE}" stroke="currentColor" opacity=".25"/>'
-        f'<polyline points="{curve}" fill="none" stroke="currentColor" stroke-width="2"/>{"".join(marks)}'
-        f'<g font-size="11" fill="currentColor" opacity=".65"><text x="{_x(_ROOT)}" y="{_HEIGHT - 2}">root</text>'
-        f'<text x="{_x(1.0)}" y="{_HEIGHT - 2}" text-anchor="end">tip</text></g></svg>'
+        marks += [tag("circle", cx=_x(place), cy=y(place), r=3, fill=THIS) for place in law.breaks]
+    root, tip = _x(_ROOT), _x(1.0)
+    ends = (
+        tag("text", "root", x=root, y=_HEIGHT - 2),
+        tag("text", "tip", x=tip, y=_HEIGHT - 2, text_anchor="end"),
+    )
+    return tag(
+        "svg",
+        svg.line((root, _MIDDLE), (tip, _MIDDLE), opacity=0.25),
+        tag("polyline", points=curve, fill="none", stroke="currentColor", stroke_width=2),
+        marks,
+        tag("g", ends, font_size=11, fill="currentColor", opacity=0.65),
+        viewBox=f"0 0 {_WIDTH} {_HEIGHT}",
+        width="100%",
+        role="img",
+        aria_label="what the concept moves",
     )
 
 
@@ -61,7 +71,7 @@ def _x(r: float) -> float:
     return round(_EDGE + (_WIDTH - 2 * _EDGE) * (r - _ROOT) / (1.0 - _ROOT), 1)
 
 
-def _mark(handle: Handle, y: Callable[[float], float]) -> str:
+def _mark(handle: Handle, y: Callable[[float], float]) -> Markup:
     if handle.motion == "slide":
         low, high = _x(handle.inner), _x(handle.outer)
         return _arrow(low, 52.0, high, 52.0, THIS)
@@ -72,36 +82,38 @@ def _mark(handle: Handle, y: Callable[[float], float]) -> str:
     return _arrow(x, middle - 11.0, x, middle + 11.0, NOW)
 
 
-def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> str:
+def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> Markup:
     """A line with a head at both ends."""
     if x1 == x2:
         heads = f"M{x1 - 3},{y1 + 4} L{x1},{y1} L{x1 + 3},{y1 + 4} M{x2 - 3},{y2 - 4} L{x2},{y2} L{x2 + 3},{y2 - 4}"
     else:
         heads = f"M{x1 + 4},{y1 - 3} L{x1},{y1} L{x1 + 4},{y1 + 3} M{x2 - 4},{y2 - 3} L{x2},{y2} L{x2 - 4},{y2 + 3}"
-    return f'<path d="M{x1},{y1} L{x2},{y2} {heads}" fill="none" stroke="{colour}" stroke-width="1.5"/>'
+    return tag("path", d=f"M{x1},{y1} L{x2},{y2} {heads}", fill="none", stroke=colour, stroke_width=1.5)
 
 
-def headline(run: SearchRun, units: Units = SI) -> str:
+def headline(run: SearchRun, units: Units = SI) -> Markup:
     """The least power so far as a large number, and how each start compares."""
     starts = run.starts()
-    ends = [one.best[-1] for one in starts if one.best]
+    ends = [start.best[-1] for start in starts if start.best]
     if not ends:
-        return ""
+        return Markup()
     change = None if run.start_power is None else min(ends) - run.start_power
     kind = "" if change is None or abs(change) < _EQUAL else "rx-less" if change < 0.0 else "rx-more"
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
     mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
     mean += ", best so far" if run.under_way else ", best found"
-    rows = "".join(
-        f'<span><i style="background:{css(START_COLOURS[k])}"></i>{escape(one.legend(units))}</span>'
-        for k, one in enumerate(starts)
-    )
-    return (
-        f'<div class="rxp-big" data-explorer="starts"><b data-explorer="best">{units.watts(min(ends), 1)}</b>'
-        f'<em class="{kind}">{"" if change is None else units.watts(change, 1, sign=True)}</em>'
-        f'<div class="rx-dim">{mean}{_against_start(min(ends), run.start_power)}</div>'
-        f'<div class="rxp-starts">{rows}</div></div>'
+    rows = [
+        tag("span", tag("i", style=f"background:{css(START_COLOURS[k])}"), start.legend(units))
+        for k, start in enumerate(starts)
+    ]
+    return tag(
+        "div.rxp-big",
+        tag("b", units.watts(min(ends), 1), data_explorer="best"),
+        tag("em", None if change is None else units.watts(change, 1, sign=True), class_=kind),
+        tag("div.rx-dim", mean, _against_start(min(ends), run.start_power)),
+        tag("div.rxp-starts", rows),
+        data_explorer="starts",
     )
 
 
@@ -109,16 +121,16 @@ def starts_chart(run: SearchRun, units: Units) -> Chart:
     """The least power so far over the designs that each start has tried, for the strip below the scene."""
     unit, starts = units.power[0], run.starts()
     low, high = (unit.of(end) for end in power_axis(starts, run.start_power))
-    longest = float(max([10, *(len(one.best) for one in starts)]))
+    longest = float(max([10, *(len(start.best) for start in starts)]))
     lines = [
-        Line("", range(1, len(one.best) + 1), [unit.of(power) for power in one.best], css(START_COLOURS[k]),
-             width=2.8 if one.is_best else 1.4)
-        for k, one in enumerate(starts)
-        if one.best
+        Line("", range(1, len(start.best) + 1), [unit.of(power) for power in start.best], css(START_COLOURS[k]),
+             width=2.8 if start.is_best else 1.4)
+        for k, start in enumerate(starts)
+        if start.best
     ]  # fmt: skip
     if run.start_power is not None:
         lines.insert(0, role_line("reference", (1.0, longest), (unit.of(run.start_power),) * 2))
-    above = sum(unit.of(power) > high for one in starts for power in one.powers)
+    above = sum(unit.of(power) > high for start in starts for power in start.powers)
     return Chart(
         "Searches from several starts",
         Axis(range=(1.0, longest)),
@@ -131,7 +143,7 @@ def starts_chart(run: SearchRun, units: Units) -> Chart:
 
 def _agreement(starts: tuple[StartTrace, ...]) -> str:
     """Which of the starts are best, as far as the digits that the page shows tell them apart."""
-    best = [one.number for one in starts if one.gap is not None and one.gap < _EQUAL]
+    best = [start.number for start in starts if start.gap is not None and start.gap < _EQUAL]
     if len(best) == len(starts) > 1:
         return f"all {len(starts)} starts agree"
     if len(best) > 1:
@@ -141,7 +153,7 @@ def _agreement(starts: tuple[StartTrace, ...]) -> str:
 
 def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tuple[float, float]:
     """Range of power [W] that shows where the starts end, not the worst designs tried on the way."""
-    ends = [one.best[-1] for one in starts if one.best]
+    ends = [start.best[-1] for start in starts if start.best]
     if not ends:
         return 0.0, 1.0
     low = min(ends)
@@ -150,20 +162,18 @@ def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tup
     return low - margin, high + margin
 
 
-def standing(run: SearchRun | None, problem: str = "") -> str:
+def standing(run: SearchRun | None, problem: str = "") -> Markup:
     """One line beneath the bar: where the search stands."""
     if problem:
-        return f'<div class="rx rx-found" data-explorer="search" data-kind="broken"><b>{escape(problem)}</b></div>'
+        return tag("div.rx.rx-found", tag("b", problem), data_explorer="search", data_kind="broken")
     if run is None:
-        return '<div class="rx rx-dim" data-explorer="search" data-kind="idle">Not run yet.</div>'
+        return tag("div.rx.rx-dim", "Not run yet.", data_explorer="search", data_kind="idle")
     progress = run.progress
     count = "" if progress is None else f"{number(progress.evaluation)} designs · {number(progress.elapsed, 1)} s"
     if run.optimum is not None:
         count = f"{number(run.optimum.evaluations)} designs · {number(run.optimum.elapsed, 1)} s"
-    return (
-        f'<div class="rx rx-line" data-explorer="search" data-kind="{run.state}">'
-        f"<span>{escape(_where(run))}</span><span class='rx-dim rx-num'>{count}</span></div>"
-    )
+    where = tag("span", _where(run)), tag("span.rx-dim.rx-num", count)
+    return tag("div.rx.rx-line", where, data_explorer="search", data_kind=run.state)
 
 
 def _where(run: SearchRun) -> str:
@@ -197,64 +207,80 @@ def _against_start(power: float, start: float | None) -> str:
     return f", {number(100.0 * (power / start - 1.0), 2, sign=True)} % vs. start"
 
 
-def result(run: SearchRun, units: Units = SI) -> str:
+def result(run: SearchRun, units: Units = SI) -> Markup:
     """What the best so far saves against what is not the starting design; or why there is none."""
     best = run.best
-    parts = []
+    parts: list[Markup] = []
     if run.state == "broken":
-        parts.append(f"<div class='rx-broken'>{escape(run.sentence)}</div>")
+        parts.append(tag("div.rx-broken", run.sentence))
     if best is None:
         if run.state == "done":
-            parts.append(f"<div>{escape(run.sentence)}</div>")
+            parts.append(tag("div", run.sentence))
         return _block(parts)
+    if run.optimum is not None and run.optimum.doubt is not None:
+        parts.append(tag("div", run.optimum.doubt.sentence, data_explorer="sure"))
     if run.reference_power != run.start_power:
-        parts.append(f"<table>{_saving(run.reference_title, best.power, run.reference_power, units)}</table>")
+        parts.append(tag("table", _saving(run.reference_title, best.power, run.reference_power, units)))
     return _block(parts)
 
 
-def details(run: SearchRun, units: Units = SI) -> str:
+def details(run: SearchRun, units: Units = SI) -> Markup:
     """What the optimum is made of, how flat it is, and what else was found."""
     optimum = run.optimum
-    return "" if optimum is None or optimum.best is None else _block([_optimum(optimum, run.concept, units)], "details")
+    if optimum is None or optimum.best is None:
+        return Markup()
+    return _block(_optimum(optimum, run.concept, units), "details")
 
 
-def _block(parts: list[str], name: str = "found") -> str:
-    return f'<div class="rx rx-found" data-explorer="{name}">{"".join(parts)}</div>' if parts else ""
+def _block(parts: list[Markup], name: str = "found") -> Markup:
+    return tag("div.rx.rx-found", parts, data_explorer=name) if parts else Markup()
 
 
-def _saving(title: str, power: float, reference: float | None, units: Units) -> str:
+def _saving(title: str, power: float, reference: float | None, units: Units) -> Markup:
     if reference is None or reference <= 0.0:
-        return f'<tr><td class="rx-dim">{escape(title)}</td><td class="rx-num">has no trim</td><td></td></tr>'
+        return tag("tr", tag("td.rx-dim", title), tag("td.rx-num", "has no trim"), tag("td"))
     less = power <= reference
     percent = 100.0 * (power / reference - 1.0)
-    kind = "" if abs(percent) < 0.005 else " rx-less" if less else " rx-more"
-    return (
-        f'<tr><td class="rx-dim">{"saving vs." if less else "above"} {escape(title)}</td>'
-        f'<td class="rx-num">{units.watts(abs(power - reference), 1)}</td>'
-        f'<td class="rx-num{kind}" style="width:26%">{number(abs(percent), 2)} %</td></tr>'
+    kind = "" if abs(percent) < 0.005 else "rx-less" if less else "rx-more"
+    return tag(
+        "tr",
+        tag("td.rx-dim", "saving vs. " if less else "above ", title),
+        tag("td.rx-num", units.watts(abs(power - reference), 1)),
+        tag("td.rx-num", f"{number(abs(percent), 2)} %", class_=kind, style="width:26%"),
     )
 
 
-def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
+def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     best = optimum.best
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
-    rows = []
+    doubts = {band.parameter: band for band in optimum.doubt_band}
+    rows: list[Content] = []
+    if bands:
+        ranges = f"range within 0.1 % of the least power{'; by what is uncertain' if doubts else ''}"
+        rows.append(tag("tr.rx-dim.rx-small", tag("td.rx-num", ranges, colspan=4)))
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
         band, digits = bands.get(parameter.name), 1 if parameter.angular else 2
         reach = ""
         if band is not None:
             reach = f"{number(parameter.shown(band.low), digits)} … {number(parameter.shown(band.high), digits)}"
+        if (sure := doubts.get(parameter.name)) is not None:
+            reach += f"; {number(parameter.shown(sure.low), digits)} … {number(parameter.shown(sure.high), digits)}"
         rows.append(
-            f'<tr><td>{escape(parameter.title)}</td><td class="rx-num">{number(parameter.shown(value), digits)}</td>'
-            f'<td class="rx-dim rx-unit">{escape(parameter.shown_unit)}</td>'
-            f'<td class="rx-num rx-dim">{reach}</td></tr>'
+            tag(
+                "tr",
+                tag("td", parameter.title),
+                tag("td.rx-num", number(parameter.shown(value), digits)),
+                tag("td.rx-dim.rx-unit", parameter.shown_unit),
+                tag("td.rx-num.rx-dim", reach),
+            )
         )
-    heading = (
-        '<tr class="rx-dim rx-small"><td class="rx-num" colspan="4">range within 0.1 % of the least power</td></tr>'
-    )
-    lines = [f"<table>{heading if bands else ''}{''.join(rows)}</table>"]
     notes = [optimum.message]
+    for parameter in concept.parameters:
+        if (sure := doubts.get(parameter.name)) is not None:
+            digits, unit = (1 if parameter.angular else 2), parameter.shown_unit
+            causes = (f"{words} {number(parameter.shown(by), digits, sign=True)} {unit}" for words, by in sure.causes)
+            notes.append(f"{parameter.title} is moved most by {', '.join(causes)}.")
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:
@@ -262,25 +288,21 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
     others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
     if others:
         notes.append(f"Other {'minimum' if len(others) == 1 else 'minima'}: {', '.join(others)}.")
-    lines.append(f'<div class="rx-dim rx-small">{escape(" ".join(notes))}</div>')
-    return "".join(lines)
+    return [tag("table", rows), tag("div.rx-dim.rx-small", " ".join(notes))]
 
 
-def frame_line(run: SearchRun, units: Units = SI) -> str:
+def frame_line(run: SearchRun, units: Units = SI) -> Markup:
     """What the scrubber points at."""
     if not run.frames:
-        return ""
+        return Markup()
     frame = run.frames[run.cursor]
     power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
     what = "starting design" if run.cursor == 0 else f"design {frame.evaluation}"
-    return (
-        f'<div class="rx rx-line rx-dim rx-small" data-explorer="frame"><span>{what}</span>'
-        f"<span>{units.watts(power, 1)}</span></div>"
-    )
+    line = tag("span", what), tag("span", units.watts(power, 1))
+    return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")
 
 
-def moved_on() -> str:
+def moved_on() -> Markup:
     """The sliders no longer hold the starting design of the search."""
-    return (
-        '<div class="rx rx-dim rx-small" data-explorer="frame">The sliders have changed. Apply takes the optimum.</div>'
-    )
+    words = "The sliders have changed. Apply takes the optimum."
+    return tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")

@@ -30,7 +30,7 @@ class Blend:
     inner: Section
     outer: Section
     weight: float
-    """Of the outer one, 0…1."""
+    """Weight of the outer section, 0…1."""
 
     def installed(self) -> tuple[tuple[Section, float], ...]:
         """The sections that take part, with their shares."""
@@ -46,10 +46,10 @@ class Blend:
         """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
         total = 0.0
         for section, share in self.installed():
-            one = section.table.moment(alpha - section.incidence_offset, mach)
-            if one is None:
+            moment = section.table.moment(alpha - section.incidence_offset, mach)
+            if moment is None:
                 return None
-            total += share * float(one)
+            total += share * float(moment)
         return total
 
     def stall_angles(self, mach: float) -> tuple[float, float]:
@@ -115,7 +115,7 @@ class Probe:
     cm: float | None
     """About the quarter chord, nose-up positive; None where the section data have no moment."""
     moment: float | None
-    """The same as a load [N m per m]."""
+    """Pitching moment as a load [N m per m]."""
     lift: float
     """Normal to the flow, tip and root loss taken off [N/m]."""
     drag: float
@@ -188,6 +188,9 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     alpha = math.pi - (math.pi - theta + phi) % (2.0 * math.pi)
+    if disk.apparent is not None:  # The flow at three quarters of the chord.
+        ahead = disk.alpha - disk.theta + np.arctan2(disk.u_p, disk.u_t)
+        alpha += at.held(np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi)
     chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed())
     cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
     if cm is not None and unsteady is not None:
@@ -231,8 +234,7 @@ def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) ->
     loop = np.empty((2, len(disk.psi)))
     for k, psi in enumerate(disk.psi.tolist()):
         there = _GridPoint(disk, r, psi)
-        theta, u_t, u_p = (there.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p))
-        loop[:, k] = (theta - math.atan2(u_p, u_t), there.held(disk.cl)) if u_t > 0.0 else math.nan
+        loop[:, k] = (there.held(disk.alpha), there.held(disk.cl)) if there.reaching(disk.u_t) > 0.0 else math.nan
     return UnsteadyProbe(at.held(unsteady.separation), at.held(unsteady.vortex), loop)
 
 

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
@@ -14,11 +13,13 @@ from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.live_charts import chart_box
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
 from explorer.tabs.probe.probe_measured import HEIGHT as CHART_HEIGHT
-from explorer.tabs.probe.probe_measured import lift_chart, public_table
+from explorer.tabs.probe.probe_measured import lift_chart, public_table, with_indices
 from explorer.text.glossary import tip
+from explorer.text.readout import dash
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.arrays import Array
+from rotor.markup import Attribute, Content, Markup, group, tag
 
 WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
@@ -34,12 +35,12 @@ _DRAG_FACTORS = (10, 5, 2)
 _SMALL = math.radians(40.0)
 """Angles up to here are marked behind the trailing edge, where they have room; larger ones round the section."""
 _WIDEST = math.radians(31.0)
-"""As far as angles are opened."""
+"""Widest angle that is drawn [rad]."""
 _RAY, _COLUMN = 134.0, 266.0
 """Where the rays of small angles end, and where their words begin."""
 _OUTLINE = 61
-_FAINT = 'opacity=".6"'
-_BOLD = 'font-weight="600"'
+_FAINT, _BOLD = 0.6, 600
+"""Opacity of what is less important, and weight of what is more."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class _Sketch:
         return self.probe.u_t < 0.0
 
 
-def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[str, Scales]:
+def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[Markup, Scales]:
     """The SVG, and its scales.
 
     `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk. `opened`: small angles are drawn
@@ -94,11 +95,9 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
         _angles(sketch),
         _forces(sketch, scales.lift * _STRONGEST / strongest, scales.drag * _STRONGEST / strongest),
     )
-    drawn = (
-        f'<svg viewBox="0 0 {WIDTH:g} {HEIGHT:g}" width="100%" role="img" data-explorer="probe-drawing" '
-        f'aria-label="The blade section with its velocity triangle and forces">{"".join(parts)}</svg>'
-    )
-    return drawn, scales
+    label = "The blade section with its velocity triangle and forces"
+    told: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
+    return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **told), scales
 
 
 def outline(section: Blend) -> Array:
@@ -123,21 +122,21 @@ def _turned(points: Array, angle: float) -> Array:
     return np.stack((_QUARTER[0] + across * cos - down * sin, _QUARTER[1] + across * sin + down * cos), axis=1)
 
 
-def _section(sketch: _Sketch) -> str:
+def _section(sketch: _Sketch) -> Markup:
     shape = _turned(outline(sketch.probe.section), sketch.theta)
-    style = 'fill="rgba(128,128,128,.22)" stroke="currentColor" stroke-width="1.2" stroke-linejoin="round"'
-    return svg.polygon([(x, y) for x, y in shape.tolist()], style)
+    look: dict[str, Attribute] = {"fill": "rgba(128,128,128,.22)", "stroke": "currentColor", "stroke_width": 1.2}
+    return svg.polygon([(x, y) for x, y in shape.tolist()], **look, stroke_linejoin="round")
 
 
-def _ground(sketch: _Sketch) -> str:
+def _ground(sketch: _Sketch) -> Markup:
     """The disk plane, and the chord line drawn out behind the section."""
     y = _QUARTER[1]
-    plane = svg.line((4.0, y), (_QUARTER[0] + _RAY, y), width=0.9, style='stroke-dasharray="5 4" opacity=".55"')
-    chord = svg.line(_ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, style=_FAINT)
+    plane = svg.line((4.0, y), (_QUARTER[0] + _RAY, y), width=0.9, dashes="5 4", opacity=0.55)
+    chord = svg.line(_ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, opacity=_FAINT)
     return plane + chord
 
 
-def _triangle(sketch: _Sketch, scale: float) -> str:
+def _triangle(sketch: _Sketch, scale: float) -> Markup:
     """U_T, then U_P, and their resultant, which ends just short of the edge that it meets."""
     edge = -0.83 if sketch.behind else 0.32
     x, y = _turned(np.array([[edge, 0.0]]), sketch.theta)[0].tolist()
@@ -147,20 +146,20 @@ def _triangle(sketch: _Sketch, scale: float) -> str:
     above = sketch.phi >= 0.0
     over, under = (start[1] - 6.0, y + 15.0) if above else (start[1] + 13.0, y - 8.0)
     beside, anchor = (x - 3.0, "end") if sketch.behind else (x + 3.0, "start")
-    return (
-        svg.arrow(start, corner, width=1.3)
-        + svg.arrow(corner, (x, y), width=1.3)
-        + svg.arrow(start, (x, y), width=2.6)
-        + svg.words((middle, over), "U", low="T")
-        + svg.words((beside, over), "U", anchor, low="P")
-        + svg.words((middle, under), "U", style=_BOLD)
+    return group(
+        svg.arrow(start, corner, width=1.3),
+        svg.arrow(corner, (x, y), width=1.3),
+        svg.arrow(start, (x, y), width=2.6),
+        svg.words((middle, over), "U", low="T"),
+        svg.words((beside, over), "U", anchor, low="P"),
+        svg.words((middle, under), "U", weight=_BOLD),
     )
 
 
-def _angles(sketch: _Sketch) -> str:
+def _angles(sketch: _Sketch) -> Markup:
     """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord."""
     probe, small = sketch.probe, sketch.small
-    wind = svg.line(_ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, style=_FAINT)
+    wind = svg.line(_ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT)
     theta, phi, alpha = (124.0, 98.0, 111.0) if small else (56.0, 32.0, 64.0)
     arcs = (
         svg.arc(_QUARTER, theta, 0.0, sketch.theta)
@@ -170,15 +169,16 @@ def _angles(sketch: _Sketch) -> str:
     places = _in_column(sketch) if small else _around(sketch)
     anchors = ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
     words = (
-        (f"θ {degrees(probe.theta, 1)}", "currentColor", ""),
-        (f"φ {degrees(probe.phi, 1)}", "currentColor", ""),
-        (f"α {degrees(probe.alpha, 1)}", ALPHA, _BOLD),
-        ("disk plane", "currentColor", _FAINT),
+        (f"θ {degrees(probe.theta, 1)}", "currentColor", None, None),
+        (f"φ {degrees(probe.phi, 1)}", "currentColor", None, None),
+        (f"α {degrees(probe.alpha, 1)}", ALPHA, _BOLD, None),
+        ("disk plane", "currentColor", None, _FAINT),
     )
-    return wind + arcs + "".join(
-        svg.words(place, text, anchor, colour, style)
-        for place, anchor, (text, colour, style) in zip(places, anchors, words, strict=True)
-    )  # fmt: skip
+    labels = [
+        svg.words(place, text, anchor, colour, weight=weight, opacity=opacity)
+        for place, anchor, (text, colour, weight, opacity) in zip(places, anchors, words, strict=True)
+    ]
+    return group(wind, arcs, labels)
 
 
 def _in_column(sketch: _Sketch) -> list[Point]:
@@ -198,7 +198,7 @@ def _around(sketch: _Sketch) -> list[Point]:
     return [(x + 46.0, y - 6.0), (inner[0], inner[1] + 3.5), (outer[0], outer[1] + 3.5), (4.0, y - 5.0)]
 
 
-def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> str:
+def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
     """Lift across the wind, drag along it, both from the quarter chord."""
     lift, drag = lift_scale * sketch.probe.lift, drag_scale * sketch.probe.drag
     cos, sin = math.cos(sketch.phi), math.sin(sketch.phi)
@@ -207,11 +207,11 @@ def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> str:
     text, place = "", (tip[0] + 7.0, tip[1] + 8.0 if tip[1] < y else max(tip[1] + 2.0, y + 19.0))
     if sketch.behind:  # All the angles are on one side: there is room on the other.
         text, place = "lift ", (x - 14.0, y - 40.0 if sketch.phi > 0.0 else y + 48.0)
-    return (
-        svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6)
-        + svg.arrow(_QUARTER, tip, LIFT, 3.2)
-        + f'<circle cx="{x}" cy="{y}" r="2.4" fill="{svg.BODY}" stroke="currentColor" stroke-width="1.2"/>'
-        + svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT, _BOLD)
+    return group(
+        svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6),
+        svg.arrow(_QUARTER, tip, LIFT, 3.2),
+        tag("circle", cx=x, cy=y, r=2.4, fill=svg.BODY, stroke="currentColor", stroke_width=1.2),
+        svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT, weight=_BOLD),
     )
 
 
@@ -224,7 +224,7 @@ _CHIPS = {
 }
 
 
-def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured: str = "") -> str:
+def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured: Content = None) -> Markup:
     """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider.
 
     `measured`: airloads over the azimuth, as `measured_panel` draws them.
@@ -234,9 +234,16 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
     per_metre = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
     strongest = per_metre * float(np.hypot(disk.dct, disk.dcq).max())
     picture, scales = drawing(probe, fastest, strongest, opened)
-    return (
-        f'<div class="rx rx-probe" data-explorer="probe">{_head(probe)}{picture}{_key(scales)}{_table(probe)}'
-        f"{measured}{chart_box(lift_chart(probe), CHART_HEIGHT)}{public_table(probe)}</div>"
+    return tag(
+        "div.rx.rx-probe",
+        _head(probe),
+        picture,
+        _key(scales),
+        _table(probe),
+        measured,
+        chart_box(lift_chart(probe), CHART_HEIGHT),
+        public_table(probe),
+        data_explorer="probe",
     )
 
 
@@ -252,64 +259,61 @@ def sections_of(section: Blend) -> str:
     return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.installed()))
 
 
-def _head(probe: Probe) -> str:
-    alpha, region = tip("probe_alpha"), tip("probe_region")
-    chip = f"rx-push rx-chip rx-chip-{_CHIPS[probe.region]}"
-    return (
-        f'<div class="rx-line rx-base"><span class="rx-best" data-explorer="probe-alpha"{alpha}>'
-        f"α {degrees(probe.alpha, 1)}</span>"
-        f'<span class="rx-dim" data-explorer="probe-place">{where(probe.psi)}</span>'
-        f'<span class="{chip}" data-explorer="probe-region"{region}>{probe.region.value}</span></div>'
+def _head(probe: Probe) -> Markup:
+    alpha, chip = f"α {degrees(probe.alpha, 1)}", f"span.rx-push.rx-chip.rx-chip-{_CHIPS[probe.region]}"
+    return tag(
+        "div.rx-line.rx-base",
+        tag("span.rx-best", alpha, data_explorer="probe-alpha", title=tip("probe_alpha")),
+        tag("span.rx-dim", where(probe.psi), data_explorer="probe-place"),
+        tag(chip, probe.region.value, data_explorer="probe-region", title=tip("probe_region")),
+        tag("button", "Ride along", data_do="ride", title=tip("ride")),
     )
 
 
-def _key(scales: Scales) -> str:
+def _key(scales: Scales) -> Markup:
     """The colours of the arrows, and what is drawn larger than true or than on the scale of the whole disk."""
     entries = (("velocity", "currentColor", scales.velocity), ("lift", LIFT, scales.lift), ("drag", DRAG, scales.drag))
-    keys = "".join(
-        f'<span><span class="rx-dash" style="background:{colour}"></span>{name}{_times(factor)}</span>'
-        for name, colour, factor in entries
-    )
+    keys = [tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries]
     view = f"angles{_times(scales.angles)}" if scales.angles > 1 else "seen from the hub"
-    return f'<div class="rx-line rx-small rx-dim rx-base">{keys}<span class="rx-push">{view}</span></div>'
+    return tag("div.rx-line.rx-small.rx-dim.rx-base", keys, tag("span.rx-push", view))
 
 
 def _times(factor: int) -> str:
     return f" ×{factor}" if factor > 1 else ""
 
 
-def _table(probe: Probe) -> str:
+def _table(probe: Probe) -> Markup:
     margin = probe.stall_margin
     efficiency = probe.cl / probe.cd if probe.cd > 0.0 else None
     entries = (
-        ("probe_u_t", "Tangential U<sub>T</sub>", f"{number(probe.u_t, 1)} m/s"),
+        ("probe_u_t", "Tangential U_T", f"{number(probe.u_t, 1)} m/s"),
         ("probe_mach", "Mach", number(probe.mach, 3)),
-        ("probe_u_p", "Perpendicular U<sub>P</sub>", f"{number(probe.u_p, 1)} m/s"),
-        ("probe_cl", "C<sub>l</sub>", number(probe.cl, 3)),
-        ("probe_induced", "Induced v<sub>i</sub>", f"{number(probe.induced, 1)} m/s"),
-        ("probe_cd", "C<sub>d</sub>", number(probe.cd, 4)),
+        ("probe_u_p", "Perpendicular U_P", f"{number(probe.u_p, 1)} m/s"),
+        ("probe_cl", "C_l", number(probe.cl, 3)),
+        ("probe_induced", "Induced v_i", f"{number(probe.induced, 1)} m/s"),
+        ("probe_cd", "C_d", number(probe.cd, 4)),
         ("probe_theta", "Pitch θ", degrees(probe.theta)),
-        ("probe_ratio", "C<sub>l</sub>/C<sub>d</sub>", number(efficiency, 1)),
+        ("probe_ratio", "C_l/C_d", number(efficiency, 1)),
         ("probe_phi", "Inflow φ", degrees(probe.phi)),
-        ("probe_m2cn", "M²c<sub>n</sub>", number(probe.m2cn, 3)),
+        ("probe_m2cn", "M²c_n", number(probe.m2cn, 3)),
         ("probe_moment", "Pitching moment", "–" if probe.moment is None else f"{number(probe.moment)} N m/m"),
-        ("probe_cm", "C<sub>m</sub>", "–" if probe.cm is None else number(probe.cm, 3)),
+        ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
         ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
         ("probe_drag", "Drag", f"{number(probe.drag)} N/m"),
         ("probe_thrust", "Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
         ("probe_torque", "Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
         ("probe_jig", "Jig twist", degrees(probe.jig)),
         ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
-        ("probe_section", "Section", escape(sections_of(probe.section))),
+        ("probe_section", "Section", sections_of(probe.section)),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
     if probe.unsteady is not None:
         entries += (
             ("probe_separation", "Separation", f"{number(probe.unsteady.separation, 2)} c"),
-            ("probe_vortex", "Vortex C<sub>n</sub>", number(probe.unsteady.vortex, 3)),
+            ("probe_vortex", "Vortex C_n", number(probe.unsteady.vortex, 3)),
         )
-    cells = "".join(
-        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+    cells = [
+        tag("div.rx-line", tag("span.rx-dim", with_indices(name)), tag("span.rx-num", value), title=tip(key))
         for key, name, value in entries
-    )
-    return f'<div class="rx-grid">{cells}</div>'
+    ]
+    return tag("div.rx-grid", cells)

@@ -1,8 +1,8 @@
 """The probe beside what others measured: its section, with lift curve and table; and airloads over the azimuth."""
 
 import math
+import re
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
@@ -12,17 +12,19 @@ from explorer.model.units import number
 from explorer.tabs.live_charts import chart_box
 from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import READOUTS, tip
+from explorer.text.readout import dash
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series
+from rotor.markup import Markup, group, tag
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
 from rotor.validation.airloads import REPORTS, harmonics
 
-LIFT, MARK = THIS, "#099268"
+LIFT = THIS
 HEIGHT = 92.0
-"""Of the charts [px]."""
+"""Height of the charts [px]."""
 _SHORT = {
     "umd-rans": "RANS",
     "umd-net": "RANS net",
@@ -62,14 +64,14 @@ def lift_chart(probe: Probe) -> Chart:
     bottom, top = min(-1.0, *reached), max(1.6, *reached)
 
     section = probe.section.main
-    points = [one for one in points_near(section.name, probe.table_mach) if low < math.degrees(one.alpha) < high]
+    points = [point for point in points_near(section.name, probe.table_mach) if low < math.degrees(point.alpha) < high]
     public = Points(
         "",
-        [math.degrees(one.alpha + section.incidence_offset) for one in points],
-        [one.cl for one in points],
+        [math.degrees(point.alpha + section.incidence_offset) for point in points],
+        [point.cl for point in points],
         "var(--rx-dim)",
         "ring",
-        words=[SOURCES[one.source] for one in points],
+        words=[SOURCES[point.source] for point in points],
         size=2.6,
     )
     series: list[Series] = [Line("", alpha, curve, LIFT, width=1.8), public]
@@ -78,7 +80,7 @@ def lift_chart(probe: Probe) -> Chart:
         series.append(Line("a turn", loop[0, [*range(loop.shape[1]), 0]], turn[1], NOW, width=1.6))
     if not probe.idle:
         series.append(Points("", (degrees,), (probe.cl,), NOW, words=("this element",)))
-    ends = [math.degrees(one) for one in probe.stall]
+    ends = [math.degrees(end) for end in probe.stall]
     return Chart(
         "Lift curve",
         Axis(
@@ -94,33 +96,40 @@ def lift_chart(probe: Probe) -> Chart:
     )
 
 
-def public_table(probe: Probe) -> str:
+def public_table(probe: Probe) -> Markup:
     """The nearest public point of each source with our coefficients at the same point; empty where none is near."""
     section = probe.section.main
-    rows = []
+    rows: list[Markup] = []
     for point in nearest_points(section.name, probe.table_mach, probe.alpha - section.incidence_offset):
         here, moment = section.table(point.alpha, point.mach), section.table.moment(point.alpha, point.mach)
         place = f"M {number(point.mach, 2)}, {number(math.degrees(point.alpha), 1)}°"
         use = "kept aside" if point.kept_aside else "used for the section data"
-        rows.append(
-            f'<tr title="{escape(SOURCES[point.source])}: {use}"><td>{_SHORT[point.source]}, {place}</td>'
-            f"{_cells(point.cl, point.cd, point.cm)}</tr>"
-            f'<tr class="rx-dim"><td>section data</td>'
-            f"{_cells(float(here.cl), float(here.cd), None if moment is None else float(moment))}</tr>"
-        )
+        ours = _cells(float(here.cl), float(here.cd), None if moment is None else float(moment))
+        source, name = f"{SOURCES[point.source]}: {use}", f"{_SHORT[point.source]}, {place}"
+        rows.append(tag("tr", tag("td", name), _cells(point.cl, point.cd, point.cm), title=source))
+        rows.append(tag("tr.rx-dim", tag("td", "section data"), ours))
     if not rows:
-        return ""
-    head = "".join(f'<td class="rx-num rx-dim">C<sub>{letter}</sub></td>' for letter in "ldm")
-    return (
-        f'<div class="rx-line rx-probe-title"{tip("probe_public")}><span><b>Public data</b></span>'
-        f'<span class="rx-dim">{escape(section_title(section.name))}, nearest points</span></div>'
-        f'<table class="rx-small" data-explorer="probe-public"><tr><td></td>{head}</tr>{"".join(rows)}</table>'
+        return Markup()
+    heads = [tag("td.rx-num.rx-dim", with_indices(f"C_{letter}")) for letter in "ldm"]
+    where = tag("span.rx-dim", f"{section_title(section.name)}, nearest points")
+    return group(
+        tag("div.rx-line.rx-probe-title", _title("Public data"), where, title=tip("probe_public")),
+        tag("table.rx-small", tag("tr", tag("td"), heads), rows, data_explorer="probe-public"),
     )
 
 
-def _cells(cl: float, cd: float, cm: float | None) -> str:
+def _title(words: str) -> Markup:
+    return tag("span", tag("b", words))
+
+
+def with_indices(words: str) -> Markup:
+    """Text with the index of C_l and the like set low."""
+    return group(tag("sub", part) if k % 2 else part for k, part in enumerate(re.split(r"_(\w)", words)))
+
+
+def _cells(cl: float, cd: float, cm: float | None) -> list[Markup]:
     texts = (number(cl, 3), number(cd, 4), "–" if cm is None else number(cm, 3))
-    return "".join(f'<td class="rx-num">{text}</td>' for text in texts)
+    return [tag("td.rx-num", text) for text in texts]
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,51 +154,55 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
     case = None if design.hovering else nearest_case(design)
     if case is None:
         return None
-    curves = [one for one in airload_curves(case.rotor) if one.case == case and one.quantity in _TITLES]
+    curves = [curve for curve in airload_curves(case.rotor) if curve.case == case and curve.quantity in _TITLES]
     if solution.elastic is None:
-        curves = [one for one in curves if one.quantity not in ("tip_twist_deg", "pitch_link")]
+        curves = [curve for curve in curves if curve.quantity not in ("tip_twist_deg", "pitch_link")]
     if not curves:
         return None
     nearest = [
-        min((one for one in curves if one.quantity == quantity), key=lambda one: abs(one.r - r))
-        for quantity in dict.fromkeys(one.quantity for one in curves)
+        min((curve for curve in curves if curve.quantity == quantity), key=lambda curve: abs(curve.r - r))
+        for quantity in dict.fromkeys(curve.quantity for curve in curves)
     ]
-    pairs = tuple((one, *our_curve(one, solution)) for one in nearest)
+    pairs = tuple((curve, *our_curve(curve, solution)) for curve in nearest)
     return BesideMeasured(case, is_at(case, design), as_measured(design), pairs)
 
 
-def measured_panel(beside: BesideMeasured, psi: float) -> str:
+def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
     """The curves one beneath the other; `psi`: azimuth of the probe [rad]."""
     condition = condition_of(beside.case.rotor, beside.case.name)
     name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"
-    report = escape(REPORTS[beside.case.test])
+    report = REPORTS[beside.case.test]
     differs = ["at another condition"] * (not beside.at_test) + ["of another twist"] * (not beside.blade)
     words = f"Ours is {' and '.join(differs)}." if differs else ""
-    press = (
-        ""
-        if beside.at_test or condition is None
-        else f'<button class="rx-push" data-do="flown" data-value="{escape(beside.case.name)}"{tip("fly_measured")}>'
-        "Set that of the test</button>"
-    )
-    line = f'<div class="rx-line rx-small rx-base"><span>{words}</span>{press}</div>' if differs else ""
-    charts = "".join(_chart(curve, at, ours, psi, not differs) for curve, at, ours in beside.curves)
-    return (
-        f'<div data-explorer="probe-measured"><div class="rx-line rx-probe-title"{tip("probe_measured")}>'
-        f'<span><b>Measured</b></span><span class="rx-dim" title="{report}">{escape(name)}</span>'
-        f'<span><span class="rx-dash" style="background:{THIS}"></span>ours</span></div>{line}{charts}'
-        f'<div class="rx-small rx-dim">Points: {report}.</div></div>'
+    value, what = beside.case.name, tip("fly_measured")
+    press = tag("button.rx-push", "Set that of the test", data_do="flown", data_value=value, title=what)
+    if beside.at_test or condition is None:
+        press = None
+    return tag(
+        "div",
+        tag(
+            "div.rx-line.rx-probe-title",
+            _title("Measured"),
+            tag("span.rx-dim", name, title=report),
+            tag("span", dash(THIS), "ours"),
+            title=tip("probe_measured"),
+        ),
+        tag("div.rx-line.rx-small.rx-base", tag("span", words), press) if differs else None,
+        [_chart(curve, at, ours, psi, not differs) for curve, at, ours in beside.curves],
+        tag("div.rx-small.rx-dim", f"Points: {report}."),
+        data_explorer="probe-measured",
     )
 
 
 def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
-    """Of the harmonics that are compared, without the mean."""
-    one, other = (
+    """Correlation of the harmonics that are compared, without the mean."""
+    computed, other = (
         harmonics(at, values, measured.highest)[1:] for at, values in ((psi, ours), (measured.psi, measured.values))
     )
-    return float(one @ other / math.sqrt((one @ one) * (other @ other)))
+    return float(computed @ other / math.sqrt((computed @ computed) * (other @ other)))
 
 
-def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> str:
+def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> Markup:
     title, meaning = _TITLES[measured.quantity]
     where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
     seen = *measured.values.tolist(), *ours.tolist()

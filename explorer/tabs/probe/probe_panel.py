@@ -4,6 +4,7 @@ import math
 import threading
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 import viser
@@ -23,10 +24,12 @@ from explorer.tabs.layout import by_hand
 from explorer.tabs.probe.element import Probe, probe
 from explorer.tabs.probe.probe_drawing import outline, probe_panel
 from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
+from explorer.tabs.probe.ride import Ride
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
 from rotor import Rotor, Solution
 from rotor.arrays import Array
+from rotor.markup import Markup
 
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
 """Casing and line."""
@@ -144,7 +147,7 @@ class ProbePanel(Tab):
         client, self._context, self._scene = context.client, context, scene
         self._seen = True
         self._drawn: tuple[Solution, _ProbePoint, float | None, bool] | None = None
-        self._html = ""
+        self._html = Markup()
         self._cursor = Cursor(client, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
@@ -167,6 +170,8 @@ class ProbePanel(Tab):
         for box in (self._follow, self._shown, self._opened):
             by_hand(box, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
+        self._ride = Ride(context, scene, lambda: self._player.playing)
+        context.bridge.on("ride", self._take_along)
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
         bind("play", self.toggle)
@@ -181,6 +186,7 @@ class ProbePanel(Tab):
             # Where the blade is by now: an older place would pull a slider that is dragged back.
             self._psi.value = self._context.view().azimuth_deg
         solution = state.solution
+        self._ride.show(solution)
         # The first step of r/R on the blade.
         self._r.min = round(_R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
         place = self._place()
@@ -203,15 +209,16 @@ class ProbePanel(Tab):
             else:
                 self._cursor.hide()
 
-    def _measured(self, solution: Solution, here: Probe) -> str:
+    def _measured(self, solution: Solution, here: Probe) -> Markup:
         """Airloads over the azimuth as HTML; empty where none were measured on this rotor."""
         if self._beside is None or self._beside[:2] != (solution, here.r):
             self._beside = solution, here.r, beside_measured(solution, here.r)
         beside = self._beside[2]
-        return "" if beside is None else measured_panel(beside, here.psi)
+        return Markup() if beside is None else measured_panel(beside, here.psi)
 
     def show_failure(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""
+        self._ride.end()
         self._pause()
         self._drawn = None
         self._panel.content = faded(self._html)
@@ -235,6 +242,16 @@ class ProbePanel(Tab):
         self._walked, self._left = None, LONGEST
         self._player.play()
         self._set_playing(True)
+
+    def _take_along(self, at: Any) -> None:
+        """A turn with the section at (r/R, ψ [°]), or at the probe; "off" ends it."""
+        state = self._context.state()
+        if at == "off" or state is None:
+            self._ride.end()
+            return
+        r, psi_deg = at or (self._r.value, self._psi.value)
+        self._pause()
+        self._ride.begin(state.solution, min(max(r, self._r.min), 1.0), psi_deg)
 
     def _pause(self) -> None:
         if self._player.playing:

@@ -1,7 +1,7 @@
 """Inflow models of forward flight behind one interface, by name."""
 
+from rotor.aero.inflow.interface import DiskFlow as DiskFlow
 from rotor.aero.inflow.interface import InflowModel as InflowModel
-from rotor.aero.inflow.interface import Wake as Wake
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import LocalMomentumInflow

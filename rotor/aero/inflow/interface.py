@@ -1,7 +1,7 @@
 """The interface of every forward-flight inflow model.
 
 On a disk a model is columns of the engine: what it adds to U_P, and where it answers the load, unknowns at every point
-of the grid or a section that balances itself. At a given wake (µ_x, µ_z, λ0) every model is linear in the load.
+of the grid or a section that balances itself. At a given flow (µ_x, µ_z, λ0) every model is linear in the load.
 
 Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared.
 """
@@ -15,7 +15,7 @@ import numpy as np
 
 from rotor.aero.disk import Disk
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.momentum import Wake
+from rotor.aero.momentum import DiskFlow
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
 from rotor.design.design import Models
@@ -30,11 +30,11 @@ Atoms = dict[Hashable, tuple[float, tuple[float, float, float]]]
 
 
 class Followed(NamedTuple):
-    """What a model makes of a wake, each with slopes by (µ_x, µ_z, λ0)."""
+    """What a model makes of a flow, each with slopes by (µ_x, µ_z, λ0)."""
 
     atoms: Atoms
     live: Mapping[tuple[int, Shape], tuple[Array, Array]]
-    """Functions along the blade that follow the wake, by channel and name: (elements,) and (3, elements)."""
+    """Functions along the blade that follow the flow, by channel and name: (elements,) and (3, elements)."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class SectionInterface:
 
 
 PLAIN = SectionInterface(section, PAIRS, len(CHANNELS), len(FORCES))
-"""That of `rotor.aero.section`."""
+"""The section of `rotor.aero.section`."""
 
 
 class Losses(NamedTuple):
@@ -62,25 +62,25 @@ class Losses(NamedTuple):
     tip: bool
     hub: bool
     on: LossOn = "lift"
-    """As `Models.loss_on`."""
+    """What the factors act on, see `Models.loss_on`."""
 
 
 class InflowTerms(ABC):
     """A model on a disk, as parts of the engine's structure; one without unknowns of its own where nothing is said."""
 
     key: Hashable
-    """The same for the same structure."""
+    """Equal for terms of equal structure."""
     names: Sequence[Shape] = ()
     """The shapes of λ_i in the channel UP."""
     live: Sequence[tuple[int, Shape]] = ()
-    """Channels and names of shapes that follow the wake; each has slopes by shaft tilt and λ0."""
+    """Channels and names of shapes that follow the flow; each has slopes by shaft tilt and λ0."""
     interface = PLAIN
     """The section that it needs."""
     least_azimuths = 1
     """Azimuths on which its equations are near those on all."""
 
     def unsteady(self, half_chord: Array) -> "InflowTerms":
-        """The same under sections that are unsteady; half_chord: over R, (elements,).
+        """The terms under sections that are unsteady; half_chord: over R, (elements,).
 
         Itself where nothing is shed: lift follows in the section.
         """
@@ -99,9 +99,9 @@ class InflowTerms(ABC):
         """Functions along the blade by name, (elements,)."""
         return {}
 
-    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
-        """At a wake; mu_z: axial flow as the blade elements see it, with `sees_tilt` that of the wake."""
-        del wake, mu_z, sees_tilt
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
+        """At a flow; mu_z: axial flow as the blade elements see it, with `sees_tilt` that of the disk."""
+        del flow, mu_z, sees_tilt
         return Followed({}, {})
 
     def start(self) -> Array:
@@ -113,7 +113,7 @@ class InflowTerms(ABC):
         del tolerance, thrust
 
     @abstractmethod
-    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+    def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """The matrix from an axisymmetric load to the mean inflow in axial flow, and its slopes by U_T at the load.
 
         (elements, elements) both; u_t: U_T, (elements,).
@@ -124,9 +124,9 @@ class InflowModel(ABC):
     """A forward-flight inflow model."""
 
     name: str
-    """As on the command line."""
+    """Name on the command line."""
     title: str
-    """As on the page."""
+    """Title on the page."""
     explanation: str
     """One line for the page: what the model is, and its source."""
     load_dependent: bool

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowModel, InflowTerms, Losses, SectionInterface, Wake
+from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import LiftingLine, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
@@ -51,12 +51,12 @@ def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array,
     gain, by_speed = circulation_gain(c[UT])
     f = np.concatenate([f, (gain * held[FZ])[None]])
     if slopes:
-        own = np.zeros((len(_LIFTED), *gain.shape))
+        by_channel = np.zeros((len(_LIFTED), *gain.shape))
         for k, channel in enumerate(_LIFTED):
             if channel < len(CHANNELS) - 2 or data.lossy:  # Derivatives by F are undefined where it is 1.
-                own[k] = gain * by_held[PAIRS.index((FZ, channel))]
-        own[_LIFTED.index(UT)] += by_speed * held[FZ]
-        d = np.concatenate([d, own])
+                by_channel[k] = gain * by_held[PAIRS.index((FZ, channel))]
+        by_channel[_LIFTED.index(UT)] += by_speed * held[FZ]
+        d = np.concatenate([d, by_channel])
     return f, d, s
 
 
@@ -93,12 +93,12 @@ def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """
-    made = influence(line, course)
+    matrix = influence(line, course)
     if half_chord:
-        blocks = made.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
+        blocks = matrix.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
         panel = np.arange(line.panels)
         blocks[panel, :, panel] += shed_correction(line, course, np.array(half_chord))
-    return (made * (math.pi / line.blades)).astype(np.float32)
+    return (matrix * (math.pi / line.blades)).astype(np.float32)
 
 
 class LiftingLineTerms(InflowTerms):
@@ -126,9 +126,9 @@ class LiftingLineTerms(InflowTerms):
         shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
         return np.repeat(2.2 * thrust * shape, self.line.azimuths)
 
-    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+    def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """Through the circulation of the load."""
-        course = replace(self.course, mu_x=wake.mu_x, mu_z=wake.mu_z, lambda0=wake.lambda0, flap_1c=0.0, flap_1s=0.0)
+        course = replace(self.course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, flap_1c=0.0, flap_1s=0.0)
         matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
         gain, slope = circulation_gain(u_t)
         return matrix * gain, matrix * slope

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero.disk import Disk, azimuths_of
-from rotor.aero.inflow.interface import Atoms, Followed, InflowModel, InflowTerms, Losses, Wake
+from rotor.aero.inflow.interface import Atoms, DiskFlow, Followed, InflowModel, InflowTerms, Losses
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import SMALLEST_TIP_FACTOR, mean_loss_factor
 from rotor.aero.section import LOSS, UP
@@ -40,9 +40,9 @@ class LinearInflow(InflowModel):
     name: str
     title: str
     explanation: str
-    longitudinal: Callable[[Wake], Gradient]
+    longitudinal: Callable[[DiskFlow], Gradient]
     """k_x"""
-    lateral: Callable[[Wake], Gradient]
+    lateral: Callable[[DiskFlow], Gradient]
     """k_y"""
 
     load_dependent = False
@@ -53,16 +53,16 @@ class LinearInflow(InflowModel):
         on_lift = losses.on == "lift"
         return LinearTerms(self, disk, losses) if on_lift else LossyInflowTerms(self, disk, losses)
 
-    def strengths(self, wake: Wake) -> Atoms:
+    def strengths(self, flow: DiskFlow) -> Atoms:
         """λ0 k_x and λ0 k_y, with slopes by (µ_x, µ_z, λ0)."""
-        gradients = self.longitudinal(wake), self.lateral(wake)
-        return {name: of_mean(own, wake.lambda0) for name, own in zip(STRENGTHS, gradients, strict=True)}
+        gradients = self.longitudinal(flow), self.lateral(flow)
+        return {name: of_mean(gradient, flow.lambda0) for name, gradient in zip(STRENGTHS, gradients, strict=True)}
 
-    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> Array:
+    def field(self, r: Array, cos: Array, sin: Array, flow: DiskFlow) -> Array:
         """λ_i at radii (n,) and azimuths (m,), and its slopes by (µ_x, µ_z, λ0), (4, n, m)."""
-        weights = np.array([[value, *slopes] for value, slopes in self.strengths(wake).values()])
+        weights = np.array([[value, *slopes] for value, slopes in self.strengths(flow).values()])
         out = np.tensordot(weights, np.stack([np.outer(r, cos), np.outer(r, sin)]), (0, 0))
-        out[0] += wake.lambda0
+        out[0] += flow.lambda0
         out[3] += 1.0
         return out
 
@@ -89,9 +89,9 @@ class LinearTerms(InflowTerms):
 
     def build(self, structure: Structure) -> None:
         """The three columns; F is a live shape."""
-        one, along = self.names
+        constant, along = self.names
         kx, ky = (structure.quantity(name) for name in STRENGTHS)
-        structure.column(UP, one, STEADY, 1.0, structure.states["lambda0"])
+        structure.column(UP, constant, STEADY, 1.0, structure.states["lambda0"])
         structure.column(UP, along, COS, 1.0, kx)
         structure.column(UP, along, SIN, 1.0, ky)
 
@@ -99,22 +99,22 @@ class LinearTerms(InflowTerms):
         """1 and r."""
         return dict(zip(self.names, (np.ones_like(self._disk.r), self._disk.r), strict=True))
 
-    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
         """λ0 k_x, λ0 k_y and the loss factor."""
-        return Followed(self._model.strengths(wake), {(LOSS, "loss"): self.factor(wake, mu_z, sees_tilt)})
+        return Followed(self._model.strengths(flow), {(LOSS, "loss"): self.factor(flow, mu_z, sees_tilt)})
 
-    def factor(self, wake: Wake, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
+    def factor(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
         """F, (elements,), averaged over azimuth (thesis p. 24), and its slopes by (µ_x, µ_z, λ0), (3, elements)."""
         disk, (tip, hub, _) = self._disk, self._losses
         if not (tip or hub):
             return np.ones_like(disk.r), np.zeros((3, len(disk.r)))
-        field = self._model.field(disk.r, _COS, _SIN, wake)
-        found = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
+        field = self._model.field(disk.r, _COS, _SIN, flow)
+        factors = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
         if sees_tilt:
-            found[3] += found[1]  # λ by µ_z itself.
-        return found[0], found[2:]
+            factors[3] += factors[1]  # λ by µ_z itself.
+        return factors[0], factors[2:]
 
-    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+    def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """Zero: the load does not change it."""
         return np.zeros((len(u_t),) * 2), np.zeros((len(u_t),) * 2)
 
@@ -133,73 +133,73 @@ class LossyInflowTerms(LinearTerms):
 
     def live_columns(self, structure: Structure) -> list[tuple[int, Shape, int, int]]:
         """λ0/F, λ0 k_x r cos ψ/F and λ0 k_y r sin ψ/F."""
-        one, along = LinearTerms.names
+        constant, along = LinearTerms.names
         kx, ky = (structure.derived[name] for name in STRENGTHS)
         lambda0 = structure.states["lambda0"]
-        return [(UP, one, STEADY, lambda0), (UP, along, COS, kx), (UP, along, SIN, ky)]
+        return [(UP, constant, STEADY, lambda0), (UP, along, COS, kx), (UP, along, SIN, ky)]
 
     def shapes(self) -> dict[Shape, Array]:
         """None that stand still."""
         return {}
 
-    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
         """λ0 k_x, λ0 k_y, 1/F and r/F; F is 0.1 at least, for at the very tip λ_i/F would have no bound."""
-        factor, slopes = self.factor(wake, mu_z, sees_tilt)
+        factor, slopes = self.factor(flow, mu_z, sees_tilt)
         free = factor > SMALLEST_TIP_FACTOR
         over = 1.0 / np.where(free, factor, SMALLEST_TIP_FACTOR)
-        by_wake = np.where(free, -slopes * over**2, 0.0)
+        by_flow = np.where(free, -slopes * over**2, 0.0)
         shapes = zip(LinearTerms.names, (1.0, self._disk.r), strict=True)
-        live = {(UP, name): (over * along, by_wake * along) for name, along in shapes}
-        return Followed(self._model.strengths(wake), live)
+        live = {(UP, name): (over * along, by_flow * along) for name, along in shapes}
+        return Followed(self._model.strengths(flow), live)
 
 
-def _zero(wake: Wake) -> Gradient:
-    del wake
+def _zero(flow: DiskFlow) -> Gradient:
+    del flow
     return 0.0, 0.0, 0.0
 
 
-def half_skew(wake: Wake) -> Gradient:
+def half_skew(flow: DiskFlow) -> Gradient:
     """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow.
 
     In upflow the wake is above the disk, the mirror image of one below with the same angle, and induces the same.
     """
-    size = abs(wake.axial)
-    total = wake.speed + size
-    slope = wake.mu_x / (wake.speed * total)
-    return wake.mu_x / total, size / (wake.speed * total), -math.copysign(slope, wake.axial)
+    size = abs(flow.axial)
+    total = flow.speed + size
+    slope = flow.mu_x / (flow.speed * total)
+    return flow.mu_x / total, size / (flow.speed * total), -math.copysign(slope, flow.axial)
 
 
-def scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
+def scaled_half_skew(gain: float) -> Callable[[DiskFlow], Gradient]:
     """k = gain · tan(χ/2)."""
 
-    def gradient(wake: Wake) -> Gradient:
-        value, by_mu, by_axial = half_skew(wake)
+    def gradient(flow: DiskFlow) -> Gradient:
+        value, by_mu, by_axial = half_skew(flow)
         return gain * value, gain * by_mu, gain * by_axial
 
     return gradient
 
 
-def _drees_longitudinal(wake: Wake) -> Gradient:
+def _drees_longitudinal(flow: DiskFlow) -> Gradient:
     """(4/3)(1 − cos χ − 1.8µ²)/sin χ, written with sin χ = µ_x/V so that hover is regular."""
-    value, by_mu, by_axial = half_skew(wake)
+    value, by_mu, by_axial = half_skew(flow)
     scale = 4.0 / 3.0
-    speed = wake.speed
+    speed = flow.speed
     return (
-        scale * (value - 1.8 * wake.mu_x * speed),
-        scale * (by_mu - 1.8 * (speed + wake.mu_x**2 / speed)),
-        scale * (by_axial - 1.8 * wake.mu_x * wake.axial / speed),
+        scale * (value - 1.8 * flow.mu_x * speed),
+        scale * (by_mu - 1.8 * (speed + flow.mu_x**2 / speed)),
+        scale * (by_axial - 1.8 * flow.mu_x * flow.axial / speed),
     )
 
 
-def _drees_lateral(wake: Wake) -> Gradient:
-    return -2.0 * wake.mu_x, -2.0, 0.0
+def _drees_lateral(flow: DiskFlow) -> Gradient:
+    return -2.0 * flow.mu_x, -2.0, 0.0
 
 
-def _white_blake(wake: Wake) -> Gradient:
+def _white_blake(flow: DiskFlow) -> Gradient:
     """√2 sin χ."""
-    cube = wake.speed**3
+    cube = flow.speed**3
     root = math.sqrt(2.0)
-    return root * wake.mu_x / wake.speed, root * wake.axial**2 / cube, -root * wake.mu_x * wake.axial / cube
+    return root * flow.mu_x / flow.speed, root * flow.axial**2 / cube, -root * flow.mu_x * flow.axial / cube
 
 
 LINEAR_MODELS = (

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, InflowModel, InflowTerms, Losses, SectionInterface, Wake
+from rotor.aero.inflow.interface import DiskFlow, Followed, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.inflow.linear import STRENGTHS, of_mean, scaled_half_skew
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
@@ -68,16 +68,16 @@ def balancing_step(inflow: Any, bracket: Any, error: Any, slope: Any, scale: Any
 
 def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with the inflow that balances its own lift; as `section.section`, with the rows of `_SECTORS`."""
-    gain, own, inflow = c[GAIN], c[:GAIN].copy(), c[MEAN].copy()
+    gain, channels, inflow = c[GAIN], c[:GAIN].copy(), c[MEAN].copy()
     points, bracket = inflow.ravel(), bracket_of(inflow.size)
     for _ in range(MOST_PASSES):
-        own[UP] = c[UP] + inflow
-        f, d, _ = section(own, data, True, False)
+        channels[UP] = c[UP] + inflow
+        f, d, _ = section(channels, data, True, False)
         error, slope = inflow - gain * f[FZ], 1.0 - gain * d[_UP_ROW]
         if not balancing_step(points, bracket, error.ravel(), slope.ravel(), points):
             break
-    own[UP] = c[UP] + inflow
-    f, d, s = section(own, data, slopes, flow)
+    channels[UP] = c[UP] + inflow
+    f, d, s = section(channels, data, slopes, flow)
     f = np.concatenate([f, inflow[None]])
     if not slopes:
         return f, d, s
@@ -156,23 +156,23 @@ class SectorTerms(InflowTerms):
         """r"""
         return {self.names[0]: self._disk.r}
 
-    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
         """λ0 k_x and the gain 1/(4 r F V)."""
         del mu_z, sees_tilt
-        gradient = of_mean(_GRADIENT(wake), wake.lambda0)
-        return Followed({STRENGTHS[0]: gradient}, {(GAIN, "gain"): self._gain(wake)})
+        gradient = of_mean(_GRADIENT(flow), flow.lambda0)
+        return Followed({STRENGTHS[0]: gradient}, {(GAIN, "gain"): self._gain(flow)})
 
-    def _gain(self, wake: Wake) -> tuple[Array, Array]:
+    def _gain(self, flow: DiskFlow) -> tuple[Array, Array]:
         """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""
-        disk, speed = self._disk, wake.speed
+        disk, speed = self._disk, flow.speed
         factor, factor_slope = np.ones_like(disk.r), np.zeros_like(disk.r)
         if self._tip:
-            factor, factor_slope = tip_factor(disk.r, wake.axial, disk.blades)
+            factor, factor_slope = tip_factor(disk.r, flow.axial, disk.blades)
         gain = 1.0 / (4.0 * disk.r * factor * speed)
         by_axial = -gain * factor_slope / factor
-        by_speed = np.array([wake.mu_x, wake.axial, wake.axial]) / speed**2
+        by_speed = np.array([flow.mu_x, flow.axial, flow.axial]) / speed**2
         return gain, -np.outer(by_speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
 
-    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+    def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """Diagonal: 1/(4 r F V)."""
-        return np.diag(self._gain(wake)[0]), np.zeros((len(u_t),) * 2)
+        return np.diag(self._gain(flow)[0]), np.zeros((len(u_t),) * 2)

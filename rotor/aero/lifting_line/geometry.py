@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.momentum import Wake
+from rotor.aero.momentum import DiskFlow
 from rotor.arrays import Array
 
 GRADIENT = 0.5
@@ -27,7 +27,7 @@ trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 1 to 3 
 
 
 @dataclass(frozen=True)
-class WakeCourse(Wake):
+class WakeCourse(DiskFlow):
     """What the course of a wake depends on."""
 
     coning: float

@@ -52,7 +52,7 @@ OWN_CORE, BARE = 0.05, (0.05, 0.45)
 ROOT_CORE, ROOT = 0.08, 0.5
 """Core of the far trailers inboard of a radius, which come from the root and are no concentrated vortex."""
 SHED_CORE = 0.08
-"""Of shed lines of strips, and of the near wake's last, for with one core alone it and the strips' first cancel."""
+"""Core of shed lines of strips, and of the near wake's last: with one core alone it and the strips' first cancel."""
 
 
 @dataclass(frozen=True)
@@ -83,10 +83,10 @@ class LiftingLine:
 
 
 @compiled(error_model="numpy", fastmath=True)
-def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares: Any, first: int, out: Any) -> None:
+def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shares: Any, first: int, out: Any) -> None:
     """Add the downwash of unit lines at targets to rows of `out`, (rows, azimuths, targets).
 
-    targets: positions and normals, (6, targets). ends: A and B, (lines, 6). core: c⁴, (lines,), and `own` instead at
+    targets: positions and normals, (6, targets). ends: A and B, (lines, 6). core: c⁴, (lines,), and `young` instead at
     each target, (targets,), where it is negative. places: row and the two ages in steps of each line's circulation,
     (lines, 3), the blade being at azimuth `first`; shares: what each of the two has, (lines, 2).
     """
@@ -99,13 +99,13 @@ def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares
         l4 = l2 * l2
         if core[s] < 0.0:
             for t in range(n):
-                four[t] = own[t] * l4
+                four[t] = young[t] * l4
         else:
             for t in range(n):
                 four[t] = core[s] * l4
-        row, one, two = places[s, 0], (first - places[s, 1]) % m, (first - places[s, 2]) % m
+        row, newer, older = places[s, 0], (first - places[s, 1]) % m, (first - places[s, 2]) % m
         share, other = shares[s, 0], shares[s, 1]
-        to, also = out[row, one], out[row, two]
+        to, also = out[row, newer], out[row, older]
         for t in range(n):
             dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
             ex, ey, ez = x[t] - bx, y[t] - by, z[t] - bz
@@ -116,9 +116,9 @@ def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares
             # (1 − a·b/|a||b|)(|a| + |b|) = ½(l² − (|a| − |b|)²)(|a| + |b|)/|a||b|, without the loss of digits.
             near = np.float32(0.5) * (l2 - (a - b) * (a - b)) * (a + b)
             down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
-            found = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
-            to[t] += share * found
-            also[t] += other * found
+            induced = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
+            to[t] += share * induced
+            also[t] += other * induced
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,8 +193,8 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     share[0] = 0.5
     parts.across(old[:, :-1], rows[4], SHED_CORE**4, (np.r_[near, k[1:] - 1], k + 1), share)
     zero = np.zeros(len(oldest) - 1, dtype=np.int64)
-    one = np.broadcast_to([1.0, 0.0], (len(zero), 2))
-    parts.trailers(last, rows[5], core[-1:], (zero, zero), one)
+    first_only = np.broadcast_to([1.0, 0.0], (len(zero), 2))
+    parts.trailers(last, rows[5], core[-1:], (zero, zero), first_only)
     return parts.wake(rows)
 
 
@@ -249,14 +249,14 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
     Downwash over ΩR along the blade's normal, by circulation over ΩR².
     """
     n, m, blades = line.panels, line.azimuths, line.blades
-    wake, own = build_wake(line, course, line.psi), own_core(line, course)
+    wake, young = build_wake(line, course, line.psi), own_core(line, course)
     out = np.empty((n, m, n, m))
 
     def fill(position: int) -> None:
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])
-        found = _seen(line, wake, targets, at, at, np.repeat(np.arange(blades), n), own)
-        out[:, at] = found.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
+        downwash = _seen(line, wake, targets, at, at, np.repeat(np.arange(blades), n), young)
+        out[:, at] = downwash.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
 
     # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
     # other pages. They end here, as a kept pool would hang in a forked process.
@@ -268,7 +268,7 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
 @lru_cache(maxsize=32)
 @read_only
 def mean_influence(line: LiftingLine, course: WakeCourse) -> Array:
-    """The same of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""
+    """Influence of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""
     at = line.azimuths // line.blades * np.arange(line.blades)
     wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
     order = np.arange(line.blades)
@@ -283,24 +283,24 @@ def at_points(line: LiftingLine, course: WakeCourse, points: Array, normals: Arr
     """
     step, targets = line.azimuths // line.blades, np.concatenate([points, normals], axis=1).T.astype(np.float32)
     wake, off, places = build_wake(line, course, line.psi), np.full(len(points), -1), step * np.arange(line.blades)
-    found = (_seen(line, wake, targets, k + places, k + places, off, np.zeros(0)) for k in range(step))
-    return np.stack([own.reshape(-1, len(points)).T for own in found]).astype(np.float64)
+    downwash = (_seen(line, wake, targets, k + places, k + places, off, np.zeros(0)) for k in range(step))
+    return np.stack([by_panel.reshape(-1, len(points)).T for by_panel in downwash]).astype(np.float64)
 
 
 def _seen(
     line: LiftingLine, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers,
-    own: Array,
+    young: Array,
 ) -> Singles:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`. seen: the blade on which each target
-    lies, panel by panel, or −1, (targets,); own: c⁴ of that blade's young trailers, (panels,).
+    lies, panel by panel, or −1, (targets,); young: c⁴ of that blade's young trailers, (panels,).
     """
     bound = slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
         core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
-        core[on_it] = own[: on_it.sum()]
+        core[on_it] = young[: on_it.sum()]
         before = rows[bound][:, :, on_it]
         _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
         rows[bound][:, :, on_it] = before  # A blade's own bound line has no downwash on it.
@@ -310,8 +310,8 @@ def _seen(
 def _on_blades(line: LiftingLine, course: WakeCourse, psi: Array) -> Singles:
     """Control points and normals of blades at psi, (6, blades × panels)."""
     beta, cos, sin = course.flapping(psi)[:, None], np.cos(psi)[:, None], np.sin(psi)[:, None]
-    r, one = line.r, np.ones(line.panels)
-    along = [r * cos, r * sin, beta * r, -beta * cos * one, -beta * sin * one, one + 0.0 * cos]
+    r, ones = line.r, np.ones(line.panels)
+    along = [r * cos, r * sin, beta * r, -beta * cos * ones, -beta * sin * ones, ones + 0.0 * cos]
     return np.array(along, dtype=np.float32).reshape(6, -1)
 
 
@@ -328,8 +328,8 @@ def _outboard(line: LiftingLine, course: WakeCourse) -> Array:
 
 def theodorsen(k: Array) -> NDArray[np.complex128]:
     """C(k), complex; 1 at k = 0."""
-    one, zero = hankel2(1, np.maximum(k, 1e-12)), hankel2(0, np.maximum(k, 1e-12))
-    return np.asarray(one / (one + 1j * zero), dtype=np.complex128)
+    h1, h0 = hankel2(1, np.maximum(k, 1e-12)), hankel2(0, np.maximum(k, 1e-12))
+    return np.asarray(h1 / (h1 + 1j * h0), dtype=np.complex128)
 
 
 def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
@@ -339,14 +339,15 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Arr
     """
     wake = build_wake(line, WakeCourse(0.0, 0.0, 1.0, 0.0, 0.0, 0.0, course.core), np.zeros(1))
     row, rows = wake.places[:, 0], wake.rows
-    own = np.flatnonzero((row == rows[1] + panel) | (row == rows[4] + _strip_of(line, panel)))
-    age = -0.5 * (wake.ends[0, own, 2] + wake.ends[0, own, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
-    x, core = line.r[panel] * age, wake.core[own].astype(np.float64)
+    shed = np.flatnonzero((row == rows[1] + panel) | (row == rows[4] + _strip_of(line, panel)))
+    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
+    x, core = line.r[panel] * age, wake.core[shed].astype(np.float64)
     core = np.where(core < 0.0, own_core(line, course)[panel], core)
-    gain = -wake.shares[own] * (x / (2.0 * math.pi * np.sqrt(x**4 + core)))[:, None]
+    gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(x**4 + core)))[:, None]
     step = 2.0 * math.pi / line.azimuths
     return (
-        np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[own, 1:])).reshape(len(harmonic), -1) @ gain.ravel()
+        np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed, 1:])).reshape(len(harmonic), -1)
+        @ gain.ravel()
     )
 
 

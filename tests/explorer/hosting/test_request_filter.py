@@ -1,11 +1,13 @@
 """The server as a client meets it: who may connect, the served page, floods, uploads, places."""
 
+import asyncio
 import json
 import socket
 import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -15,11 +17,14 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
-from explorer.app import App, PortBusy
+from explorer.app import App, FirstAnswers, PortBusy
 from explorer.hosting import limits, request_filter, viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter, with_loading_screen
+from explorer.model.inputs import OPENING
+from explorer.model.units import number
+from rotor import make_design, solve
 from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor, ran
 
@@ -111,6 +116,33 @@ def test_the_page_is_packed_for_those_who_unpack(address: str):
     assert body == with_loading_screen(CLIENT).packed
 
 
+class TestFirstAnswer:
+    """The loading screen has the number that the page then shows; a bad address has none, and asks nothing twice."""
+
+    def words(self, app: App, query: str) -> list[str]:
+        lines: list[str] = []
+        deadline = time.monotonic() + 120.0
+        while not lines and time.monotonic() < deadline:
+            lines = fetch(f"{app.address}/first-answer{query}")[1].decode().strip().splitlines()
+            time.sleep(0.05)
+        return lines
+
+    def test_it_is_the_power_of_the_design_of_the_address(self, app: App):
+        power, design, flight = self.words(app, "?d=1;linear:-12;mu=0.33")
+        solution = solve(make_design(twist="linear:-12", mu=0.33))
+        assert power == f"{number(solution.power.total / 1e3)} kW"
+        assert (design, flight.split(" · ")[0]) == ("UH-60A · Linear, −12\u00a0°/R", "µ 0.330")
+
+    def test_another_address_waits_its_turn_and_a_bad_one_has_no_words(self):
+        first = FirstAnswers(lambda: OPENING)
+        with first._solving:
+            assert first("d=1;linear:-8") == ""
+        for query in ("d=nonsense", "d=1;linear:-12;mu=0.44;mass=11000;altitude=4000", "follow=somebody"):
+            first._solving.acquire()
+            first._solve(query, OPENING)
+            assert first(query) == ""
+
+
 class TestAllowedHosts:
     def test_a_foreign_page_gets_403(self, app: App):
         assert ran(lambda: handshake(app, Origin="http://evil.example")) == 403
@@ -168,7 +200,9 @@ class TestStrangers:
         async def work() -> None:
             other = await arrive(app)
             monkeypatch.setattr(
-                request_filter, "RateLimiter", lambda now: limits.RateLimiter(now, limits.RateLimit(0.01, 50.0))
+                request_filter,
+                "RateLimiter",
+                lambda now, *given: limits.RateLimiter(now, *(given or (limits.RateLimit(0.01, 50.0),))),
             )
             flooder = Visitor()
             await flooder.open(app.address)
@@ -315,3 +349,99 @@ def until_all_have_left(app: App) -> None:
             return
         time.sleep(0.02)
     raise AssertionError("sessions stay behind")
+
+
+def _handshake(app: App, source: str = "127.0.0.1") -> socket.socket:
+    """A connection that speaks WebSocket by hand."""
+    port = app.server.get_port()
+    own = socket.create_connection(("127.0.0.1", port), timeout=30, source_address=(source, 0))
+    head = (
+        f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
+        f"Sec-WebSocket-Protocol: {wire.SUBPROTOCOL}\r\n\r\n"
+    )
+    own.sendall(head.encode())
+    answer = b""
+    while b"\r\n\r\n" not in answer:
+        answer += own.recv(4096)
+    assert b" 101 " in answer.partition(b"\r\n")[0]
+    return own
+
+
+def _frame(first: int, payload: bytes = b"") -> bytes:
+    size = len(payload)
+    length = bytes([0x80 | size]) if size < 126 else b"\xff" + size.to_bytes(8, "big")
+    return bytes([first]) + length + bytes(4) + payload
+
+
+class TestMessagesThatNeverEnd:
+    @pytest.mark.parametrize("part", [b"", b"x"], ids=["empty", "a byte"])
+    def test_endless_parts_end_their_own_connection(self, app: App, part: bytes, caplog: pytest.LogCaptureFixture):
+        """1.5 million empty parts in 8 s took 110 MB, and nothing ended them."""
+        sent = 0
+        with _handshake(app) as own, suppress(OSError):
+            own.sendall(_frame(0x02, b"a"))
+            while sent < 5_000_000:
+                own.sendall(_frame(0x00, part) * 10_000)
+                sent += 10_000
+        assert sent < 5_000_000
+        assert "too many parts" in caplog.text
+        self.others_are_served(app)
+
+    def test_a_message_of_60_mb_ends_its_own_connection(self, app: App):
+        with _handshake(app) as own:
+            with suppress(OSError):
+                own.sendall(_frame(0x82, bytes(60_000_000)))
+            with suppress(OSError):
+                while own.recv(2**16):
+                    pass
+        self.others_are_served(app)
+
+    @staticmethod
+    def others_are_served(app: App) -> None:
+        async def visit() -> None:
+            visitor = Visitor()
+            await visitor.open(app.address)
+            await visitor.until(lambda: visitor.text("status") == "converged")
+            await visitor.close()
+
+        ran(visit)
+
+
+@pytest.mark.parametrize(("allowed", "served"), [((), False), (("127.0.0.2",), True), (("rotor.example",), False)])
+def test_behind_a_proxy_at_another_address_of_this_machine(allowed: tuple[str, ...], served: bool):
+    """It is refused with the flag that allows it, and served with that flag."""
+    app = App("127.0.0.1", 0, limits=ServerLimits(allow_hosts=allowed))
+
+    async def copy(source: asyncio.StreamReader, to: asyncio.StreamWriter) -> None:
+        with suppress(OSError):
+            while data := await source.read(2**16):
+                to.write(data)
+                await to.drain()
+        to.close()
+
+    async def relay(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        theirs = await asyncio.open_connection("127.0.0.1", app.server.get_port(), local_addr=("127.0.0.3", 0))
+        await asyncio.gather(copy(reader, theirs[1]), copy(theirs[0], writer))
+
+    async def visit() -> str:
+        proxy = await asyncio.start_server(relay, "127.0.0.2", 0)
+        address = f"http://127.0.0.2:{proxy.sockets[0].getsockname()[1]}"
+        visitor = Visitor()
+        try:
+            await visitor.open(address)
+            await visitor.until(lambda: visitor.text("status") == "converged")
+            return "served"
+        except InvalidStatus as refusal:
+            return (refusal.response.body or b"").decode()
+        finally:
+            await visitor.close()
+            proxy.close()
+            await asyncio.sleep(0.2)
+
+    try:
+        said = ran(visit)
+    finally:
+        app.stop()
+    assert (said == "served") == served
+    assert served or "--allow-host 127.0.0.2" in said

@@ -251,6 +251,31 @@ def test_a_result_can_be_waited_for_and_comes_later_when_superseded(pool: Pool, 
 
 
 @pytest.mark.slow
+def test_a_page_that_cannot_hear_spoils_no_other_job(pool: Pool):
+    """Its process was left at the first job, and the next one took the answer of that."""
+
+    def fails(event: JobEvent) -> None:
+        if isinstance(event, JobProgress):
+            raise ZeroDivisionError("its browser has just left")
+
+    pool.submit(Count(3, 0.05), fails)
+    _, heard = submit(pool, Count(5))
+    assert heard.until(JobEnded) == JobEnded(5)
+
+
+def test_a_start_that_takes_too_long_shifts_no_answers(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("explorer.workers.pool._START", 0.05)
+    pool = Pool(1)
+    try:
+        pool.warm()
+        time.sleep(0.5)
+        monkeypatch.undo()
+        _, heard = submit(pool, Count(2))
+        assert heard.until(JobEnded) == JobEnded(2)
+    finally:
+        pool.close()
+
+
 def test_closing_ends_every_process():
     pool = Pool(1)
     _, heard = submit(pool, Count(10_000, 0.01))

@@ -12,7 +12,7 @@ import gc
 from dataclasses import replace
 from numba.core.registry import CPUDispatcher
 from explorer.picture import picture
-from explorer.workers.solver import compile_all
+from rotor.command.bench import compile_all
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
 from rotor.trim.adjoint import power_gradient
@@ -64,16 +64,14 @@ class Listener(event.Listener):
 
 event.register("numba:compile", Listener())
 from explorer.picture import picture
-from explorer.workers.solver import compile_all
+from rotor.command.bench import compile_all
 from rotor.compiled import _watch
 compile_all()
 picture.warm()
-# Dynamic stall, an option, is compiled when it is first asked for.
-option = "rotor.aero.dynamic_stall", "rotor.aero.stalling_section"
-print([one.__name__ for one in _watch.kernels if not one.overloads and one.py_func.__module__ not in option])
+print([one.__name__ for one in _watch.kernels if not one.overloads])
 print(sorted(name for (home, name), times in found.items() if home.startswith(("rotor", "explorer")) and times > 1))
 """
-TWICE = ["arctangent", "swirl_of", "weighted_sums"]
+TWICE = ["_over_mach", "arctangent", "around", "look_up", "swirl_of", "weighted_sums"]
 """In double and in single precision, or of a number and of an array."""
 
 

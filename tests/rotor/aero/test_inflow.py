@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.disk import build_disk
-from rotor.aero.inflow import Wake, inflow_model
+from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
@@ -20,7 +20,7 @@ from rotor.trim.solve import solve
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
 LINEAR = {model.name: model for model in LINEAR_MODELS}
-WAKES = [Wake(0.002, 0.0, 0.055), Wake(0.1, 0.01, 0.03), Wake(0.3, 0.04, 0.011), Wake(0.4, -0.01, 0.02)]
+WAKES = [DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.3, 0.04, 0.011), DiskFlow(0.4, -0.01, 0.02)]
 DISK = build_disk(make_design().rotor, 12, 24)
 
 
@@ -39,9 +39,9 @@ def test_glauert_closes_and_slope_is_exact(ct: float, mu_x: float, mu_z: float):
 
 @pytest.mark.parametrize("name", LINEAR)
 @pytest.mark.parametrize("wake", WAKES)
-def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: Wake):
+def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
     def field(at: Array) -> Array:
-        return LINEAR[name].field(R, np.cos(PSI), np.sin(PSI), Wake(*at.tolist()))
+        return LINEAR[name].field(R, np.cos(PSI), np.sin(PSI), DiskFlow(*at.tolist()))
 
     base = np.array([wake.mu_x, wake.mu_z, wake.lambda0])
     assert_allclose(field(base)[0].mean(axis=1), wake.lambda0, rtol=1e-13)
@@ -50,14 +50,14 @@ def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: Wake):
         assert_allclose(field(base)[1 + k], difference, rtol=1e-6, atol=1e-7)
 
 
-def gradient(name: str, wake: Wake) -> tuple[float, float]:
+def gradient(name: str, wake: DiskFlow) -> tuple[float, float]:
     """(k_x, k_y) read off the field at the disk edge over the tail, ψ = 0, and at ψ = 90°."""
     field = LINEAR[name].field(np.array([1.0]), np.array([1.0, 0.0]), np.array([0.0, 1.0]), wake)[0]
     return field[0, 0] / wake.lambda0 - 1.0, field[0, 1] / wake.lambda0 - 1.0
 
 
 @pytest.mark.parametrize("wake", WAKES)
-def test_published_gradients(wake: Wake):
+def test_published_gradients(wake: DiskFlow):
     """The published forms, written with the skew angle itself; none in hover."""
     chi = math.atan2(wake.mu_x, wake.mu_z + wake.lambda0)
     half = math.tan(chi / 2.0)
@@ -73,7 +73,7 @@ def test_published_gradients(wake: Wake):
     assert set(expected) == set(LINEAR)
     for name, pair in expected.items():
         assert_allclose(gradient(name, wake), pair, rtol=1e-9, atol=1e-12)
-        assert_allclose(gradient(name, Wake(0.0, 0.0, 0.05)), 0.0, atol=1e-14)
+        assert_allclose(gradient(name, DiskFlow(0.0, 0.0, 0.05)), 0.0, atol=1e-14)
 
 
 def test_unknown_model_is_one_sentence():
@@ -85,12 +85,12 @@ def test_a_trim_has_the_first_harmonics_of_its_model():
     """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29)."""
     solution = solve(make_design(mu=0.2, inflow="drees"))
     disk, state = solution.disk, solution.controls
-    wake = Wake(0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt), state.lambda0)
+    wake = DiskFlow(0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt), state.lambda0)
     for wave, strength in zip((np.cos(disk.psi), np.sin(disk.psi)), gradient("drees", wake), strict=True):
         assert_allclose(2.0 * (disk.induced * wave).mean(axis=1), state.lambda0 * strength * disk.r, atol=1e-9)
 
 
-def local_momentum(load: Array, wake: Wake) -> Array:
+def local_momentum(load: Array, wake: DiskFlow) -> Array:
     """λ_i of a load, without tip loss."""
     terms = LocalMomentumInflow(tip=False).on(DISK, build_problem(make_design()).course, Losses(True, True))
     followed = terms.follow(wake, wake.mu_z, sees_tilt=True)
@@ -100,14 +100,14 @@ def local_momentum(load: Array, wake: Wake) -> Array:
 
 def test_hover_is_the_annulus_balance():
     """d = 4λ²r (2.24): the load of a uniform inflow λ, with V = λ0 = λ, answers that inflow."""
-    assert_allclose(local_momentum(4.0 * 0.06**2 * DISK.r, Wake(0.0, 0.0, 0.06)), 0.06, rtol=1e-14)
+    assert_allclose(local_momentum(4.0 * 0.06**2 * DISK.r, DiskFlow(0.0, 0.0, 0.06)), 0.06, rtol=1e-14)
 
 
 def test_uniformly_loaded_disk_in_forward_flight_is_glauerts():
     """p = C_T everywhere, d = 2 r p: λ0 of eq. (2.30) and the gradient 15π/32 tan(χ/2) on it."""
     ct = 0.0065
     lambda0, _ = glauert_inflow(ct, 0.2, 0.01)
-    wake = Wake(0.2, 0.01, lambda0)
+    wake = DiskFlow(0.2, 0.01, lambda0)
     chi = math.atan2(wake.mu_x, wake.axial)
     expected = lambda0 * (1.0 + 15.0 * math.pi / 32.0 * math.tan(chi / 2.0) * np.outer(DISK.r, DISK.cos))
     assert_allclose(local_momentum(2.0 * DISK.r * ct, wake), expected, rtol=1e-12)

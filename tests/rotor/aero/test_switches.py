@@ -14,7 +14,7 @@ from scipy.integrate import dblquad
 from rotor.__main__ import main
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import Losses, Wake
+from rotor.aero.inflow.interface import DiskFlow, Losses
 from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.losses import tip_factor
 from rotor.aero.problem import LOW_MACH, build_problem
@@ -196,7 +196,7 @@ class TestLossesAndFuselage:
 
     def test_local_momentum_without_tip_loss_drops_its_factor(self):
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
-        problem, wake, model = build_problem(small(0.2)), Wake(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
+        problem, wake, model = build_problem(small(0.2)), DiskFlow(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
         disk = problem.disk
         on, off = (
             m.on(disk, problem.course, Losses(True, True)).follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0]

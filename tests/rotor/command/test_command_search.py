@@ -55,7 +55,7 @@ def test_least_vibration(capsys: pytest.CaptureFixture[str]):
     code, out, _ = run(capsys, "solve", *case, "--twist", answer["twist"], "--json")
     assert_allclose(json.loads(out)["hub_loads"]["index_percent"], answer["index_percent"], rtol=1e-5)
     code, out, _ = run(capsys, *flags)
-    for words in ("°/R", "saving ", "within 0.1 % of the index", "over wakes: trade-offs, not a level"):
+    for words in ("°/R", "saving ", "within 0.1 % of the index", "over inflow models: trade-offs, not a level"):
         assert words in out
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
+from rotor.trim.solve import at_rest, solve
 
 DEGREE = math.radians(1.0)
 
@@ -105,3 +106,39 @@ def test_the_saving_grows_with_speed():
     assert slow.net_saving < 0.0 < fast.net_saving
     assert slow.gross_saving > slow.net_saving
     assert fast.gross_saving > fast.net_saving
+
+
+def test_power_of_twice_per_revolution_vanishes_with_its_amplitude():
+    """Driven or not, the blade has one flow: a thousandth of the twist moves power by a thousandth, not by a step."""
+    design = make_design(mu=0.3, inflow="pitt-peters")
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
+    slight = replace(installed, rest_shapes=1e-3 * installed.rest_shapes)
+    full, least = (phase_sweep(design, one, 2) for one in (installed, slight))
+    assert_allclose(least.dynamic.at_rest, 1e-3 * full.dynamic.at_rest, rtol=1e-9)
+    slope = np.ptp(least.power) / 1e-3
+    assert_allclose(slope, np.ptp(full.power), rtol=0.1)
+    assert np.abs(least.power).max() < 2e-5 * least.off.power.total
+    steady = solve(replace(least.off.design, models=design.models)).require()
+    assert abs(steady.power.total - least.off.power.total) > 20.0 * np.abs(least.power).max()  # What the step would be.
+
+
+@pytest.mark.parametrize("given", ["twist_per_rev=2:{}:90", "pitch_per_rev=3:{}:200"])
+def test_what_per_rev_is_compared_with_has_its_flow(given: str):
+    """Power less that of the blade at rest is proportional to a small amplitude."""
+    name, text = given.split("=")
+    by_size: list[dict[str, Any]] = [{name: text.format(size)} for size in (0.02, 0.01)]
+    few, fewer = (make_design(mu=0.3, inflow="pitt-peters", **one) for one in by_size)
+    changes = [solve(one).require().power.total - solve(at_rest(one)).require().power.total for one in (few, fewer)]
+    assert_allclose(changes[0], 2.0 * changes[1], rtol=0.05)
+    assert at_rest(few) == at_rest(fewer)
+
+
+def test_the_flow_at_rest_is_given_only_where_it_would_differ():
+    plain = make_design(mu=0.3)
+    assert at_rest(plain) == plain
+    assert at_rest(turning(plain, Harmonic(1, DEGREE))) == plain
+    bent = make_design(mu=0.3, bending=True)
+    assert at_rest(turning(bent, Harmonic(2, DEGREE))) == bent
+    assert at_rest(turning(plain, Harmonic(2, DEGREE))).models.unsteady == "on"
+    steady = make_design(mu=0.3, unsteady="off")
+    assert at_rest(turning(steady, Harmonic(2, DEGREE))) == steady

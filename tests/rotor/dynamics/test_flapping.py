@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from rotor.aero.elements import BladeElements
-from rotor.aero.inflow import INFLOW_MODELS, Wake
+from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
@@ -38,7 +38,7 @@ def march(problem: Problem, at: BladeElements, loss: Array, revolutions: int) ->
     """
     disk, flap, flow, state, data = problem.disk, problem.flap, at.flow, at.state, problem.section_data()
     along, through = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
-    wake, model, arm = Wake(along, through, state.lambda0), INFLOW_MODELS["pitt-peters"], disk.r - flap.hinge
+    wake, model, arm = DiskFlow(along, through, state.lambda0), INFLOW_MODELS["pitt-peters"], disk.r - flap.hinge
     assert isinstance(model, LinearInflow)
     spread = np.ones((len(disk.r), 1))
     if problem.design.models.loss_on == "inflow":  # λ_i/F, with F averaged over azimuth.

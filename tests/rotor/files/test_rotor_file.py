@@ -204,7 +204,7 @@ def test_assumptions_about_files_are_caveats():
     assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor", "no-blade-structure"]
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/rotor_file.md"])
+@pytest.mark.parametrize("page", ["docs/tutorials/own_rotor.md", "docs/rotor_file.md"])
 def test_the_examples_in_the_docs_are_rotor_files(page: str):
     text = (Path(__file__).parent.parent.parent.parent / page).read_text(encoding="utf-8")
     found = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
@@ -256,11 +256,13 @@ def test_a_structure_makes_the_blade_elastic():
 
 def test_a_structure_with_bending_has_hub_loads():
     bending = "flap_stiffness_nm2 = [4e4, 3e4]\nlag_stiffness_nm2 = [8e5, 6e5]\nlag_damper_nm_s_rad = 2000.0\n"
+    bending += "mass_offset_m = [0.0, 0.01]\n"
     craft = read(GOOD + STRUCTURE + bending)
     structure = craft.rotor.blade.structure
     assert structure is not None
     assert structure.bends
     assert (structure.lag_stiffness, structure.lag_damper) == ((8e5, 6e5), 2000.0)
+    assert structure.mass_offset == (0.0, 0.01)
     solution = solve(make_design(rotor=craft, mu=0.25)).require()
     assert solution.hub_loads is not None
     assert solution.hub_loads.per_rev == craft.rotor.blades

@@ -268,6 +268,20 @@ def test_any_executor_computes_the_same_numbers(tmp_path: Path):
                 assert_array_equal(results.columns[column], expected.columns[column], column)
 
 
+def test_a_worker_of_a_cluster_with_four_threads_computes_the_same_numbers(tmp_path: Path):
+    """A Dask worker as its users start it: threads of one process, which share every cache."""
+    distributed = pytest.importorskip("distributed")
+    file = few(tmp_path)
+    expected = run_study(file, out=tmp_path / "here", workers=1)
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=4, processes=False, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        results = run_study(file, client.get_executor(), out=tmp_path / "dask")
+    for column in ("power_total_w", "collective_deg", "flap_1c_deg", "passes"):
+        assert_array_equal(results.columns[column], expected.columns[column], column)
+
+
 def test_a_chunk_whose_worker_was_lost_is_computed_again_three_times_at_most(tmp_path: Path):
     file = few(tmp_path)
     assert run_study(file, Fragile({0: 2, 3: 1}), out=tmp_path / "again").good.all()

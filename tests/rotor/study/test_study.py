@@ -121,6 +121,9 @@ BAD = {
     "no concept": ("[axes]\nmu = [0.1]\n[optimum]\n", "concept", "add"),
     "none free": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "no free parameter", "leave"),
     "starts": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nstarts = 0\n", "line 6", "1…1000"),
+    "steep axis": ("[axes]\nrate_deg = [-8, 9.9e29]\n[fixed]\nconcept = 'linear'\n", "line 2", "100"),
+    "steep blade": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\nrate_deg = -9.9e29\n", "line 5", "100"),
+    "steep": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nrate_deg = [0, 9.9e29]\n", "line 6", "±100"),
     "rate": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nrate_deg = [0, -20]\n", "line 6", "[-20, 0]"),
     "least": ("[axes]\nmu = [0.1]\n[show]\nleast = 'noise'\n", "line 4", "power_total_w"),
     "uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['wind']\n", "line 4", "mu"),
@@ -322,6 +325,23 @@ def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Store
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(ValueError, match="holds other files"):
         stored(tmp_path / "mine")
+
+
+def test_a_damaged_chunk_is_named_with_the_remedy(
+    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
+):
+    store = stored(tmp_path / "out")
+    for chunk in (0, 1):
+        store.keep(chunk, done(store, chunk).content)
+    store.close()
+    damaged = store.folder / "chunk-000001.parquet"
+    whole = damaged.read_bytes()
+    for content in (whole[:-3], whole[: len(whole) // 2], b"", bytes(reversed(whole))):
+        damaged.write_bytes(content)
+        assert main(["study", "show", str(store.folder)]) == 2
+        (sentence,) = capsys.readouterr().err.splitlines()
+        assert "chunk-000001.parquet" in sentence
+        assert "delete it and run the study again" in sentence
 
 
 def test_first_chunks_are_spread_over_the_study(tmp_path: Path):

@@ -44,8 +44,10 @@ def check(solution: Solution) -> None:
         assert solution.residual <= 1e-7
         for field in fields(solution.disk):
             values = getattr(solution.disk, field.name)
-            if field.name == "unsteady" or (field.name == "elastic_twist" and solution.elastic is None):
-                assert values is None
+            if field.name == "unsteady":
+                assert (values is not None) == solution.redone
+                continue
+            if values is None and (field.name == "apparent" or solution.elastic is None):
                 continue
             assert np.isfinite(values).all(), field.name
         for field in fields(solution.controls):
@@ -63,8 +65,11 @@ def check(solution: Solution) -> None:
 
 @pytest.mark.slow
 def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
-    lost = solve(make_design(mu=0.2, mass_kg=18_000.0))
-    found = re.search(r"A trim exists only up to (\d+) kg\.", lost.message)
+    """Where so much of the disk is stalled that there is no power; the equations themselves hold a little further."""
+    beyond = solve(make_design(mu=0.2, mass_kg=18_000.0))
+    assert re.search(r"A trim exists only up to 15\d\d\d kg\.", beyond.message)
+    lost = solve(make_design(mu=0.2, mass_kg=15_400.0))
+    found = re.search(r"The largest that trims? (?:is|are) (\d+) kg", lost.message)
     assert found
     largest = float(found[1])
     assert solve(make_design(mu=0.2, mass_kg=0.99 * largest)).converged
@@ -191,7 +196,8 @@ def test_continuation_on_a_stand_stays_within_its_limits():
 def test_a_hopeless_design_ends_within_the_passes_allowed():
     solution = solve(HOPELESS)
     assert not solution.converged
-    assert solution.passes <= DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes
+    models = 2  # Steady sections and dynamic stall.
+    assert solution.passes <= models * (DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes)
     few = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, most_passes=60))
     assert few.passes < solution.passes
     assert not few.converged
@@ -208,7 +214,7 @@ def test_a_solve_ends_when_it_is_told_to_stop():
     assert not stopped.converged
     assert stopped.passes <= 2 * DEFAULT_OPTIONS.max_passes
     assert stopped.message
-    assert len(asked) == 2
+    assert len(asked) <= 3
     easy = make_design(mu=0.2)
     assert solve(easy, options=replace(DEFAULT_OPTIONS, stop=lambda: True)).converged
 

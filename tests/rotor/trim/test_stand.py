@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.elements import TrimState
-from rotor.aero.inflow import Wake
+from rotor.aero.inflow import DiskFlow
 from rotor.aero.inflow.linear import LINEAR_MODELS, half_skew
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import build_problem
@@ -159,11 +159,11 @@ def test_a_gimbal_keeps_its_coning_and_passes_no_moment():
 @pytest.mark.parametrize("axial", [0.02, -0.02, -0.06])
 def test_wake_parameters_of_upflow(axial: float):
     """A wake above the disk has the skew of its mirror image, and exact slopes."""
-    wake = Wake(0.2, axial - 0.01, 0.01)
-    here, mirrored = half_skew(wake), half_skew(Wake(0.2, abs(axial) - 0.01, 0.01))
+    wake = DiskFlow(0.2, axial - 0.01, 0.01)
+    here, mirrored = half_skew(wake), half_skew(DiskFlow(0.2, abs(axial) - 0.01, 0.01))
     assert_allclose(here[0], mirrored[0])
     for model in LINEAR_MODELS:
-        assert_allclose(model.longitudinal(wake)[0], model.longitudinal(Wake(0.2, abs(axial) - 0.01, 0.01))[0])
+        assert_allclose(model.longitudinal(wake)[0], model.longitudinal(DiskFlow(0.2, abs(axial) - 0.01, 0.01))[0])
     for name, slope in (("mu_x", here[1]), ("mu_z", here[2]), ("lambda0", here[2])):
         low, high = (half_skew(replace(wake, **{name: getattr(wake, name) + h}))[0] for h in (-1e-7, 1e-7))
         assert_allclose(slope, (high - low) / 2e-7, rtol=1e-6, atol=1e-8)

@@ -11,9 +11,8 @@ from numpy.testing import assert_allclose
 from rotor.airfoil.sections import load_section
 from rotor.chart_svg import small_svg, svg
 from rotor.validation import verification
-from rotor.validation.page import LONGEST, SETS, sensitivity_page
-from rotor.validation.sensitivity import sensitivity, sensitivity_chart
-from rotor.validation.trust import KINDS, sensitivity_rows, trust_rows
+from rotor.validation.page import LONGEST, SETS
+from rotor.validation.trust import KINDS, trust_rows
 from rotor.validation.uh60a import LIFT_SLOPE
 from tests.shipped_rows import still_true
 
@@ -48,7 +47,7 @@ def test_every_set_has_its_page_and_picture():
     text = PAGES[0].read_text(encoding="utf-8")
     assert tuple(re.findall(r"\| \[[^\]]+\]\(validation/([\w-]+)\.md\)", text)) == NAMES
     assert {*SETS} < {*NAMES}
-    assert {path.stem for path in PAGES[1:]} == {*NAMES, "sensitivity"}
+    assert {path.stem for path in PAGES[1:]} == {*NAMES}
     for name in NAMES:
         assert f"](validation/{name}-small.svg) | [" in text
         assert f"\nvalidation/{name}\n" in text, f"{name} is not in the navigation"
@@ -77,8 +76,6 @@ def test_pages_show_the_shipped_rows():
         head, _, *cells = tables(page)
         shown = [row[head.index("Error")] for row in cells[: len(rows)]]
         assert shown == [as_printed(row.shown) for row in rows]
-    sensitivities = (DOCS / "validation/sensitivity.md").read_text(encoding="utf-8")
-    assert sensitivities == sensitivity_page(sensitivity_rows())
 
 
 @pytest.mark.parametrize("name", ["knight-hefner-3", "xv15-forward-15deg", "uh60a-constants"])
@@ -87,13 +84,12 @@ def test_pictures_are_drawn_from_the_same_numbers(name: str):
     for drawn, file in ((svg(one.charts[0]), f"{name}.svg"), (small_svg(one.charts[0]), f"{name}-small.svg")):
         shipped = (DOCS / "validation" / file).read_text(encoding="utf-8")
         assert_allclose(places(drawn), places(shipped), atol=0.5)
-    shipped = (DOCS / "validation/sensitivity.svg").read_text(encoding="utf-8")
-    assert_allclose(places(svg(sensitivity_chart(sensitivity_rows()))), places(shipped), atol=0.11)
 
 
 def test_every_link_of_the_pages_has_a_target():
-    """Links of theory, trust pages and README point to existing files."""
-    for text in (*DOCS.glob("*.md"), *PAGES[1:], DOCS.parent / "README.md"):
+    """Links of theory, trust pages, developers' pages, README and CONTRIBUTING point to existing files."""
+    top = (DOCS.parent / name for name in ("README.md", "CONTRIBUTING.md"))
+    for text in (*DOCS.glob("*.md"), *DOCS.glob("developers/**/*.md"), *PAGES[1:], *top):
         links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
         # The site builds docs/_made/notebooks from docs/notebooks.
         written = [link.removesuffix("/index").replace("_made/", "") if "_made/" in link else link for link in links]
@@ -125,16 +121,6 @@ def test_public_code_rows_are_reproduced():
     assert verification.have("dynbem") or verification.have("wisdem"), "pip install 'rotor-explorer[test]'"
     for row in (*verification.dynbem().rows, *verification.ccblade().rows):
         still_true(row)
-
-
-@pytest.mark.slow
-def test_sensitivities_are_reproduced():
-    """Angles to 0.3°, a tenth of their bands; savings to a tenth of a per cent of power."""
-    for made, shipped in zip(sensitivity(), sensitivity_rows(), strict=True):
-        assert (made.change, made.mu) == (shipped.change, shipped.mu)
-        assert_allclose(made.optimum_deg, shipped.optimum_deg, atol=0.3)
-        assert_allclose(made.saving_percent, shipped.saving_percent, atol=0.1)
-        assert made.low_deg <= made.optimum_deg <= made.high_deg
 
 
 def test_lift_slope_compared_with_the_public_deck():

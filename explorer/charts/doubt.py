@@ -1,0 +1,100 @@
+"""How sure power, its change and the best twist are: words for the card, and rows of what the doubt consists of."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from explorer.model.units import SI, Unit, Units, number
+from rotor.markup import Markup, tag
+from rotor.optimisation.results import BestTwist, TwistRange
+from rotor.trim.doubt import Doubt, OtherModels, decimals
+
+_SQUARE_METRE = Unit("m²", 1.0)
+MOST_ROWS = 6
+"""What comes after is too small to see."""
+
+
+def card_words(band: Doubt, units: Units) -> dict[str, Any]:
+    """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
+    unit = units.power[0]
+    within = unit.of(band.band)
+    words = {
+        "within": f"± {number(within, decimals(within))}",
+        "change_within": "",
+        "sure": "",
+        "doubt": band.sentence,
+    }
+    percent = band.change_band_percent
+    if band.change and percent:
+        words |= {"change_within": f"± {number(percent, decimals(percent))}", "sure": band.sureness or ""}
+    return words
+
+
+def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:
+    """The sentence, what each uncertain input does to the change of power, or where there is none to power, and what
+    other models give."""
+    unit = units.power[0]
+    title = "What the doubt of the change consists of" if band.change is not None else "What the doubt consists of"
+    sizes = [(row, abs(unit.of(row.power if row.change is None else row.change))) for row in band.rows[:MOST_ROWS]]
+    longest = max((size for _, size in sizes), default=0.0) or 1.0
+    rows = [
+        tag(
+            "tr",
+            tag("td", row.words),
+            tag("td", tag("i", style=f"width:{100.0 * size / longest:.0f}%")),
+            tag("td.rx-num", f"± {number(size, decimals(size))} {unit.symbol}"),
+            title=f"{row.words}, {f'{row.size:g} {row.unit}'.rstrip()}: {row.source}",
+        )
+        for row, size in sizes
+    ]
+    beside = (_said(each, units) for each in models)
+    with_others = tag("div.rx-dim", f"With another model: {'; '.join(beside)}.") if models else Markup()
+    return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
+
+
+def _said(beside: OtherModels, units: Units) -> str:
+    """`bending 1 368 kW, saves 2.3 %`."""
+    words = f"{beside.name} {units.watts(beside.power)}"
+    if beside.change is None:
+        return words
+    percent = 100.0 * beside.change / abs(beside.power - beside.change)
+    return f"{words}, {'saves' if percent <= 0.0 else 'costs'} {number(abs(percent), 1)} %"
+
+
+def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
+    """The best linear twist, and how far each cause moves it, as bars on one scale; the line is the best twist."""
+    rate = math.degrees(best.rate)
+    places = [rate, *(math.degrees(end) for each in best.ranges for end in each.rates)]
+    low, width = min(places), (max(places) - min(places)) or 1.0
+
+    def part(place: float) -> float:
+        return 100.0 * (place - low) / width
+
+    rows: list[Markup] = []
+    for each in best.ranges:
+        first, last = (math.degrees(end) for end in each.rates)
+        left, right = sorted((part(first), part(last)))
+        bar = (
+            tag("i", style=f"margin-left:{left:.0f}%;width:{right - left:.0f}%"),
+            tag("s", style=f"left:{part(rate):.0f}%"),
+        )
+        reach = f"{number(first, 1)} … {number(last, 1)}"
+        cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
+        rows.append(tag("tr", cells))
+    title = f"Best linear twist of this flight: {number(rate, 1)} °/R"
+    return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
+
+
+def _cause(each: TwistRange, units: Units) -> str:
+    match each.cause:
+        case "flat":
+            return "power within 0.1 %"
+        case "doubt":
+            return "by what is uncertain"
+        case "wake":
+            return "annuli … lifting line"
+        case _:
+            pass
+    assert each.ends is not None
+    unit, digits = (units.mass, 0 if units.mass.size < 1.0 else 1) if each.cause == "mass" else (_SQUARE_METRE, 1)
+    return f"{each.cause} {number(unit.of(each.ends[0]), digits)} … {unit.text(each.ends[1], digits)}"

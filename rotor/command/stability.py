@@ -1,0 +1,85 @@
+"""`stability`: damping and frequency of the modes of the trimmed blade, and margins to flutter and divergence."""
+
+import argparse
+import json
+from typing import Any
+
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.installation import install
+from rotor.actuator.limits import actuator_stability
+from rotor.actuator.section import Host, default_placement
+from rotor.command.common import (
+    add_command,
+    add_design_arguments,
+    design_from,
+    finite,
+    print_result,
+)
+from rotor.dynamics.structure import check_blade
+from rotor.terminal import wrapped
+from rotor.trim.stability import AIRS, BoundaryPoint, stability, stability_boundary
+from rotor.user_input import parse_range
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(commands, "stability", run, "damping of the blade's modes, margins to flutter and divergence")
+    parser.add_argument(
+        "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
+    )
+    parser.add_argument(
+        "--cg-offset-percent", type=finite, default=0.0, metavar="P",
+        help="move the centre of gravity of the lifting blade aft by so much of the chord (default 0)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--boundary", metavar="A:B:STEP",
+        help="also the stiffness in torsion that is needed over offsets of the centre of gravity, percent of the chord",
+    )  # fmt: skip
+    parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
+    parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
+    add_design_arguments(parser, speed=True)
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+
+
+def run(args: argparse.Namespace) -> int:
+    """0, or 1 where the design does not trim."""
+    design, offset = design_from(args), 0.01 * args.cg_offset_percent
+    if args.actuator is None and args.plies is not None:
+        raise ValueError("--plies needs an actuator: add --actuator, for example MFC_P1")
+    offsets = tuple(0.01 * place for place in parse_range(args.boundary)) if args.boundary else ()
+    try:
+        if args.actuator is not None:
+            check_blade(design.aircraft)
+            placement = default_placement(2 if args.plies is None else args.plies)
+            result = actuator_stability(
+                install(find_actuator(args.actuator), placement, Host(), design.rotor), design,
+                air=args.air, offset=offset,
+            )  # fmt: skip
+        else:
+            result = stability(design, air=args.air, offset=offset)
+        points = stability_boundary(design, offsets, air=args.air)
+    except RuntimeError as error:
+        message = {"status": "not-converged", "message": str(error)}
+        print(json.dumps(message, indent=2) if args.json else f"not converged: {error}")
+        return 1
+    beside = {"boundary": [_record(point) for point in points]} if offsets else {}
+    print_result(args, lambda: result.to_dict() | beside, lambda: _report(result.table(), points))
+    return 0
+
+
+def _record(point: BoundaryPoint) -> dict[str, float | None]:
+    return {
+        "cg_offset_percent_chord": 100.0 * point.offset,
+        "instability_stiffness_percent": 100.0 * point.instability_stiffness,
+        "divergence_stiffness_percent": 100.0 * point.divergence_stiffness,
+    }
+
+
+def _report(table: str, points: tuple[BoundaryPoint, ...]) -> str:
+    lines = [wrapped(line, "  ") if line.endswith(".") else line for line in table.splitlines()]
+    if points:
+        lines += ["", f"{'c.g. aft, % c':>14}{'unstable below':>16}{'diverges below':>16}  of the stiffness in torsion"]
+        lines += [
+            f"{100.0 * p.offset:14.1f}{100.0 * p.instability_stiffness:14.0f} %{100.0 * p.divergence_stiffness:14.0f} %"
+            for p in points
+        ]
+    return "\n".join(lines)

@@ -1,0 +1,51 @@
+"""The inputs of a rotor that are uncertain, and by how much: `assets/doubt.toml`, or what a rotor file states.
+
+What they do to power: `rotor.trim.doubt`.
+"""
+
+import tomllib
+from dataclasses import dataclass, replace
+
+from rotor.assets import asset_path
+from rotor.design.design import Design
+
+
+@dataclass(frozen=True)
+class Uncertain:
+    """An uncertain input."""
+
+    name: str
+    """Name in `assets/doubt.toml` and rotor files; ends in `_percent` where the size is a share of the input."""
+    words: str
+    size: float
+    """By how much it may be wrong, to both sides."""
+    source: str
+
+    @property
+    def unit(self) -> str:
+        return "%" if self.name.endswith("_percent") else ""
+
+    @property
+    def largest(self) -> float:
+        """The largest size that a rotor file may state."""
+        return 90.0 if self.unit else 0.1
+
+
+def _read() -> tuple[Uncertain, ...]:
+    table = tomllib.loads(asset_path("doubt.toml").read_text(encoding="utf-8"))
+    return tuple(Uncertain(name, row["words"], row["size"], row["source"]) for name, row in table.items())
+
+
+UNCERTAIN = _read()
+"""Uncertain inputs of `assets/doubt.toml`, in its order."""
+
+
+def uncertain_inputs(design: Design) -> tuple[Uncertain, ...]:
+    """The uncertain inputs of a design, with the sizes that its rotor file states."""
+    given = dict(design.aircraft.doubt)
+    band, area = design.fuselage.drag_area_band, design.fuselage.drag_area
+    if band is not None and area:
+        given.setdefault("drag_area_percent", 50.0 * (band[1] - band[0]) / area)
+    return tuple(
+        replace(row, size=given[row.name], source="rotor file") if row.name in given else row for row in UNCERTAIN
+    )

@@ -1,0 +1,109 @@
+"""How sure the saving of a search is, and where its best twist may lie: what uncertain inputs do to both.
+
+An uncertain input adds δ(x) to the power P(x) of twist parameters x, to first order (`rotor.trim.doubt`). The least of
+P + δ lies beside that of P by −H⁻¹ ∇δ with H = ∇²P, both by central differences: of the exact gradient of P, and of δ.
+Inputs are independent, so the shifts of a parameter are summed as squares.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.design.uncertain import uncertain_inputs
+from rotor.optimisation.concept import Concept
+from rotor.optimisation.limits import Limits
+from rotor.optimisation.objective import Objective, measure
+from rotor.optimisation.results import ParameterBand
+from rotor.trim.doubt import Doubt, DoubtRow, power_changes
+from rotor.trim.solution import Solution
+
+_STEP = 0.03
+"""Step of a parameter, as a part of its range: 0.9° of a rate."""
+MOST = 2
+"""Inputs named beside the band of a parameter."""
+
+
+def saving_doubt(objective: Objective, best: Design, baseline: Design) -> Doubt | None:
+    """The band of a mean power and of its change from that of the baseline.
+
+    None where one does not trim, or the objective is not total power.
+    """
+    if objective.quantity != "total":
+        return None
+    measured = [measure(objective, design, gradient=False) for design in (best, baseline)]
+    return mean_doubt(objective.shares, measured[0].solutions, measured[1].solutions)
+
+
+def mean_doubt(shares: Sequence[float], here: Sequence[Solution], there: Sequence[Solution]) -> Doubt | None:
+    """The band of a mean power over conditions, and of its change from other trims; None where one is missing."""
+    if len(here) < len(shares) or len(there) < len(shares) or not all(trim.converged for trim in (*here, *there)):
+        return None
+    power, other = (
+        sum(share * trim.power.total for share, trim in zip(shares, trims, strict=True)) for trims in (here, there)
+    )
+    changes, others = _changes(shares, here), _changes(shares, there)
+    rows = [
+        DoubtRow(row.name, row.words, row.size, row.source, changes[row.name], changes[row.name] - others[row.name])
+        for row in uncertain_inputs(here[0].design)
+        if row.name in changes and row.name in others
+    ]
+    rows.sort(key=lambda row: -abs(row.change or 0.0))
+    return Doubt(power, tuple(rows), other, there[0].design.twist.spec())
+
+
+def _changes(shares: Sequence[float], solutions: Sequence[Solution]) -> dict[str, float]:
+    """What every uncertain input does to the mean power [W]."""
+    changes = dict[str, float]()
+    for share, solution in zip(shares, solutions, strict=True):
+        for name, change in power_changes(solution).items():
+            changes[name] = changes.get(name, 0.0) + share * change
+    return changes
+
+
+def best_twist_doubt(
+    design: Design, concept: Concept, objective: Objective, limits: Limits, best: tuple[float, ...]
+) -> tuple[ParameterBand, ...]:
+    """Where each parameter of the best twist may lie by what is uncertain, within its bounds, SI.
+
+    Empty where the objective is not total power, a neighbour does not trim, or the best lies on a bound.
+    """
+    low, high = (np.array(ends) for ends in zip(*limits.bounds_of(concept), strict=True))
+    x, steps = np.array(best), _STEP * (high - low)
+    if objective.quantity != "total" or np.any(x - steps < low) or np.any(x + steps > high):
+        return ()
+
+    def at(values: Array) -> tuple[Array, dict[str, float]] | None:
+        measured = measure(objective, concept.apply(design, tuple(values.tolist())))
+        if measured.by_pitch is None:
+            return None
+        slopes = concept.slopes(tuple(values.tolist()), measured.solutions[0].disk.r)
+        return slopes @ measured.by_pitch, _changes(objective.shares, measured.solutions)
+
+    curvature, slopes, names = list[Array](), list[list[float]](), list[str]()
+    for step in np.diag(steps):
+        more, less = at(x + step), at(x - step)
+        if more is None or less is None:
+            return ()
+        width = 2.0 * float(step.sum())
+        curvature.append((more[0] - less[0]) / width)
+        names = [*more[1]]
+        slopes.append([(more[1][name] - less[1][name]) / width for name in names])
+    hessian = np.array(curvature)
+    values, axes = np.linalg.eigh(0.5 * (hessian + hessian.T))
+    if values.min() <= 0.0:
+        return ()
+    shifts = -(axes @ ((axes.T @ np.array(slopes)) / values[:, None]))
+    words = {row.name: row.words for row in uncertain_inputs(design)}
+    return tuple(
+        ParameterBand(
+            parameter.name,
+            float(max(centre - half, least)),
+            float(min(centre + half, most)),
+            tuple((words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST]),
+        )
+        for parameter, centre, shift, half, least, most in zip(
+            concept.parameters, x, shifts, np.sqrt(np.square(shifts).sum(axis=1)), low, high, strict=True
+        )
+    )

@@ -1,0 +1,246 @@
+"""The flight envelope of a rotor: largest load factor and mass over speed, top speed and ceiling, by stall and engines.
+
+A limit by stall is where the solver refuses: nothing balances, or more of the disk is stalled than on any rotor that
+was measured (`rotor.trim.validity.MOST_STALLED`). A limit by engines is where the power of all rotors is that of the
+rotor file, which is of sea level, gearboxes and accessories left out; so it is an upper bound.
+
+The largest mass needs no search: n times the weight of one mass is the weight of n times the mass, at the same drag.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from scipy.optimize import brentq
+
+from rotor.chart import Axis, Chart, Line
+from rotor.design.design import Design, require_design
+from rotor.design.quantities import CONDITION
+from rotor.design.twist import LinearTwist
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.search import Search, run_search
+from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.trim.validity import MOST_STALLED
+from rotor.units import KNOT
+
+SPEEDS = (0.0, 0.1, 0.2, 0.3, 0.4)
+"""Advance ratios of an envelope."""
+_FROM = {"load_factor": 0.5, "mu": 0.15, "altitude_m": 0.0}
+"""Where a search begins: light, near the speed of least power, at sea level."""
+_STEP = {"load_factor": 0.1, "mu": 0.05, "altitude_m": 1000.0}
+_WITHIN = {"load_factor": 0.01, "mu": 1e-3, "altitude_m": 20.0}
+"""How near a limit is found."""
+_MARCH = SolverOptions(continuation_steps=0)
+"""Each trim starts from its neighbour, so continuation from a light rotor would repeat the march."""
+_EDGE = 1e-6
+_NO_TRIM = -0.1
+"""Margin where nothing balances, in place of a part of the disk."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How far one quantity goes, in the unit of its name."""
+
+    stall: float | None
+    """Until the solver refuses; None where nothing trims, and where no limit was met."""
+    engines: float | None
+    """Until the rotors take the power of the engines; None where stall comes first, or their power is not known, 0
+    where they take more from the start. Where dynamic stall sets in, power may step over that of the engines."""
+
+    @property
+    def value(self) -> float | None:
+        """The first of both."""
+        return self.stall if self.engines is None else self.engines
+
+    @property
+    def limit(self) -> str:
+        """`engines`, `stall`, or empty where nothing is known."""
+        return "engines" if self.engines is not None else "" if self.stall is None else "stall"
+
+
+@dataclass(frozen=True)
+class EnvelopePoint:
+    """The largest load factor at one speed."""
+
+    design: Design
+    """At this speed, with the twist flown there."""
+    load_factor: Reach
+
+    @property
+    def mu(self) -> float:
+        """Advance ratio."""
+        return self.design.condition.advance_ratio
+
+    @property
+    def mass_kg(self) -> float | None:
+        """The largest mass in straight flight [kg]."""
+        largest = self.load_factor.value
+        return None if largest is None else largest * self.design.condition.mass
+
+    def record(self) -> dict[str, Any]:
+        """A row of a table."""
+        n = self.load_factor
+        return {
+            "mu": self.mu, "speed_kt": self.design.airspeed / KNOT, "twist": self.design.twist.spec(),
+            "load_factor": n.value, "limit": n.limit, "load_factor_stall": n.stall, "load_factor_engines": n.engines,
+            "mass_kg": self.mass_kg,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """What a design can fly; `rotor.envelope` makes it."""
+
+    design: Design
+    moving: bool
+    """Whether the twist is the best linear one of each speed, in place of the design's."""
+    points: tuple[EnvelopePoint, ...]
+    top_speed: Reach
+    """Advance ratio at the load factor, mass and altitude of the design."""
+    ceiling: Reach
+    """Pressure altitude at its speed [m]."""
+
+    @property
+    def label(self) -> str:
+        return "best moving twist" if self.moving else self.design.twist.spec()
+
+    def record(self) -> dict[str, Any]:
+        """Texts, numbers and lists, for JSON."""
+        return {
+            "twist": "moving" if self.moving else self.design.twist.spec(),
+            "engines_w": self.design.aircraft.installed_power,
+            "top_speed_mu": self.top_speed.value,
+            "top_speed_kt": self._knots(self.top_speed.value),
+            "top_speed_limit": self.top_speed.limit,
+            "ceiling_m": self.ceiling.value,
+            "ceiling_limit": self.ceiling.limit,
+            "points": [point.record() for point in self.points],
+        }
+
+    def _knots(self, mu: float | None) -> float | None:
+        return None if mu is None else mu * self.design.rotor.tip_speed / KNOT
+
+    def chart(self, *others: "Envelope") -> Chart:
+        """Largest load factor over µ, of others too; dashed by engines, which counts where it is the lower."""
+        lines: list[Line] = []
+        for colour, curve in enumerate((self, *others), start=1):
+            mus = [point.mu for point in curve.points]
+            for name, dashes in (("stall", False), ("engines", True)):
+                limits = [getattr(point.load_factor, name) for point in curve.points]
+                values = [math.nan if value is None else value for value in limits]
+                if any(map(math.isfinite, values)):
+                    label = f"{curve.label}, {name}"
+                    lines.append(Line(label, mus, values, colour, dashes, dots=not dashes))
+        return Chart("Largest load factor", Axis("µ"), Axis("n"), tuple(lines))
+
+
+def envelope(
+    design: Design, mu: Iterable[float] = SPEEDS, *, moving: bool = False,
+    tell: Callable[[EnvelopePoint], None] | None = None,
+) -> Envelope:  # fmt: skip
+    """The largest load factor and mass at each speed, the top speed and the ceiling, by stall and by engines.
+
+    The load factor is that of a steady turn: lift n W, and the propulsive force of straight flight at that speed.
+
+    Parameters:
+        design: what flies. Its load factor, mass and altitude are those of the top speed, its speed is that of the
+            ceiling.
+        mu: advance ratios.
+        moving: at each speed the linear twist of least power at the load factor of the design, between speeds by
+            straight lines, in place of its twist; what an actuator without limits would fly.
+        tell: called with each point as it is found.
+
+    Returns:
+        Points in ascending order of speed. Limits that are not reached are None.
+
+    Raises:
+        TypeError: the design is none.
+        ValueError: a speed cannot be used, or the rotor is on a test stand.
+
+    Example:
+        >>> small = rotor.make_design(inflow="uniform", elements=12, azimuths=24, mu=0.2)
+        >>> envelope = rotor.envelope(small, [0.1])
+        >>> 1.0 < envelope.points[0].load_factor.value < 4.0
+        True
+    """
+    if require_design(design).condition.stand is not None:
+        raise ValueError("an envelope is of flight, which a test stand has none of: give a design in flight")
+    flights = [design.at(mu=speed) for speed in sorted(set(mu))]
+    if not flights:
+        raise ValueError("an envelope needs a speed: give for example mu=[0.1, 0.2, 0.3]")
+    twists: dict[float, float] = {}
+
+    def flown(at: Design) -> Design:
+        """With the best linear twist of the two nearest speeds."""
+        if not moving:
+            return at
+        speeds = [flight.condition.advance_ratio for flight in flights]
+        here = min(max(at.condition.advance_ratio, speeds[0]), speeds[-1])
+        above = next(k for k, speed in enumerate(speeds) if speed >= here)
+        low, high = flights[max(above - 1, 0)], flights[above]
+        for flight in (low, high):
+            if (speed := flight.condition.advance_ratio) not in twists:
+                search = Search(flight, find_concept("linear"), starts=1, band=False)
+                law = run_search(search).twist
+                twists[speed] = law.rate if isinstance(law, LinearTwist) else 0.0
+        a, b = low.condition.advance_ratio, high.condition.advance_ratio
+        share = 1.0 if a == b else (here - a) / (b - a)
+        return replace(at, twist=LinearTwist(twists[a] + share * (twists[b] - twists[a])))
+
+    points: list[EnvelopePoint] = []
+    for flight in map(flown, flights):
+        points.append(EnvelopePoint(flight, reach(flight, "load_factor", both=True)))
+        if tell is not None:
+            tell(points[-1])
+    return Envelope(design, moving, tuple(points), reach(design, "mu", flown), reach(design, "altitude_m", flown))
+
+
+def reach(
+    design: Design, name: str, flown: Callable[[Design], Design] = lambda design: design, *, both: bool = False
+) -> Reach:
+    """How far a quantity of the flight condition can rise; `flown` chooses the twist at each condition.
+
+    name: `load_factor`, `mu` or `altitude_m`. both: beyond the engines too, until stall. A march in steps finds the
+    first limit of each kind, Brent's method its place; every trim starts from the nearest one that balanced.
+    """
+    row, available = CONDITION[name], design.aircraft.installed_power or math.inf
+    known: dict[float, Solution] = {}
+
+    def trim(value: float) -> Solution:
+        if value not in known:
+            good = [at for at, there in known.items() if there.converged]
+            near = min(good, key=lambda at: abs(at - value), default=None)
+            start, options = (None, DEFAULT_OPTIONS) if near is None else (known[near], _MARCH)
+            known[value] = solve(flown(row.put(design, value)), start, options)
+        return known[value]
+
+    def stall(value: float) -> float:
+        """Part of the disk that may stall before the solver refuses, never zero."""
+        here, left = trim(value), MOST_STALLED - trim(value).stalled_area
+        return max(left, _EDGE) if here.converged else left if left < -_EDGE else _NO_TRIM
+
+    def power(value: float) -> float:
+        """Share of the engines' power that is left."""
+        here = trim(value)
+        return 1.0 - here.power.total / available if here.converged else _NO_TRIM
+
+    value = _FROM[name]
+    if not trim(value).converged:
+        return Reach(None, None)
+    ahead = value
+    while trim(ahead).converged and ahead < row.high and (both or power(ahead) >= 0.0):
+        value, ahead = ahead, min(ahead + _STEP[name], row.high)
+    stalls = None
+    if not trim(ahead).converged:
+        brentq(stall, value, ahead, xtol=_WITHIN[name])
+        stalls = max(at for at, there in known.items() if there.converged)
+    good = sorted(at for at, there in known.items() if there.converged)
+    over = next((k for k, at in enumerate(good) if power(at) < 0.0), None)
+    if over is None:
+        return Reach(stalls, None)
+    if over == 0:
+        return Reach(stalls, 0.0)
+    return Reach(stalls, float(brentq(power, good[over - 1], good[over], xtol=1e-2 * _WITHIN[name])))

@@ -1,0 +1,81 @@
+"""Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone."""
+
+import asyncio
+from collections.abc import Iterator
+
+import pytest
+
+from explorer.app import App
+from explorer.session import Session
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.solve import solve
+from tests.explorer.test_leaving import searching, send
+from tests.tools.soak.visitor import Visitor, ran
+
+PAGES = 4
+EDITS = 6
+SAME = 1e-7
+"""Largest relative difference of a power from that of a solve alone, which starts elsewhere."""
+
+
+@pytest.fixture
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def query(k: int) -> str:
+    """The flight of a page: every second one bends, all have another height and speed."""
+    bends = ";bending=true" if k % 2 else ""
+    return f"?d=1;linear:-{4 + k};mu={0.14 + 0.03 * k:g};mass={7000 + 200 * k};alt={300 * k}{bends}"
+
+
+async def work(visitor: Visitor, app: App, k: int) -> None:
+    """Drag, and meanwhile search, or open the chart of the gradient."""
+    await visitor.open(app.address)
+    await visitor.until(lambda: visitor.text("status") == "converged", 200.0)
+    if k % 4 == 0:
+        await searching(visitor)
+        await send(visitor, "halt")
+        await send(visitor, "discard")
+    elif k % 4 == 1:
+        await send(visitor, "drawer", "twist")
+    for step in range(EDITS):
+        await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
+        await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
+        await asyncio.sleep(0.15)
+    await send(visitor, "idle", [7, True])
+    await visitor.until(lambda: visitor.frame.get("idle") == 7, 200.0)
+
+
+def answers(session: Session) -> tuple[float, float]:
+    """Relative difference of the page's power and of its gradient from those of the same design solved alone."""
+    state = session._state
+    assert state is not None
+    alone = solve(state.solution.design).require()
+    here, there = power_gradient(state.solution).by_element, power_gradient(alone).by_element
+    power = abs(state.solution.power.total / alone.power.total - 1.0)
+    return power, float(abs(here - there).max() / abs(there).max())
+
+
+@pytest.mark.slow
+def test_pages_at_once_end_at_the_answers_of_each_alone(app: App):
+    async def visit() -> tuple[list[str], list[Session]]:
+        visitors = [Visitor(query=query(k)) for k in range(PAGES)]
+        await asyncio.gather(*(work(visitor, app, k) for k, visitor in enumerate(visitors)))
+        sessions, notices = list(app.sessions), [notice for visitor in visitors for notice in visitor.notices]
+        for visitor in visitors:
+            await visitor.close()
+        return notices, sessions
+
+    notices, sessions = ran(visit)
+    assert notices == []
+    assert len(sessions) == PAGES
+    designs = {session._state.solution.design for session in sessions if session._state is not None}
+    assert len(designs) == PAGES
+    assert sum(design.models.bending for design in designs) == PAGES // 2
+    for session in sessions:
+        power, gradient = answers(session)
+        assert power < SAME
+        assert gradient < 1e-5

@@ -1,0 +1,58 @@
+"""How sure power is, as the page and the report say it."""
+
+import math
+
+import pytest
+
+from explorer.charts.doubt import MOST_ROWS, card_words, doubt_rows, twist_ranges
+from explorer.model.units import AVIATION, SI
+from rotor.optimisation.results import BestTwist, TwistRange
+from rotor.trim.doubt import Doubt, DoubtRow, OtherModels
+
+ROWS = tuple(DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 1e2 * (8 - k)) for k in range(8))
+
+
+def test_the_card_has_the_band_of_power_and_of_its_change():
+    words = card_words(Doubt(900e3, ROWS, against=905e3), SI)
+    assert words["within"] == "± 14"
+    assert words["change_within"] == "± 0.16"
+    assert words["sure"] == "sure"
+    assert card_words(Doubt(900e3, ROWS, against=905e3), AVIATION)["within"] == "± 19"
+
+
+def test_without_a_change_there_is_the_band_of_power_alone():
+    words = card_words(Doubt(900e3, ROWS), SI)
+    assert (words["within"], words["change_within"], words["sure"]) == ("± 14", "", "")
+
+
+@pytest.mark.parametrize("against", [None, 905e3])
+def test_rows_are_the_largest_and_name_their_source(against: float | None):
+    html = doubt_rows(Doubt(900e3, ROWS, against))
+    assert html.count("<tr") == MOST_ROWS
+    assert "input 0, 5 %: a report" not in html  # No name ends in _percent.
+    assert "input 0, 5: a report" in html
+    assert html.count("width:100%") == 1
+
+
+def test_other_models_stand_beside_the_rows():
+    models = OtherModels("bending", 980e3, -20e3), OtherModels("inflow uniform", 900e3)
+    html = doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models)
+    assert "With another model: bending 980 kW, saves 2.0 %; inflow uniform 900 kW." in html
+    assert "With another model" not in doubt_rows(Doubt(990e3, ROWS))
+
+
+def test_ranges_of_the_best_twist_are_bars_on_one_scale():
+    ranges = (
+        TwistRange("flat", (math.radians(-12.0), math.radians(-10.0))),
+        TwistRange("mass", (math.radians(-10.0), math.radians(-14.0)), (6658.0, 9987.0)),
+        TwistRange("drag area", (math.radians(-7.0), math.radians(-13.0)), (0.0, 4.08)),
+        TwistRange("wake", (math.radians(-11.0), math.radians(-15.0))),
+    )
+    best = BestTwist(math.radians(-11.0), ranges)
+    html = twist_ranges(best)
+    assert "−11.0 °/R" in html
+    assert html.count("width:25%") == 1  # −12 to −10 between −15 and −7.
+    assert html.count("left:50%") == 4  # −11.
+    for words in ("mass 6.7 … 10.0 t", "drag area 0.0 … 4.1 m²", "−7.0 … −13.0", "annuli … lifting line"):
+        assert words in html
+    assert "mass 14\u2009678 … 22\u2009018 lb" in twist_ranges(best, AVIATION)

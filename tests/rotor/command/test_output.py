@@ -1,0 +1,132 @@
+"""What commands print and write: ranges of every quantity, JSON and CSV on stdout, keys of the JSON, completion."""
+
+import argparse
+import csv
+import io
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rotor.__main__ import build_parser, main
+from rotor.trim.solution import SCHEMA
+
+QUICK = ("--inflow", "uniform", "--elements", "12", "--azimuths", "24")
+FORMATS = (Path(__file__).parents[3] / "docs" / "formats.md").read_text(encoding="utf-8")
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    assert main(list(words)) == 0
+    return capsys.readouterr().out
+
+
+def test_a_sweep_goes_over_any_quantity_of_flight(capsys: pytest.CaptureFixture[str]):
+    out = run(capsys, "sweep", "--speed-kt", "60:100:20", "--csv", "-", *QUICK)
+    rows = list(csv.DictReader(io.StringIO(out)))
+    assert [float(row["speed_kt"]) for row in rows] == [60.0, 80.0, 100.0]
+    out = run(capsys, "sweep", "--mu", "0.2", "--mass-kg", "7000,8000", "--json", *QUICK)
+    rows = json.loads(out)
+    assert [row["mass_kg"] for row in rows] == [7000.0, 8000.0]
+    assert rows[0]["total_kw"] < rows[1]["total_kw"]
+
+
+def test_a_sweep_over_two_quantities_is_refused(capsys: pytest.CaptureFixture[str]):
+    for words in ([], ["--mu", "0.1:0.3:0.1", "--mass-kg", "7000:8000:500"], ["--mu", "0.1", "--speed-kt", "80"]):
+        assert main(["sweep", *words]) == 2
+        assert "give one range" in capsys.readouterr().err
+
+
+def test_ideal_prints_json_and_csv(capsys: pytest.CaptureFixture[str]):
+    (row,) = json.loads(run(capsys, "ideal", "--mu", "0.2", "--json"))
+    lines = [line for line in run(capsys, "ideal", "--mu", "0.2", "--csv", "-").splitlines() if line[0] != "#"]
+    (again,) = csv.DictReader(lines)
+    assert {name: float(value) for name, value in again.items()} == row
+
+
+def test_two_outputs_at_once_are_refused(capsys: pytest.CaptureFixture[str]):
+    assert main(["sweep", "--mu", "0.1:0.2:0.1", "--csv", "-", "--json"]) == 2
+    assert "both print" in capsys.readouterr().err
+
+
+def test_keys_of_the_json_are_documented(capsys: pytest.CaptureFixture[str]):
+    answer = json.loads(run(capsys, "solve", "--mu", "0.3", "--bending", "--doubt", "--json"))
+    assert answer["schema"] == SCHEMA
+    assert (answer["rotor"], answer["mass_kg"], answer["altitude_m"]) == ("UH-60A", 8322.4, 0.0)
+    assert answer["version"]
+    documented = set(re.findall(r"`([a-z][a-z0-9_]*)`", FORMATS[FORMATS.index("(solve-json)=") :]))
+    assert set(answer) <= documented
+
+
+def test_hub_loads_without_bending_say_whose_they_are(capsys: pytest.CaptureFixture[str]):
+    answer = json.loads(run(capsys, "solve", "--mu", "0.3", "--json"))
+    assert answer["hub_loads"]
+    assert any("hub loads are those of blades that bend" in sentence for sentence in answer["caveats"])
+
+
+def test_a_list_that_begins_with_a_minus_is_a_value():
+    args = build_parser().parse_args(["optimise", "--mu", "0.2", "--rate-deg", "-20,0"])
+    assert args.rate_deg == "-20,0"
+
+
+@pytest.mark.parametrize(("called", "usage"), [("/usr/bin/rotor", "rotor"), ("x/__main__.py", "python -m rotor")])
+def test_usage_names_what_was_called(called: str, usage: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(sys, "argv", [called])
+    assert build_parser().format_usage().startswith(f"usage: {usage} ")
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
+def test_bash_completes_commands_and_flags(capsys: pytest.CaptureFixture[str]):
+    script = run(capsys, "completion")
+    for words, expected in (("rotor so", "solve"), ("rotor solve --dou", "--doubt")):
+        last = len(words.split()) - 1
+        program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
+        done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
+        assert done.stdout.split() == [expected]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["solve", "--mu", "0.3", "--bending"],
+        ["sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16"],
+        ["waterfall", "--mu", "0.3"],
+        ["ideal", "--mu", "0.2"],
+        ["airfoil", "show", "sc1095"],
+        ["optimise", "--mu", "0.2"],
+        ["validate", "xv15-hover"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_lines_have_100_columns_at_most(words: list[str], capsys: pytest.CaptureFixture[str]):
+    longest = max(run(capsys, *words).splitlines(), key=len)
+    assert len(longest) <= 100, longest
+
+
+def test_help_has_100_columns_at_most_however_wide_the_terminal(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    (commands,) = (one.choices for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
+    for parser in (build_parser(), *commands.values()):
+        longest = max(parser.format_help().splitlines(), key=len)
+        assert len(longest) <= 100, longest
+
+
+def test_stability_as_text_and_as_json(capsys: pytest.CaptureFixture[str]):
+    text = run(capsys, "stability", "--hover", "--boundary", "0:4:4")
+    assert "torsion 1" in text
+    assert "of the stiffness in torsion" in text
+    found = json.loads(run(capsys, "stability", "--hover", "--boundary", "0:4:4", "--json"))
+    assert found["stable"]
+    assert next(mode["name"] for mode in found["modes"]) == "flap 1"
+    first, aft = found["boundary"]
+    assert first["instability_stiffness_percent"] < aft["instability_stiffness_percent"]
+    assert first["instability_stiffness_percent"] == found["margins"]["instability_stiffness_percent"]
+
+
+def test_stability_refuses_what_it_cannot_do(capsys: pytest.CaptureFixture[str]):
+    for words, remedy in ((("--plies", "2"), "add --actuator"), (("--cg-offset-percent", "80"), "give less")):
+        assert main(["stability", "--hover", *words]) == 2
+        assert remedy in capsys.readouterr().err

@@ -1,0 +1,106 @@
+"""How sure a saving is, and where the best twist may lie, beside new searches with changed inputs."""
+
+import json
+import math
+
+import pytest
+
+import rotor
+from rotor.__main__ import main
+from rotor.design.design import Design
+from rotor.design.uncertain import UNCERTAIN
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.doubt import saving_doubt
+from rotor.optimisation.objective import at_condition, over_conditions
+from rotor.optimisation.search import Search, run_search
+from rotor.trim.doubt import doubt
+from tests.patched import Patch
+from tests.uncertain import either_side
+
+MU = 0.3
+CONDITIONS = {"hover": {"hover": True}, "µ 0.2": {"mu": 0.2}, "µ 0.3": {"mu": 0.3}, "µ 0.35": {"mu": 0.35}}
+ROWS = (
+    "section_drag_percent",
+    "section_lift_percent",
+    "section_moment",
+    "drag_rise_mach",
+    "drag_area_percent",
+    "torsional_stiffness_percent",
+)
+
+
+def best_rate(design: Design) -> float:
+    found = run_search(Search(design, find_concept("linear"), starts=1, band=False))
+    assert found.best is not None
+    return found.best.parameters[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "condition"),
+    [(name, at) for name in ROWS for at in CONDITIONS if (name, at) != ("drag_area_percent", "hover")],
+)
+def test_the_best_twist_moves_as_new_searches_find(name: str, condition: str, patch: Patch):
+    """Half the difference between an input larger and one smaller by its size; within 15 % of the whole band."""
+    design = rotor.make_design(**CONDITIONS[condition])  # type: ignore[arg-type]
+    patch("rotor.optimisation.doubt.MOST", 99)
+    (band,) = rotor.optimise(design, "linear", starts=1).doubt_band
+    expected = dict(band.causes)[{row.name: row.words for row in UNCERTAIN}[name]]
+    ends = [best_rate(changed) for changed in either_side(name, design, patch)]
+    print(
+        f"{name} {condition}: {math.degrees(0.5 * (ends[0] - ends[1])):.2f}, first order {math.degrees(expected):.2f}°"
+    )
+    assert 0.5 * (ends[0] - ends[1]) == pytest.approx(expected, abs=0.15 * 0.5 * (band.high - band.low))
+
+
+def test_a_search_says_how_sure_its_saving_is():
+    design = rotor.make_design(mu=MU)
+    found = rotor.optimise(design, "linear", starts=1)
+    assert found.best is not None
+    assert found.doubt is not None
+    alone = doubt(rotor.solve(found.design), rotor.solve(design))
+    assert found.doubt.change_band == pytest.approx(alone.change_band, rel=1e-3)
+    assert found.doubt.sureness == "sure"
+    (band,) = found.doubt_band
+    assert band.low < found.best.parameters[0] < band.high
+    assert len(band.causes) == 2
+
+
+def test_over_conditions_rows_are_means():
+    design, other = rotor.make_design(mu=0.2), rotor.make_design(mu=0.2, twist="linear:-8")
+    both = saving_doubt(over_conditions(other, [(0.1, 1.0), (0.3, 3.0)]), other, design)
+    alone = [doubt(rotor.solve(other.at(mu=mu)), rotor.solve(design.at(mu=mu))) for mu in (0.1, 0.3)]
+    assert both is not None
+    for row in both.rows:
+        first, second = ({each.name: each.power for each in found.rows}.get(row.name, 0.0) for found in alone)
+        assert row.power == pytest.approx(0.25 * first + 0.75 * second, rel=1e-3, abs=1.0)
+
+
+def test_other_objectives_have_no_band():
+    design = rotor.make_design(mu=0.2)
+    assert saving_doubt(at_condition(design, "induced"), design, design) is None
+    assert rotor.optimise(design, "linear", quantity="induced", starts=1).doubt is None
+
+
+def test_hover_has_another_wake_with_more_twist(capsys: pytest.CaptureFixture[str]):
+    assert main(["optimise", "--hover", "--starts", "1", "--doubt", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    line = answer["models"]["inflow lifting-line"]["parameters"]["rate_deg"]
+    assert line < answer["parameters"]["rate_deg"] - 1.0
+    low, high = answer["doubt_band"]["rate_deg"]
+    assert low < answer["parameters"]["rate_deg"] < high
+    assert math.isfinite(answer["saving_doubt_percent"])
+
+
+def test_in_hover_the_best_twist_is_a_band_between_the_wakes(capsys: pytest.CaptureFixture[str]):
+    assert main(["optimise", "--hover", "--starts", "1"]) == 0
+    assert "-18.3 to -16.5 between annuli and a lifting line" in " ".join(capsys.readouterr().out.split())
+
+
+def test_the_doubt_of_a_twist_in_flight_names_masses_and_drag_areas(capsys: pytest.CaptureFixture[str]):
+    command = ["optimise", "--mu", "0.2", "--inflow", "uniform", "--starts", "1", "--doubt", "--json"]
+    assert main(command) == 0
+    flights = json.loads(capsys.readouterr().out)["flights"]
+    assert list(flights) == ["mass 6658 kg", "mass 9987 kg", "drag area 0.0 m²", "drag area 4.1 m²"]
+    assert main([*command, "--objective", "induced"]) == 2
+    assert "total power in one flight" in capsys.readouterr().err

@@ -1,0 +1,75 @@
+"""What notebooks and tables get of results: rotor files by path, twist as numbers, xarray, short representations."""
+
+import sys
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor
+from rotor.design.twist import parse_twist
+from rotor.trim.adjoint import power_gradient
+from tests.tools.thirty_designs import FILE
+
+QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}
+
+
+def test_a_rotor_file_is_named_by_its_path(tmp_path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(FILE, encoding="utf-8")
+    assert rotor.make_design(rotor="mine.toml").rotor.name == "My rotor"
+
+
+def test_help_of_make_design_lists_the_choices():
+    text = rotor.make_design.__doc__ or ""
+    for name in ("lifting-line", "closed-form", "wind-tunnel", "thesis"):
+        assert name in text
+
+
+def test_twist_is_a_number_in_tables():
+    designs = [rotor.make_design(twist=f"linear:{rate}", **QUICK) for rate in (-4, -12)]
+    table = rotor.sweep(designs, mu=[0.2]).to_dict()
+    assert_allclose(np.array(table["twist_deg_per_r"], dtype=float), [-4.0, -12.0])
+
+
+def test_a_chart_over_knots_has_knots():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    axes = rotor.plot_power(rotor.sweep(rotor.make_design(**QUICK), speed_kt=[60, 90]))
+    assert axes.get_xlabel() == "Airspeed [kt]"
+    assert_allclose(axes.get_lines()[0].get_xdata(), [60.0, 90.0])
+
+
+def test_gradient_along_a_twist_law():
+    design = rotor.make_design(mu=0.2, twist="linear:-4")
+    slope = power_gradient(rotor.solve(design)).along(parse_twist("linear:1"))
+    ends = [rotor.solve(design.with_twist(f"linear:{rate}")).power.total for rate in (-4.05, -3.95)]
+    assert_allclose(slope, (ends[1] - ends[0]) / 0.1, rtol=1e-3)
+
+
+def test_a_distribution_as_an_xarray_dataset(monkeypatch: pytest.MonkeyPatch):
+    found = rotor.distribution(rotor.solve(rotor.make_design(**QUICK)))
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match="pip install xarray"):
+        found.to_xarray()
+    monkeypatch.setitem(sys.modules, "xarray", SimpleNamespace(Dataset=lambda values, coords: (values, coords)))
+    values, coords = found.to_xarray()
+    assert {*values, *coords} == set(found.to_dict())
+    for dims, array, _ in values.values():
+        assert array.shape == tuple(len(coords[name]) for name in dims)
+
+
+def test_representations_are_short():
+    design = rotor.make_design(mu=0.3, **QUICK)
+    solution = rotor.solve(design)
+    shown = (
+        design, solution, rotor.distribution(solution), rotor.sweep(design, mu=[0.1, 0.2]), rotor.doubt(solution),
+        rotor.optimise(design, "linear", starts=1), solution.disk, solution.power, solution.controls,
+        solution.elastic, power_gradient(solution), rotor.schedule(design, mu=[0.2], starts=1),
+    )  # fmt: skip
+    for value in shown:
+        assert len(repr(value).splitlines()) <= 10, type(value).__name__
+        assert len(repr(value)) <= 1200, type(value).__name__

@@ -1,0 +1,159 @@
+"""What uncertain inputs do to power: first order beside new trims, and what is said of it."""
+
+import json
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+import rotor
+from rotor.__main__ import main
+from rotor.assets import asset_path
+from rotor.design.design import Design
+from rotor.design.uncertain import uncertain_inputs
+from rotor.trim.doubt import Doubt, DoubtRow, doubt, power_changes, sureness
+from tests.patched import Patch
+from tests.uncertain import SIZES, either_side, patch_sections
+
+CONDITIONS = {"µ 0.35": {"mu": 0.35}, "µ 0.3": {"mu": 0.3}, "µ 0.2": {"mu": 0.2}, "hover": {"hover": True}}
+TWISTS = ("linear:-12", "builtin")
+
+
+def designs(condition: str) -> list[Design]:
+    return [rotor.make_design(twist=twist, **CONDITIONS[condition]) for twist in TWISTS]  # type: ignore[arg-type]
+
+
+def exactly(condition: str, name: str, patch: Patch) -> np.ndarray:
+    """The change of both powers by new trims [W], half of that between an input larger and one smaller by its size."""
+    ends = [
+        [rotor.solve(changed).require().power.total for changed in either_side(name, design, patch)]
+        for design in designs(condition)
+    ]
+    return 0.5 * (np.array(ends)[:, 0] - np.array(ends)[:, 1])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("condition", CONDITIONS)
+@pytest.mark.parametrize(
+    "name",
+    [
+        "section_drag_percent", "section_lift_percent", "section_moment", "drag_rise_mach", "drag_area_percent",
+        "torsional_stiffness_percent", "control_stiffness_percent", "torsional_inertia_percent",
+    ],
+)  # fmt: skip
+def test_the_first_order_is_what_new_trims_give(name: str, condition: str, patch: Patch):
+    """Within 15 % of the band, of the power and of the change of power between two twists."""
+    here, built = (rotor.solve(design).require() for design in designs(condition))
+    found = doubt(here, built)
+    row = next((row for row in found.rows if row.name == name), None)
+    if row is None:
+        assert condition == "hover"
+        assert name == "drag_area_percent"
+        return
+    assert row.change is not None
+    assert found.change_band is not None
+    exact = exactly(condition, name, patch)
+    print(f"{name} {condition}: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W")
+    assert row.power == pytest.approx(exact[0], abs=0.15 * found.band)
+    assert row.change == pytest.approx(exact[0] - exact[1], abs=0.15 * found.change_band)
+
+
+@lru_cache(maxsize=1)
+def at_speed() -> tuple[rotor.Solution, rotor.Solution]:
+    here, built = (rotor.solve(design).require() for design in designs("µ 0.3"))
+    return here, built
+
+
+def test_a_design_differs_from_itself_by_nothing_and_that_is_sure():
+    here, _ = at_speed()
+    found = doubt(here, here)
+    assert found.change == found.change_band == 0.0
+    assert found.band > 0.0
+
+
+def test_most_of_what_is_uncertain_is_so_for_both_twists():
+    found = doubt(*at_speed())
+    assert found.change_band is not None
+    assert found.change_band < 0.15 * found.band
+    assert found.sureness == "sure"
+    assert found.sentence.startswith("Power 1371 ± ")
+
+
+def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
+    """∂P/∂f is ½ρV³ at the shaft, and the rotor and the tail rotor that give that force take more."""
+    here, _ = at_speed()
+    design = here.design
+    by_hand = 0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
+    assert 1.0 < power_changes(here)["drag_area_percent"] / by_hand < 1.25
+
+
+def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
+    """No state follows it but the inflow of annuli, which balances lift: profile power, and the tail rotor's part."""
+    here = rotor.solve(rotor.make_design(hover=True)).require()
+    tail = 1.0 + here.power.tail / here.power.main_rotor
+    share = 0.01 * SIZES["section_drag_percent"] * here.power.profile * tail
+    assert power_changes(here)["section_drag_percent"] == pytest.approx(share, rel=0.12)
+
+
+def test_with_dynamic_stall_and_bending_the_rows_are_those_of_new_trims(patch: Patch):
+    options = {"mu": 0.3, "bending": True, "dynamic_stall": True}
+    found = power_changes(rotor.solve(rotor.make_design(**options)).require())
+    ends: list[float] = []
+    for sign in (1.0, -1.0):
+        patch_sections("section_drag_percent", sign * SIZES["section_drag_percent"], patch)
+        ends.append(rotor.solve(rotor.make_design(**options)).require().power.total)
+    assert found["section_drag_percent"] == pytest.approx(0.5 * (ends[0] - ends[1]), rel=0.05)
+
+
+def test_what_a_design_does_not_have_is_no_row():
+    thesis = power_changes(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require())
+    assert not {"torsional_stiffness_percent", "section_moment", "wake_transport_percent"} & set(thesis)
+    stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
+    assert set(power_changes(rotor.solve(stand).require())) <= set(thesis) | {"wake_transport_percent"}
+    assert "drag_area_percent" not in power_changes(rotor.solve(stand).require())
+
+
+def test_a_free_rotor_has_no_band():
+    solution = rotor.solve(rotor.make_design(rotor="pca2", mu=0.2, trim="free-rotor", stand={"ct_over_sigma": 0.07}))
+    with pytest.raises(RuntimeError, match="takes no power"):
+        doubt(solution)
+
+
+@pytest.mark.parametrize(("change", "band", "word"), [(-2.0, 1.0, "sure"), (1.5, 1.0, "likely"), (0.3, 1.0, "cannot")])
+def test_the_words_follow_the_ratio(change: float, band: float, word: str):
+    assert sureness(change, band).startswith(word)
+
+
+def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
+    row = DoubtRow("section_moment", "section moment", 0.01, "x", power=52e3, change=6.3e3)
+    found = Doubt(901.4e3, (row,), against=917.9e3)
+    assert found.sentence == "Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure."
+    nothing = Doubt(901.4e3, (replace(row, change=2.7e3),), against=902.3e3)
+    assert nothing.sentence == "Power 901 ± 52 kW. It saves 0.1 ± 0.3 %: cannot be told."
+    assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith("It costs 2.43 ± 0.11 %: sure.")
+
+
+def test_a_rotor_file_states_its_own(tmp_path_factory: pytest.TempPathFactory):
+    text = asset_path("r22.toml").read_text(encoding="utf-8")
+    path = tmp_path_factory.mktemp("own") / "mine.toml"
+    path.write_text(text + "\n[doubt]\nsection_drag_percent = 3.0\n", encoding="utf-8")
+    design = rotor.make_design(rotor=rotor.load_rotor(path), mu=0.2)
+    sizes = {row.name: (row.size, row.source) for row in uncertain_inputs(design)}
+    assert sizes["section_drag_percent"] == (3.0, "rotor file")
+    assert sizes["drag_area_percent"][0] == pytest.approx(50.0 * (0.50 - 0.31) / 0.40)
+    path.write_text(text + "\n[doubt]\nsection_drag = 3.0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="section_drag"):
+        rotor.load_rotor(path)
+
+
+def test_the_command_says_it_and_its_json_has_the_rows(capsys: pytest.CaptureFixture[str]):
+    assert main(["solve", "--mu", "0.3", "--twist", "linear:-12", "--doubt"]) == 0
+    assert "Against the blade as built it saves" in capsys.readouterr().out
+    assert main(["solve", "--mu", "0.3", "--twist", "linear:-12", "--doubt", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["doubt"]
+    assert {"total_w", "against", "change_w", "change_band_w", "rows", "models"} <= set(found)
+    assert {"inflow pitt-peters", "bending"} <= set(found["models"])
+    assert found["change_w"] == pytest.approx(found["power_w"] - found["against_w"])
+    assert math.hypot(*(row["power_w"] for row in found["rows"])) == pytest.approx(found["total_w"])

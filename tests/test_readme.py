@@ -1,0 +1,111 @@
+"""README and CONTRIBUTING: short, and every number in them is one that the program gives."""
+
+import re
+import shlex
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rotor
+from rotor.__main__ import build_parser
+from rotor.reproduce.actuation import table_5_2
+from rotor.reproduce.optimum_twist import table_4_1
+from tests.tools import readme
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PLAIN = " ".join(README.split())
+
+
+@pytest.mark.parametrize(("name", "most"), [("README.md", 600), ("CONTRIBUTING.md", 800)])
+def test_it_is_short(name: str, most: int):
+    assert len((ROOT / name).read_text(encoding="utf-8").split()) <= most
+
+
+def test_a_version_is_one_screen_of_the_changelog():
+    """Details are in docs/history.md; what is not released yet may have somewhat more."""
+    _, new, *released = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert new.startswith("[Unreleased]")
+    assert len(new.splitlines()) <= 60
+    assert [version[:7] for version in released][-2:] == ["[0.2.0]", "[0.1.0]"]
+    assert all(len(version.splitlines()) <= 45 for version in released)
+
+
+def test_the_first_thirty_lines_say_what_it_is_and_how_to_run_it():
+    top = "\n".join(README.splitlines()[:30])
+    assert all(words in top for words in ("![", "\nmake run ", "\nmake test "))
+    (picture,) = re.findall(r"!\[.*?\]\((.*?)\)", README)
+    assert 20_000 < (ROOT / picture).stat().st_size < 600_000
+
+
+def test_the_table_of_trust_is_that_of_the_trust_page():
+    assert readme.with_table(README) == README, "python -m tests.tools.readme writes it anew"
+
+
+def test_what_was_missed_stands_beside_what_was_met():
+    """The set is missed if one row of it is; none with a target is left out."""
+    missed = {row.set for row in readme.trust_rows() if row.verdict == "missed"}
+    met = {row.set for row in readme.trust_rows() if row.verdict == "met"} - missed
+    for words, sets in (("met", met), ("missed", missed)):
+        (line,) = re.findall(rf"^\| \*\*{words}: .*$", README, re.MULTILINE)
+        assert set(re.findall(r"validation/([\w-]+)\.md", line)) == sets
+
+
+def blocks(language: str = "") -> list[str]:
+    fenced = re.findall(r"^```(\w*)\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+    return [text for name, text in fenced if name == language]
+
+
+def test_the_lines_of_python_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    (code,) = blocks("python")
+    assert len([line for line in code.splitlines() if line]) <= 6
+    monkeypatch.chdir(tmp_path)
+    coarse = partial(rotor.make_design, inflow="uniform", elements=12, azimuths=24)
+    monkeypatch.setattr(rotor, "make_design", coarse)
+    exec(code, {})
+    assert len((tmp_path / "power.csv").read_text(encoding="utf-8").splitlines()) == 4
+
+
+def test_the_commands_are_understood():
+    lines = [shlex.split(line) for block in blocks() for line in block.splitlines() if line.startswith("python -m")]
+    assert len(lines) == 5
+    for words in lines:
+        if words[2] == "rotor":
+            build_parser().parse_args(words[3:])
+
+
+def said(words: str) -> None:
+    assert words in PLAIN, f"README.md does not say: {words}"
+
+
+@pytest.mark.parametrize(
+    ("where", "given"), [("per radius in hover", {"hover": True}), ("at µ 0.35", {"mu": 0.35})], ids=["hover", "fast"]
+)
+def test_the_best_twist_and_its_band(where: str, given: dict):
+    found = rotor.optimise(rotor.make_design(**given), "linear")
+    assert found.best is not None
+    (band,) = found.doubt_band
+    best, *ends = (f"{np.degrees(x):.1f}".replace("-", "−") for x in (*found.best.parameters, band.low, band.high))
+    said(f"{best}° {where} ({ends[0]} to {ends[1]})")
+
+
+@pytest.mark.slow
+def test_what_a_twist_that_moves_saves():
+    found = rotor.schedule(rotor.make_design(), mu=np.arange(8) * 0.05)
+    sure = found.gain_doubt("linear")
+    assert sure is not None
+    assert sure.change is not None
+    assert sure.change_band is not None
+    said(f"saves {abs(sure.change) / 1e3:.1f} ± {sure.change_band / 1e3:.1f} kW beyond the best fixed one")
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+def test_concepts_and_actuators():
+    concepts, actuators = table_4_1().numbers, table_5_2().numbers
+    said(
+        f"more segments or a curve save {100 * max(concepts[key] for key in ('two', 'three', 'quadratic')):.1f} % more"
+    )
+    said(f"the best of {actuators['rows']:.0f} pairs costs {-actuators['best_kw']:.0f} kW on balance")
