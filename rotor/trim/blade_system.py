@@ -293,7 +293,7 @@ def _air(
         along = weights[force] * problem.disk.dr
         for k, by in enumerate(motion[channel]):
             if by.any():
-                out[k] += np.einsum("ai,ij,bij->jab", along, slope, by, optimize=True)
+                out[k] += np.einsum("ai,ij,bij->jab", along, slope, by)
     return (out[0], out[1], out[2]), _lags(linear, c, data, motion, weights) if shed else None
 
 
@@ -349,7 +349,7 @@ def _lags(
     rates = np.concatenate([-speed * b for _, b in JONES]).T
     drives = np.concatenate([speed * alpha] * len(JONES), axis=1).transpose(2, 1, 0)
     forces = np.concatenate([forced * (a * b) for a, b in JONES], axis=1).transpose(2, 0, 1)
-    once = -sum(a for a, _ in JONES) * np.einsum("aij,bij->jab", forced, alpha, optimize=True)
+    once = -sum(a for a, _ in JONES) * np.einsum("aij,bij->jab", forced, alpha)
     return rates, drives, forces, once
 
 
