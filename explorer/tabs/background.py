@@ -193,16 +193,6 @@ class PoolAnswers(BackgroundWork):
             if not (self.running or self._stopped or task is None):
                 self._submit(task, partial(self._keep, task))
 
-    def _ended_without(self, news: JobEvent) -> None:
-        """Say why there is no answer where the news is of such an end."""
-        match news:
-            case JobEnded(str() as message) | JobFailed(message):
-                self.line = message
-            case JobEnded():
-                self.line = "This was stopped: find again."
-            case _:
-                pass
-
     def _heard(self, hear: Callable[[JobEvent], None], news: JobEvent) -> None:
         if isinstance(news, (JobEnded, JobFailed)):
             super()._heard(hear, news)

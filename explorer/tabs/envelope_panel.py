@@ -1,5 +1,9 @@
-"""The flight envelope of the design on the sliders: largest load factor over speed, worked out when asked for."""
+"""The flight envelope of the design on the sliders: largest load factor over speed.
 
+It is found when asked for, and from then on again whenever the sliders have come to rest.
+"""
+
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -16,12 +20,14 @@ from rotor import Design, envelope
 from rotor.chart import Axis, Chart, Line, Rule
 from rotor.markup import Markup, tag
 from rotor.processes import Stop, Tell
-from rotor.study.envelope import SPEEDS, Envelope, EnvelopePoint, Reach
+from rotor.study.envelope import SPEEDS, Envelope, EnvelopePoint, Reach, limit_line
 from rotor.units import KNOT
 
 _LIMIT = 600.0
 """Longest time of an envelope [s], which takes half a minute on an idle machine."""
 _URGENCY = 3
+_REST = 1.5
+"""How long the design has to rest before its envelope is found again [s]."""
 _START = "The largest load factor of a steady turn at each speed, by stall and by the engines."
 
 
@@ -30,6 +36,8 @@ class EnvelopeTask:
     """Reports each point, then the whole; a sentence where there is none."""
 
     design: Design
+    moving: bool = False
+    """With the best linear twist of each speed in place of the design's."""
 
     def run(self, tell: Tell, stop: Stop) -> Envelope | str:
         def heard(point: EnvelopePoint) -> None:
@@ -38,7 +46,7 @@ class EnvelopeTask:
                 raise RuntimeError("Stopped.")
 
         try:
-            return envelope(self.design, tell=heard)
+            return envelope(self.design, moving=self.moving, tell=heard)
         except (ValueError, RuntimeError) as error:
             return str(error)
 
@@ -51,24 +59,30 @@ class EnvelopePanel(BackgroundWork, Tab):
         self._design: Design | None = None
         """On the sliders, at load factor 1; None without a trim."""
         self._mu = self._now = 0.0
-        self._asked: Design | None = None
+        self._asked: EnvelopeTask | None = None
+        self._awaited: EnvelopeTask | None = None
+        """What the design on the sliders asks for; it may not have rested yet."""
+        self._timer: threading.Timer | None = None
         self._points: tuple[EnvelopePoint, ...] = ()
         self._whole: Envelope | None = None
         self._earlier: Envelope | None = None
         self.line = _START
         with context.gui.add_folder("Flight envelope"):
             button = context.gui.add_button("Find envelope", hint=hint("envelope"))
+            self._moving = context.gui.add_checkbox("Best twist of each speed", False, hint=hint("envelope_moving"))
             self._html = context.gui.add_html("")
         button.on_click(lambda _: self.begin())
+        self._moving.on_update(lambda _: self._follow())
         self._draw()
 
     def prepare(self) -> tuple[EnvelopeTask, Callable[[JobEvent], None], str]:
         """The envelope of the design that is shown; the last one stays beside it."""
-        if self._design is None:
+        task = self._task()
+        if task is None:
             raise ValueError("An envelope is of flight: show a design in flight that trims.")
         self._earlier, self._whole, self._points = self._whole or self._earlier, None, ()
-        self._asked = self._design
-        return EnvelopeTask(self._design), partial(self._hear, self._design), "Looking for the limits at µ 0 …"
+        self._asked = task
+        return task, partial(self._hear, task), "Looking for the limits at µ 0 …"
 
     def show(self, state: SessionState) -> None:
         design = state.solution.design
@@ -76,6 +90,7 @@ class EnvelopePanel(BackgroundWork, Tab):
         self._mu, self._now = condition.advance_ratio, condition.load_factor
         flies = condition.stand is None
         self._design = replace(design, condition=replace(condition, load_factor=1.0)) if flies else None
+        self._follow()
         self._draw()
 
     def show_failure(self) -> None:
@@ -83,10 +98,28 @@ class EnvelopePanel(BackgroundWork, Tab):
         self._draw()
 
     def stop(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
         BackgroundWork.stop(self)
 
-    def _hear(self, design: Design, news: JobEvent) -> None:
-        if design is not self._asked:
+    def _task(self) -> EnvelopeTask | None:
+        return None if self._design is None else EnvelopeTask(self._design, self._moving.value)
+
+    def _follow(self) -> None:
+        """Where an envelope was found before, find that of another design once it rests."""
+        task = self._task()
+        if task == self._awaited:
+            return
+        self._awaited = task
+        if self._timer is not None:
+            self._timer.cancel()
+        if self._asked is not None and task is not None and self._at_rest(task) != self._at_rest(self._asked):
+            self._timer = threading.Timer(_REST, self.begin)
+            self._timer.daemon = True
+            self._timer.start()
+
+    def _hear(self, task: EnvelopeTask, news: JobEvent) -> None:
+        if task is not self._asked:
             return  # Of the one before.
         match news:
             case JobProgress(EnvelopePoint() as point):
@@ -100,10 +133,12 @@ class EnvelopePanel(BackgroundWork, Tab):
         self._draw()
 
     def _draw(self) -> None:
-        stale = bool(self._points) and self._at_rest(self._asked) != self._at_rest(self._design)
-        drawn = [tag("div.rx-dim", "Of an earlier design: find again.")] if stale else []
+        task = self._task()
+        stale = bool(self._points) and (task is None or self._at_rest(self._asked) != self._at_rest(task))
+        drawn = [tag("div.rx-dim", "Of an earlier design: found again once this one rests.")] if stale else []
         if self._points:
-            chart = envelope_chart(self._points, self._earlier, self._mu, self._now)
+            top = None if self._whole is None else self._whole.top_speed
+            chart = envelope_chart(self._points, self._earlier, self._mu, self._now, top)
             drawn.append(tag("div", chart_box(chart, 130.0), data_explorer="envelope-chart"))
         if self.line:
             drawn.append(tag("div.rx-dim", self.line))
@@ -112,28 +147,27 @@ class EnvelopePanel(BackgroundWork, Tab):
         self._html.content = tag("div.rx.rx-small", drawn, data_explorer="envelope")
 
     @staticmethod
-    def _at_rest(design: Design | None) -> Design | None:
+    def _at_rest(task: EnvelopeTask | None) -> EnvelopeTask | None:
         """Without its speed, which moves the ceiling alone."""
-        return None if design is None else design.at(hover=True)
+        return None if task is None else replace(task, design=task.design.at(hover=True))
 
 
-def envelope_chart(points: tuple[EnvelopePoint, ...], earlier: Envelope | None, mu: float, now: float) -> Chart:
+def envelope_chart(
+    points: tuple[EnvelopePoint, ...], earlier: Envelope | None, mu: float, now: float, top: Reach | None = None
+) -> Chart:
     """Largest load factor by stall and by engines, the earlier of two designs grey, and the design itself as a dot."""
 
-    def lines(of: tuple[EnvelopePoint, ...], colour: str, name: str) -> list[Line]:
-        mus = [point.mu for point in of]
-        stall, engines = (
-            [float("nan") if value is None else value for value in values]
-            for values in zip(*((point.load_factor.stall, point.load_factor.engines) for point in of), strict=True)
-        )
-        width = 1.6 if name else 2.1
+    def lines(of: tuple[EnvelopePoint, ...], reaches: Reach | None, colour: str, before: str) -> list[Line]:
         return [
-            replace(role_line("this", mus, stall, label=f"{name}stall"), colour=colour, width=width),
-            replace(role_line("this", mus, engines, label=f"{name}engines"), colour=colour, width=width, dashes="5 3"),
-        ]
+            replace(
+                role_line("this", *limit_line(of, name, reaches), label=f"{before}{name}"),
+                colour=colour, width=1.6 if before else 2.1, dashes=dashes,
+            )
+            for name, dashes in (("stall", ""), ("engines", "5 3"))
+        ]  # fmt: skip
 
-    drawn = [] if earlier is None else lines(earlier.points, LOOKS["earlier"][0], "before: ")
-    drawn += lines(points, LOOKS["this"][0], "")
+    drawn = [] if earlier is None else lines(earlier.points, earlier.top_speed, LOOKS["earlier"][0], "before: ")
+    drawn += lines(points, top, LOOKS["this"][0], "")
     seen = [value for line in drawn for value in line.y if value == value]
     return Chart(
         "Load factor",

@@ -127,14 +127,25 @@ class Envelope:
         """Largest load factor over µ, of others too; dashed by engines, which counts where it is the lower."""
         lines: list[Line] = []
         for colour, curve in enumerate((self, *others), start=1):
-            mus = [point.mu for point in curve.points]
             for name, dashes in (("stall", False), ("engines", True)):
-                limits = [getattr(point.load_factor, name) for point in curve.points]
-                values = [math.nan if value is None else value for value in limits]
+                mus, values = limit_line(curve.points, name, curve.top_speed, curve.design.condition.load_factor)
                 if any(map(math.isfinite, values)):
                     label = f"{curve.label}, {name}"
                     lines.append(Line(label, mus, values, colour, dashes, dots=not dashes))
         return Chart("Largest load factor", Axis("µ"), Axis("n"), tuple(lines))
+
+
+def limit_line(
+    points: Iterable[EnvelopePoint], name: str, top_speed: Reach | None = None, flown: float = 1.0
+) -> tuple[list[float], list[float]]:
+    """µ and largest load factor by `stall` or `engines`, NaN where there is none.
+
+    top_speed: a further point of the line, at the load factor `flown` of which it is.
+    """
+    line = {point.mu: getattr(point.load_factor, name) for point in points}
+    if top_speed is not None and (mu := getattr(top_speed, name)):
+        line.setdefault(mu, flown)
+    return sorted(line), [math.nan if line[mu] is None else line[mu] for mu in sorted(line)]
 
 
 def envelope(

@@ -4,9 +4,11 @@ import html
 from types import SimpleNamespace
 from typing import Any
 
+import pytest
 import viser
 
 from explorer.model.units import number
+from explorer.tabs import envelope_panel
 from explorer.tabs.envelope_panel import EnvelopePanel, EnvelopeTask, envelope_chart
 from explorer.workers.pool import Job, JobEnded, JobProgress
 from rotor import make_design, solve
@@ -43,7 +45,20 @@ def test_the_chart_has_both_limits_gaps_and_the_design_before():
     assert labels == ["before: stall", "before: engines", "stall", "engines"]
 
 
-def test_the_panel_follows_the_search_and_says_what_is_old(server: viser.ViserServer):
+def test_the_line_of_engines_goes_through_the_top_speed():
+    nowhere = EnvelopePoint(AT_REST.at(mu=0.4), Reach(1.3, 0.0))
+    engines = curves(envelope_chart((*POINTS, nowhere), None, 0.2, 1.0, WHOLE.top_speed))[1]
+    assert dict(zip(engines.x, engines.y, strict=True))[0.38] == 1.0
+    assert list(engines.x) == sorted(engines.x)
+
+
+def waited(panel: EnvelopePanel) -> None:
+    """The rest before the next envelope is over."""
+    assert panel._timer is not None
+    panel._timer.join(60.0)
+
+
+def test_the_panel_follows_the_search_and_says_what_is_old(server: viser.ViserServer, monkeypatch: pytest.MonkeyPatch):
     jobs: list[Job] = []
 
     def submit(task: Any, on_event: Any, limit: float, urgency: int) -> Job:
@@ -69,7 +84,20 @@ def test_the_panel_follows_the_search_and_says_what_is_old(server: viser.ViserSe
     jobs[0].tell(JobEnded(WHOLE))
     assert "by engines" in shown()
     assert f"Ceiling {number(5500.0)} m by stall at µ 0.2" in shown()
-    assert "find again" not in shown()
+    assert "earlier design" not in shown()
+    panel.show(SimpleNamespace(solution=solve(DESIGN.at(mu=0.3))))  # pyright: ignore[reportArgumentType]
+    assert panel._timer is None  # Speed does not move the envelope.
+
+    monkeypatch.setattr(envelope_panel, "_REST", 0.0)
     other: Any = SimpleNamespace(solution=solve(DESIGN.with_twist("linear:-4")))
     panel.show(other)
-    assert "find again" in shown()
+    assert "Of an earlier design" in shown() or len(jobs) == 2
+    waited(panel)
+    assert jobs[1].task == EnvelopeTask(AT_REST.with_twist("linear:-4"))
+    jobs[1].tell(JobProgress(POINTS[0]))
+    assert "Of an earlier design" not in shown()
+    panel._moving.value = True
+    waited(panel)
+    assert jobs[2].task == EnvelopeTask(AT_REST.with_twist("linear:-4"), moving=True)
+    panel.show(other)
+    assert len(jobs) == 3
