@@ -90,11 +90,11 @@ def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any) -> None:
 
 
 @_compile
-def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[int, float], tip: bool, hub: bool) -> Any:
+def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[float, float], tip: bool, hub: bool) -> Any:
     """Means around the azimuth of `loss_factor`, of ∂F/∂λ and of the slopes that follow, (2 + slopes, elements).
 
-    inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths); blade: number and root
-    cut-out r_min/R.
+    inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths); blade: number (times a
+    factor on f) and root cut-out r_min/R.
     """
     (blades, root_cutout), (n, m) = blade, inflow.shape
     out = np.zeros((2 + len(slopes), n))
@@ -112,7 +112,7 @@ def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[int, float],
     return out / m
 
 
-def tip_factor(r: ArrayLike, inflow: float, blades: int) -> tuple[Array, Array]:
+def tip_factor(r: ArrayLike, inflow: float, blades: float) -> tuple[Array, Array]:
     """F of inflow models that smear the blades over the disk, and ∂F/∂λ; shapes of r.
 
     F = (2/π) arccos exp(−N_b (1 − r)/(2|λ|)) with the mean total inflow λ = µ_z + λ0 of the disk; at least 0.1, with

@@ -86,6 +86,8 @@ class Problem:
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
     scatter: Array = field(default_factory=lambda: NO_SCATTER)
     """By how much the section data are changed, see `rotor.aero.section`."""
+    tip_spacing: float = 1.0
+    """Factor on f of Prandtl's tip loss."""
 
     @cached_property
     def arm(self) -> Array:
@@ -96,7 +98,8 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        terms = self.inflow.on(self.disk, self.course, Losses(models.tip_loss, models.hub_loss, models.loss_on))
+        losses = Losses(models.tip_loss, models.hub_loss, models.loss_on, self.tip_spacing)
+        terms = self.inflow.on(self.disk, self.course, losses)
         return terms.unsteady(self.half_chord) if self.unsteady else terms
 
     @cached_property

@@ -252,7 +252,7 @@ def hover_system(problem: Problem) -> System:
     closed = models.hover_inflow == "closed-form"
     far, none = np.full_like(disk.r, math.inf), np.zeros(0)
     ends = np.stack([
-        0.5 * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
+        0.5 * problem.tip_spacing * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
         0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
     ])  # fmt: skip
     curve = lift_curve(problem) if closed else (none, none)

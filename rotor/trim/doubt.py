@@ -347,6 +347,13 @@ def _wake_transport(problem: Problem, amount: float) -> Problem | None:
     return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * amount)))
 
 
+def _tip_loss(problem: Problem, amount: float) -> Problem | None:
+    """1 − B, the part of the radius that does not lift, goes with 1/f."""
+    if not problem.design.models.tip_loss or (problem.inflow.fine_tip and not problem.design.hovering):
+        return None
+    return replace(problem, tip_spacing=1.0 / (1.0 + 0.01 * amount))
+
+
 _CHANGES: Mapping[str, Change] = {
     "section_drag_percent": _section(MORE_DRAG, 0.01),
     "section_lift_percent": _section(MORE_LIFT, 0.01),
@@ -365,5 +372,6 @@ _CHANGES: Mapping[str, Change] = {
         lambda value, factor: replace(value, torsional_inertia=_times(value.torsional_inertia, factor))
     ),
     "wake_transport_percent": _wake_transport,
+    "tip_loss_percent": _tip_loss,
 }
 """By name, in the order of `assets/doubt.toml`."""

@@ -63,6 +63,8 @@ class Losses(NamedTuple):
     hub: bool
     on: LossOn = "lift"
     """What the factors act on, see `Models.loss_on`."""
+    spacing: float = 1.0
+    """Factor on f of the tip, so on the distance between the sheets of the wake there."""
 
 
 class InflowTerms(ABC):

@@ -105,11 +105,11 @@ class LinearTerms(InflowTerms):
 
     def factor(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
         """F, (elements,), averaged over azimuth (thesis p. 24), and its slopes by (µ_x, µ_z, λ0), (3, elements)."""
-        disk, (tip, hub, _) = self._disk, self._losses
+        disk, (tip, hub, _, spacing) = self._disk, self._losses
         if not (tip or hub):
             return np.ones_like(disk.r), np.zeros((3, len(disk.r)))
         field = self._model.field(disk.r, _COS, _SIN, flow)
-        factors = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
+        factors = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (spacing * disk.blades, disk.root), tip, hub)
         if sees_tilt:
             factors[3] += factors[1]  # λ by µ_z itself.
         return factors[0], factors[2:]

@@ -132,8 +132,8 @@ class LocalMomentumInflow(InflowModel):
 
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "SectorTerms":
         """The model on a disk."""
-        del course, losses
-        return SectorTerms(disk, tip=self.tip)
+        del course
+        return SectorTerms(disk, losses.spacing if self.tip else math.inf)
 
 
 class SectorTerms(InflowTerms):
@@ -144,8 +144,8 @@ class SectorTerms(InflowTerms):
     live = ((GAIN, "gain"),)
     interface = _SECTORS
 
-    def __init__(self, disk: Disk, *, tip: bool) -> None:
-        self._disk, self._tip = disk, tip
+    def __init__(self, disk: Disk, spacing: float) -> None:
+        self._disk, self._spacing = disk, spacing
 
     def build(self, structure: Structure) -> None:
         """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
@@ -165,9 +165,7 @@ class SectorTerms(InflowTerms):
     def _gain(self, flow: DiskFlow) -> tuple[Array, Array]:
         """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""
         disk, speed = self._disk, flow.speed
-        factor, factor_slope = np.ones_like(disk.r), np.zeros_like(disk.r)
-        if self._tip:
-            factor, factor_slope = tip_factor(disk.r, flow.axial, disk.blades)
+        factor, factor_slope = tip_factor(disk.r, flow.axial, self._spacing * disk.blades)
         gain = 1.0 / (4.0 * disk.r * factor * speed)
         by_axial = -gain * factor_slope / factor
         by_speed = np.array([flow.mu_x, flow.axial, flow.axial]) / speed**2

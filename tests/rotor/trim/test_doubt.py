@@ -4,12 +4,14 @@ import json
 import math
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import pytest
 
 import rotor
 from rotor.__main__ import main
+from rotor.aero.problem import Problem, build_problem
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
@@ -113,6 +115,29 @@ def test_what_a_design_does_not_have_is_no_row():
     stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
     assert set(power_changes(rotor.solve(stand).require())) <= set(thesis) | {"wake_transport_percent"}
     assert "drag_area_percent" not in power_changes(rotor.solve(stand).require())
+
+
+@pytest.mark.parametrize("options", [{"hover": True}, {"mu": 0.2, "inflow": "drees", "loss_on": "inflow"}])
+def test_tip_loss_is_as_in_new_trims(options: dict[str, Any], patch: Patch):
+    here, there = (rotor.solve(rotor.make_design(twist=twist, **options)).require() for twist in TWISTS)
+    found = doubt(here, there)
+    row = next(row for row in found.rows if row.name == "tip_loss_percent")
+    ends: list[list[float]] = []
+    for sign in (1.0, -1.0):
+        spacing = 1.0 / (1.0 + 0.01 * sign * SIZES["tip_loss_percent"])
+
+        def other(design: Design, spacing: float = spacing) -> Problem:
+            return replace(build_problem(design), tip_spacing=spacing)
+
+        for solver in ("low_speed", "forward"):
+            patch(f"rotor.trim.{solver}.build_problem", other)
+        ends.append([rotor.solve(each.design).require().power.total for each in (here, there)])
+    exact = 0.5 * (np.array(ends[0]) - np.array(ends[1]))
+    assert found.change_band is not None
+    assert row.change is not None
+    assert exact[0] > 0.0
+    assert row.power == pytest.approx(exact[0], abs=0.15 * found.band)
+    assert row.change == pytest.approx(exact[0] - exact[1], abs=0.15 * found.change_band)
 
 
 def test_a_free_rotor_has_no_band():
