@@ -33,7 +33,10 @@
     begin(uuid) { RX.forget(); bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); page.removeAttribute('data-big'); },
     // The session has gone: nothing is sent until another begins.
     forget() { bridge = null; sessions++; delete state.power; },
-    set(parts) { for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); } },
+    set(parts) {
+      for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); }
+      if ('power' in parts) window.dispatchEvent(new Event('rx-answered'));
+    },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
     send(name, value = null) {
       const client = window.__viserMutable;

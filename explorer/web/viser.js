@@ -31,7 +31,8 @@
 
   // The client keeps an edit back that follows another within 50 ms, and has one place for what it keeps: of three widgets
   // that change within that time, as under a hand that is ahead of a busy page, the second was lost. So the client does
-  // not wait, and an edit waits here, only for its own widget.
+  // not wait, and an edit waits here, only for its own widget, and until the one before is answered at most: under a hand
+  // the page then answers as often as it can.
   const INTERVAL = 50;  // [ms]
   const later = window.setTimeout;
   let kept = null, last = null, lastAt = 0, editing = false;
@@ -62,10 +63,14 @@
     queueMicrotask(() => { editing = false; });
   }
 
+  let sender = null;
+  window.addEventListener('rx-answered', () => { if (kept && sender) sendKept(sender()); });
+
   // The client replaces the function that sends when its connection opens and when it ends: then we hear of it.
   let client;
   function watch(next) {
     let send = next.sendMessage;
+    sender = () => send;
     const paced = message => message.type === 'GuiUpdateMessage' ? pace(message, () => send) : send(message);
     next.sendAfterEdits = message => { sendKept(send); send(message); };
     Object.defineProperty(next, 'sendMessage', {get: () => send && paced, set: other => {

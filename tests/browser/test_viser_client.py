@@ -64,6 +64,26 @@ def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App)
         assert held() == before == [box.is_checked() for box in boxes]
 
 
+def test_an_edit_that_waits_goes_when_the_one_before_is_answered(watched: Watched):
+    sent = """() => {
+        const client = window.__viserMutable, own = client.sendMessage, heard = [];
+        const edit = value => client.sendMessage({type: 'GuiUpdateMessage', uuid: 'none', updates: {value}});
+        const now = () => heard.map(message => message.updates.value).join();
+        client.sendMessage = message => heard.push(message);
+        edit(1);
+        edit(2);
+        edit(3);
+        const before = now();
+        dispatchEvent(new Event('rx-answered'));
+        const after = now();
+        client.sendMessage = own;
+        return [before, after];
+    }"""
+    assert watched.page.evaluate(sent) == ["1", "1,3"]
+    watched.page.reload()  # The client has its own function again.
+    watched.ready()
+
+
 def test_a_page_that_is_seen_has_the_focus(watched: Watched):
     """Only such a page tries to connect again."""
     assert watched.page.evaluate("document.hasFocus() && document.visibilityState === 'visible'")
