@@ -81,13 +81,13 @@ def find_python(version: str) -> str | None:
 def install(wheel: Path, folder: Path, *, borrow: bool, interpreter: str = sys.executable) -> Path:
     """The Python of a fresh environment with the wheel in it.
 
-    Its dependencies are installed, or with `borrow` taken from the environment that runs this.
+    Its dependencies and those of studies are installed, or with `borrow` taken from the environment that runs this.
     """
     _do(interpreter, "-m", "venv", str(folder), cwd=folder.parent)
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = (str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", "install")
     if not borrow:
-        _do(*pip, str(wheel), cwd=folder)
+        _do(*pip, f"{wheel}[study]", cwd=folder)
         return python
     _do(*pip, "--no-deps", "--no-index", str(wheel), cwd=folder)
     # A path file inside the borrowed folder is not read again, so an editable checkout stays out of sight.
