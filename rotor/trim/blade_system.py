@@ -284,8 +284,12 @@ def _air(
     _, slopes, _ = interface.section(c, data, True, False)
     motion = _motion(e.u_t, e.u_p, e.u_r, e.beta, shapes, phi)
     n_bend, n = shapes.shape[1], shapes.shape[1] + len(phi)
-    weights = {force: np.zeros((n, len(problem.disk.r))) for force in (FZ, FX, M)}
-    weights[FZ][:n_bend], weights[FX][:n_bend], weights[M][n_bend:] = shapes[0], -shapes[3], phi
+    # A blade rigid in torsion has no slopes of the moment: what stands in their rows is undefined.
+    forces = (FZ, FX, M) if len(phi) else (FZ, FX)
+    weights = {force: np.zeros((n, len(problem.disk.r))) for force in forces}
+    weights[FZ][:n_bend], weights[FX][:n_bend] = shapes[0], -shapes[3]
+    if len(phi):
+        weights[M][n_bend:] = phi
     out = [np.zeros((len(problem.disk.psi), n, n)) for _ in range(3)]
     for (force, channel), slope in zip(interface.pairs, slopes, strict=True):
         if force not in weights or channel not in motion:

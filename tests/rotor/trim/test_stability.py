@@ -3,12 +3,16 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
+from rotor.aero.inflow.interface import PLAIN, SectionInterface
+from rotor.aero.section import M
+from rotor.aero.unsteady_section import unsteady
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81
 from rotor.airfoil.sections import OwnSection
 from rotor.arrays import Array
@@ -250,6 +254,27 @@ def test_slow_motion_feels_all_of_the_lift():
     a = shed.at()[0]
     held = a[: 2 * n, 2 * n :] @ np.linalg.solve(a[2 * n :, 2 * n :], a[2 * n :, : 2 * n])
     assert_allclose((a[: 2 * n, : 2 * n] - held)[n:, :n], steady.at()[0][n:, :n], rtol=1e-6, atol=1e-8)
+
+
+@pytest.mark.parametrize("shed", [False, True])
+def test_a_rigid_blade_does_not_read_slopes_of_the_moment(shed: bool, monkeypatch: pytest.MonkeyPatch):
+    """Its section leaves them undefined: what memory held there before, seldom not a number."""
+
+    def undefined(interface: SectionInterface) -> SectionInterface:
+        moment = [force == M for force, _ in interface.pairs]
+
+        def section(*arguments: Any) -> Any:
+            forces, slopes, flow = interface.section(*arguments)
+            slopes[moment] = math.nan
+            return forces, slopes, flow
+
+        return replace(interface, section=section)
+
+    linear = linearised(make_design(rotor="r22", mu=0.2))
+    wanted = blade_system(linear, shed=shed).at()
+    monkeypatch.setattr("rotor.trim.blade_system.PLAIN", undefined(PLAIN))
+    monkeypatch.setattr("rotor.trim.blade_system.unsteady", lambda plain: undefined(unsteady(plain)))
+    assert_allclose(blade_system(linear, shed=shed).at(), wanted, rtol=1e-12, atol=1e-12)
 
 
 def test_a_rigid_blade_has_flap_alone_and_no_margins():
