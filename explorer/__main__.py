@@ -20,8 +20,8 @@ import webbrowser
 from collections.abc import Sequence
 from importlib import import_module
 
-from explorer.hosting.allowed_hosts import host_name, is_loopback, warning
 from explorer.hosting.limits import SESSIONS
+from explorer.hosting.request_filter import host_name, is_loopback, warning
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, called, run_command

@@ -15,10 +15,9 @@ import viser
 from explorer import web
 from explorer.hosting import limits as memory
 from explorer.hosting import viser_compat
-from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.browser import PageFacts, page_facts
 from explorer.hosting.limits import ServerLimits
-from explorer.hosting.request_filter import RequestFilter, with_loading_screen
+from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, UNITS
 from explorer.picture import picture

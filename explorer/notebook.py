@@ -6,8 +6,8 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.allowed_hosts import host_name
 from explorer.hosting.limits import ServerLimits
+from explorer.hosting.request_filter import host_name
 from explorer.model.inputs import inputs_of
 from rotor import Design
 from rotor.design.design import require_design

@@ -14,8 +14,7 @@ import viser
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import PageFacts, set_query
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.pinned import Pinned
-from explorer.model.session_state import FailedTrim, Reading, SessionState
+from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController

@@ -25,7 +25,7 @@ import rotor
 from explorer.export.provenance import condition_line, file_stem
 from explorer.export.report.tables import conditions
 from explorer.model.inputs import OPENING, ROWS, Inputs, inputs_of, with_rotor
-from explorer.model.pinned import Pinned, same_but_flight
+from explorer.model.session_state import Pinned, same_but_flight
 from explorer.model.sliders import SLIDERS, flight_sensitivities, limits
 from explorer.model.undo import History, PowerTracker, differing
 from explorer.model.units import AVIATION, SI

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from explorer.model.units import KILOWATT, Unit
+from explorer.picture.picture import at_azimuth
 from explorer.picture.polar import stall_angles
-from explorer.picture.poses import at_azimuth
 from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
 from rotor import Design, Solution, solve

@@ -23,8 +23,8 @@ from trimesh.visual.texture import TextureVisuals
 from explorer import colours
 from explorer.export.provenance import PROGRAM, file_stem
 from explorer.picture.airframe import mast, rotor_head
-from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
-from explorer.picture.poses import (
+from explorer.picture.blade_mesh import BladeShape, Detail, Faces, blade_shape, blade_vertices
+from explorer.picture.picture import (
     Pose,
     at_azimuth,
     blade_pose,
@@ -33,7 +33,6 @@ from explorer.picture.poses import (
     rotor_pose,
     with_active_twist,
 )
-from explorer.picture.solids import Faces
 from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw

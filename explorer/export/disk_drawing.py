@@ -3,14 +3,13 @@
 import math
 
 from explorer.charts import svg
-from explorer.colours import RIM, VOID, colour_map, css
+from explorer.colours import RIM, VOID, DiskInk, colour_map, css
 from explorer.model.units import SI, Units
 from explorer.picture import disk_image as image
 from explorer.picture.fields import Field, reverse_flow
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import polar_grid
 from explorer.picture.regions import ALL_MARKS, MarkedRegion, Marks, region_codes
-from explorer.picture.scene_theme import DiskInk
 from explorer.text.design_words import flight_words, title_words
 from rotor import Solution
 from rotor.chart import bar_ticks

@@ -14,7 +14,7 @@ import numpy as np
 
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.picture.poses import flown_twist
+from explorer.picture.picture import flown_twist
 from explorer.text.design_words import inflow_words, physics_words
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of

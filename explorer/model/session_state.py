@@ -1,10 +1,139 @@
-"""What one update of a session reads, solves and shows, as values; and how a part of the page moves the design."""
+"""A of A/B, the pinned design; and what one update of a session reads, solves and shows, as values."""
 
+from collections import deque
 from dataclasses import dataclass, replace
+from typing import Literal
 
-from explorer.model.inputs import Inputs, ViewState
-from explorer.model.pinned import Pinned
-from rotor import Design, Solution
+from explorer.model.inputs import FLIGHT, Inputs, ViewState
+from explorer.workers.solver import BaselineCache
+from rotor import Design, Solution, solve
+from rotor.design import SumTwist
+from rotor.design.quantities import BESIDE
+
+Order = Literal["pin", "unpin", "swap", "back"]
+CONDITION = (*FLIGHT, "stand")
+"""The inputs of the condition; the others are the aircraft and the models."""
+_NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
+_DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
+
+
+@dataclass(frozen=True, eq=False)
+class Pinned:
+    """A design that others are compared with."""
+
+    inputs: Inputs
+    solution: Solution
+    """Solution of the design when it was pinned; converged."""
+
+    @property
+    def driven(self) -> bool:
+        """Whether an actuator also twists the blade, which the sliders cannot show."""
+        design = self.solution.design
+        added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
+        return added or design.active_twist != self.inputs.design().active_twist
+
+    def design(self, present: Design) -> Design:
+        """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
+        design = self.solution.design
+        tested = design.condition.stand is not None, present.condition.stand is not None
+        trim = present.models.trim if any(tested) else design.models.trim
+        level = {row.field: row.default for row in BESIDE.values() if row.axial and not design.models.disk_axial_flow}
+        condition = replace(present.condition, **level)
+        return replace(design, condition=condition, models=replace(design.models, trim=trim))
+
+    def sliders(self, present: Inputs, along: bool) -> Inputs:
+        """The slider positions that mean A: in the present flight when it flies along, else in its own.
+
+        Another rotor keeps its own flight condition, because its weight differs.
+        """
+        if not along or self.inputs.aircraft != present.aircraft:
+            return self.inputs
+        return replace(self.inputs, **{name: getattr(present, name) for name in CONDITION})
+
+
+def same_but_flight(inputs: Inputs, other: Inputs) -> bool:
+    """Whether two inputs mean the same blade, computed in the same way."""
+    return replace(inputs, **{name: getattr(other, name) for name in CONDITION}) == other
+
+
+@dataclass(frozen=True, eq=False)
+class PinResult:
+    pinned: Pinned | None
+    inputs: Inputs | None = None
+    """Inputs to put on the sliders."""
+    sentence: str = ""
+
+
+def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult:
+    """What a button leads to. `solution`: of `inputs`, None where they have no trim."""
+    present = None if solution is None else Pinned(inputs, solution)
+    match order:
+        case "pin":
+            return PinResult(pinned, sentence=_NO_TRIM) if present is None else PinResult(present)
+        case "unpin":
+            return PinResult(None)
+        case _ if pinned is None:
+            return PinResult(None)
+        case "swap" if present is None:
+            return PinResult(pinned, sentence=_NO_TRIM)
+        case _:
+            after = present if order == "swap" else pinned
+            moved = pinned.driven or (present is not None and present.driven)
+            return PinResult(after, pinned.sliders(inputs, along), _DRIVEN if moved else "")
+
+
+class Pinboard:
+    """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
+
+    def __init__(self) -> None:
+        self.pinned: Pinned | None = None
+        self.answer: Solution | None = None
+        """A's, as last compared; it may not have converged."""
+        self._asked: deque[Order] = deque()
+        self._put: deque[Inputs | None] = deque()
+        self._known = BaselineCache()
+
+    def ask(self, order: Order) -> None:
+        """A button was pressed; takes effect in the next update."""
+        self._asked.append(order)
+
+    def put(self, inputs: Inputs | None) -> None:
+        """Pin these inputs as A, or nothing; takes effect in the next update."""
+        self._put.append(inputs)
+
+    def act(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
+        """Do what was asked, with what is on the sliders and its answer; None when nothing was.
+
+        Requests after a button that moves the sliders wait for the update in which they have moved.
+        """
+        outcome = None
+        while self._put:
+            given = self._put.popleft()
+            answer = None if given is None else solve(given.design())
+            self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+        while self._asked and (outcome is None or outcome.inputs is None):
+            outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
+            self.pin(outcome.pinned)
+        return outcome
+
+    def pin(self, pinned: Pinned | None) -> None:
+        """Pin this as A; None removes the pin."""
+        if pinned is not self.pinned:
+            self.pinned = pinned
+            self.answer = None if pinned is None else pinned.solution
+            self._known = BaselineCache() if pinned is None else BaselineCache(pinned.solution.design, pinned.solution)
+
+    def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
+        """A's solution: in the present flight condition if A flies along, else as it was when pinned.
+
+        A of another rotor keeps its own solution, because its weight differs. A trim that fails takes half a second, so
+        it is not repeated when `hurried`: a newer update waits.
+        """
+        along = along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
+        if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
+            return self.answer
+        self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
+        return self.answer
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from functools import cache, lru_cache
 import numpy as np
 import trimesh
 
-from explorer.picture.solids import Mesh, joined, revolved, tube
+from explorer.picture.blade_mesh import Mesh, joined, revolved, tube
 from rotor import Rotor
 from rotor.assets import asset_path
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.picture.airframe import size
-from explorer.picture.picture import disk_drop
-from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
+from explorer.picture.picture import compose, disk_drop, rotate, rotor_pose, tip_path_pose
 from rotor import Solution
 from rotor.arrays import Array
 

@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
-from explorer.colours import VOID, Rgb, Scheme, colour_map, greyed
+from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map, greyed
 from explorer.picture.airframe import Airframe
 from explorer.picture.polar import Places, PolarGrid
 from explorer.picture.regions import Bytes, MarkedRegion
-from explorer.picture.scene_theme import DiskInk
 from rotor.arrays import Array
 from rotor.compiled import compiled
 

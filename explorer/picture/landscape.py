@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
 from explorer.colours import colour_map
+from explorer.picture.blade_mesh import Mesh
 from explorer.picture.camera_views import Camera, direction, framed
 from explorer.picture.plan import crossings
-from explorer.picture.solids import Mesh
 from rotor.arrays import Array
 
 SIZE, HEIGHT = 12.0, 3.9

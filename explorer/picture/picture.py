@@ -1,32 +1,191 @@
-"""Solution and view → one picture as arrays: everything the scene assigns in a frame."""
+"""Solution and view → one picture as arrays: everything the scene assigns in a frame.
+
+Where things stand are poses from the trim, quaternions (w, x, y, z) and positions; each blade has its own twist.
+"""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from explorer.colours import DiskInk, scene_theme
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
-from explorer.picture.airframe import size
+from explorer.picture.airframe import SHAFT_FORWARD, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.disk_image import encode_png
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.polar import polar_grid, refined
-from explorer.picture.poses import (
-    Pose,
-    airframe_pose,
-    blade_pose,
-    drawn_bending,
-    flown_twist,
-    follows_azimuth,
-    rotor_pose,
-    tip_path_pose,
-)
 from explorer.picture.regions import NO_MARKS, Marks, region_codes
-from explorer.picture.scene_theme import DiskInk, scene_theme
-from rotor import Rotor, Solution, make_design, solve
+from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
+from rotor.design import ActiveTwist, TwistLaw
+from rotor.trim import deflections
+
+BENDING_SHOWN = 10.0
+"""Times its bending that a blade is drawn with."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Pose of a child in its parent."""
+
+    wxyz: Array
+    """Unit quaternion, shape (4,)."""
+    position: Array
+    """[m], shape (3,)."""
+
+
+def about(axis: int, angle: float) -> Array:
+    """The rotation by `angle` [rad] about axis 0, 1 or 2."""
+    quaternion = np.zeros(4)
+    quaternion[0] = math.cos(angle / 2.0)
+    quaternion[1 + axis] = math.sin(angle / 2.0)
+    return quaternion
+
+
+def compose(*rotations: Array) -> Array:
+    """The product of quaternions; the last is applied first."""
+    w, x, y, z = 1.0, 0.0, 0.0, 0.0
+    for rotation in rotations:  # In plain numbers: for four of them arrays take five times as long.
+        a, b, c, d = rotation.tolist()
+        w, x, y, z = (
+            w * a - x * b - y * c - z * d,
+            w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b,
+            w * d + x * c - y * b + z * a,
+        )
+    return np.array([w, x, y, z])
+
+
+def rotate(wxyz: Array, points: Array) -> Array:
+    """`points`, shape (..., 3), turned by a quaternion."""
+    w, v = wxyz[0], wxyz[1:]
+    turned = 2.0 * np.cross(v, np.cross(v, points) + w * points)
+    return np.asarray(points + turned, dtype=np.float64)
+
+
+def rotor_pose(controls: TrimState) -> Pose:
+    """The shaft, tilted forward by α (x is aft, so nose-down is a turn about −y)."""
+    return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
+
+
+def airframe_pose(controls: TrimState) -> Pose:
+    """The airframe in level flight: nose down by what the shaft tilt is more than its lean in the airframe."""
+    return Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3))
+
+
+def pitch_series(controls: TrimState, design: Design | None = None) -> list[float]:
+    """Root pitch [rad] in harmonics 1, cos ψ, sin ψ, cos 2ψ, …: collective, cyclic and n/rev of the design."""
+    series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
+    given = () if design is None or design.hovering else design.pitch_per_rev
+    for n in range(2, max((harmonic.per_rev for harmonic in given), default=1) + 1):
+        size, phase = next(
+            ((harmonic.amplitude, harmonic.phase) for harmonic in given if harmonic.per_rev == n), (0.0, 0.0)
+        )
+        series += [size * math.cos(phase), size * math.sin(phase)]
+    return series
+
+
+def root_pitch(controls: TrimState, psi: float, design: Design | None = None) -> float:
+    """Root pitch of a blade at ψ [rad]."""
+    mean, *waves = pitch_series(controls, design)
+    return mean + sum(
+        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
+        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
+    )
+
+
+def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:
+    """A blade at azimuth ψ [rad] in the shaft frame: flapped about its hinge at `hinge` [m], then pitched.
+
+    The twist is in the blade's own shape, so the pitch here is θ0 + θ1c cos ψ + θ1s sin ψ, and n/rev of a `design`.
+    """
+    cos, sin = math.cos(psi), math.sin(psi)
+    flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
+    pitch = root_pitch(controls, psi, design)
+    return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
+
+
+def tip_path_pose(controls: TrimState, drop: float) -> Pose:
+    """The plane the blade tips run in, `drop` [m] below the hub so that blades are seen above it.
+
+    z = β1c x + β1s y to first order: turned by −β1c about y and by β1s about x.
+    """
+    tilt = compose(about(1, -controls.flap_1c), about(0, controls.flap_1s))
+    return Pose(tilt, rotate(tilt, np.array([0.0, 0.0, -drop])))
+
+
+@dataclass(frozen=True)
+class TwistAt:
+    """A law with active and elastic twist of one azimuth on top; not zero at 0.75 R."""
+
+    law: TwistLaw
+    active: ActiveTwist | None
+    psi: float
+    """[rad], of the active twist."""
+    stations: tuple[float, ...] = (0.0, 1.0)
+    """r/R of the elastic twist, ascending; constant beyond."""
+    elastic: tuple[float, ...] = (0.0, 0.0)
+    """[rad]"""
+
+    def __call__(self, r: ArrayLike) -> Array:
+        at = np.atleast_1d(np.asarray(r, dtype=float))
+        twist: Array = self.law(at) + np.interp(at, self.stations, self.elastic)
+        return twist if self.active is None else twist + self.active(at, np.array([self.psi]))[:, 0]
+
+    def spec(self) -> str:
+        return self.law.spec()
+
+
+def with_active_twist(design: Design, psi: float) -> TwistLaw:
+    """Jig twist and active twist of a blade at ψ [rad]."""
+    active = None if design.hovering else design.active_twist
+    return design.twist if active is None else TwistAt(design.twist, active, psi)
+
+
+def flown_twist(solution: Solution, psi: float) -> TwistLaw:
+    """The twist of a blade in flight at ψ [rad]: jig twist, active twist and elastic twist."""
+    return with_elastic_twist(with_active_twist(solution.design, psi), solution, psi)
+
+
+def with_elastic_twist(law: TwistLaw, solution: Solution, psi: float) -> TwistLaw:
+    """A law with the elastic twist of this solution at ψ [rad]; the law itself for a rigid blade."""
+    disk = solution.disk
+    if disk.elastic_twist is None:
+        return law
+    elastic = tuple(at_azimuth(solution, disk.elastic_twist, psi).tolist())
+    return TwistAt(law, None, psi, tuple(disk.r.tolist()), elastic)
+
+
+def at_azimuth(solution: Solution, values: Array, psi: float) -> Array:
+    """Values (elements, azimuths) at ψ [rad], linear between two azimuths, periodic; (elements,)."""
+    n = values.shape[1]
+    position = (psi - float(solution.disk.psi[0])) * n / (2.0 * math.pi)
+    base = math.floor(position)
+    weight = position - base
+    return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
+
+
+def follows_azimuth(solution: Solution) -> bool:
+    """Whether the shape of a blade in flight changes on its way around the disk."""
+    design, disk = solution.design, solution.disk
+    changes = design.active_twist is not None or disk.elastic_twist is not None or deflections(solution) is not None
+    return not design.hovering and changes
+
+
+def drawn_bending(solution: Solution, r: ArrayLike, psi: float) -> Array | None:
+    """How far the axis of a blade at ψ [rad] is drawn off the straight one at r/R, `BENDING_SHOWN` times as far as it
+    bends, in the blade's own axes [m], (stations, 3); None where blades do not bend."""
+    bent = deflections(solution)
+    if bent is None:
+        return None
+    up, forward = (BENDING_SHOWN * deflection for deflection in bent.at(np.asarray(r, dtype=float), psi))
+    pitch = root_pitch(solution.controls, psi, solution.design)  # The blade's own axes are pitched.
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    return np.stack([np.zeros_like(up), cos * forward + sin * up, cos * up - sin * forward], axis=1)
+
 
 DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""

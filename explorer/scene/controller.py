@@ -15,14 +15,13 @@ from typing import Any, Protocol
 import numpy as np
 import viser
 
+from explorer.colours import scene_theme
 from explorer.hosting.browser import call
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.camera_views import View, apart
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
-from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
-from explorer.picture.poses import pitch_series
-from explorer.picture.scene_theme import scene_theme
+from explorer.picture.picture import disk_png, field_values, make_picture, pitch_series, turned_blades
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.camera import FittedCamera
 from explorer.scene.overlays import VORTICES, AirLines, Ghost, HubLoadLines, OtherBlade

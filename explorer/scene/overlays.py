@@ -11,12 +11,11 @@ import viser
 from numpy.typing import NDArray
 
 from explorer import colours
+from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
-from explorer.model.pinned import Pinned
-from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.poses import drawn_bending, flown_twist, with_elastic_twist
-from explorer.picture.scene_theme import SceneTheme
-from explorer.picture.solids import Mesh
+from explorer.model.session_state import Pinned
+from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices, ghost_segments, ghost_vertices
+from explorer.picture.picture import drawn_bending, flown_twist, with_elastic_twist
 from explorer.picture.wake import HubLines, hub_lines, inflow_arrows, tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from rotor import Design, Rotor, Solution

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import viser
 
-from explorer.colours import Rgb
+from explorer.colours import Rgb, SceneTheme
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe, mast, rotor_head, size
-from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.blade_mesh import Faces, Mesh, blade_shape, blade_vertices, joined
 from explorer.picture.camera_views import LETTER_SIZE, letter_place
 from explorer.picture.disk_image import (
     REACH,
@@ -21,10 +21,7 @@ from explorer.picture.disk_image import (
     shadow_mask,
     tinted_png,
 )
-from explorer.picture.picture import Blades, Picture
-from explorer.picture.poses import Pose, about
-from explorer.picture.scene_theme import SceneTheme
-from explorer.picture.solids import Faces, Mesh, joined
+from explorer.picture.picture import Blades, Picture, Pose, about
 from rotor import Rotor
 from rotor.arrays import Array
 

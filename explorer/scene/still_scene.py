@@ -11,13 +11,12 @@ import numpy as np
 from PIL import Image
 
 from explorer import web
+from explorer.colours import scene_theme
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import BladeShape, blade_vertices
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
-from explorer.picture.picture import make_picture, turned_blades
-from explorer.picture.poses import flown_twist, follows_azimuth
-from explorer.picture.scene_theme import scene_theme
+from explorer.picture.picture import flown_twist, follows_azimuth, make_picture, turned_blades
 from explorer.scene.controller import motion_of
 from explorer.scene.scene import ROTOR, Scene
 from rotor import Solution, parse_twist

@@ -10,8 +10,7 @@ import viser
 
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.pinned import Pinboard
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import UNITS, Units
 from explorer.sharing.presentation import Presentations

@@ -13,7 +13,7 @@ from explorer.model.undo import PowerTracker
 from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.picture.blade_mesh import inset
 from explorer.picture.camera_views import LETTER_SIZE
-from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.picture.picture import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext

@@ -11,7 +11,7 @@ from explorer.charts.strip import role_line
 from explorer.colours import BASELINE, colour_map
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
-from explorer.picture.poses import drawn_bending, flown_twist, follows_azimuth
+from explorer.picture.picture import drawn_bending, flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.live_charts import PanelChart

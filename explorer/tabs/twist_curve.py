@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import LOOKS, Role, role_line
-from explorer.model.drag import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, stations, turn_ends
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
-from explorer.model.sliders import slider
+from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
 from explorer.model.units import SI
 from explorer.tabs.context import TabContext
 from rotor import Design, Solution

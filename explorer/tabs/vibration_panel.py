@@ -19,10 +19,10 @@ from explorer.charts.vibration import (
     index_unit,
     stopping,
 )
+from explorer.colours import scene_theme
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
-from explorer.picture.poses import BENDING_SHOWN
-from explorer.picture.scene_theme import scene_theme
+from explorer.picture.picture import BENDING_SHOWN
 from explorer.picture.wake import hub_words, scale_words
 from explorer.scene.controller import SceneController
 from explorer.scene.scene import ROTOR

@@ -6,8 +6,7 @@ from functools import partial
 from typing import Literal
 
 from explorer.model.inputs import Inputs, ViewState, menu_titles
-from explorer.model.pinned import Order
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Order, SessionState
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
 from explorer.picture.camera_views import Camera, View

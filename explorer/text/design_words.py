@@ -3,7 +3,7 @@
 import math
 
 from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
-from explorer.model.pinned import Pinned
+from explorer.model.session_state import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor import Design

@@ -11,7 +11,7 @@ from PIL import Image
 
 from explorer.colours import PINNED_GHOST, VOID
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.pinned import Pinboard, Pinned, act
+from explorer.model.session_state import Pinboard, Pinned, act
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values

@@ -14,8 +14,7 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import number
-from explorer.picture.picture import make_picture
-from explorer.picture.poses import rotate
+from explorer.picture.picture import make_picture, rotate
 from explorer.tabs.actuator import actuator_words
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel

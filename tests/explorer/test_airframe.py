@@ -8,7 +8,7 @@ import trimesh
 from scipy.spatial import cKDTree
 
 from explorer.picture.airframe import airframe, mast, rotor_head
-from explorer.picture.solids import Mesh, revolved, tube
+from explorer.picture.blade_mesh import Mesh, revolved, tube
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft

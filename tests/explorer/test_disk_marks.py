@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from explorer.colours import DARK, LIGHT
 from explorer.picture import disk_image
 from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import inset
@@ -22,7 +23,6 @@ from explorer.picture.picture import disk_png, field_values
 from explorer.picture.plan import stall_segments
 from explorer.picture.polar import Sums, angles_of_attack, polar_grid, refined, stall_angles
 from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, mark_line, region_codes, region_masks
-from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import make_design

@@ -24,7 +24,7 @@ from explorer.export.provenance import file_stem
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import swept_back
-from explorer.picture.poses import with_active_twist
+from explorer.picture.picture import with_active_twist
 from explorer.tabs.export_panel import flown_file, jig_file
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic

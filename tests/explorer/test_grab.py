@@ -8,20 +8,21 @@ import numpy as np
 import pytest
 from fake_bridge import Bridge
 
-from explorer.model.drag import (
+from explorer.model.inputs import Inputs
+from explorer.model.sliders import (
     DETENT,
     PIECES,
     BestTurn,
     Grab,
     begin,
     grabbed_inputs,
+    limits,
     place_of,
     slid,
     stations,
     turned,
+    twist_sensitivities,
 )
-from explorer.model.inputs import Inputs
-from explorer.model.sliders import limits, twist_sensitivities
 from explorer.model.undo import History
 from explorer.tabs.twist_curve import TwistCurveEditor
 from rotor.trim.adjoint import power_gradient

@@ -17,9 +17,9 @@ from numpy.testing import assert_allclose
 from explorer import web
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
-from explorer.model.pinned import Pinned
+from explorer.model.session_state import Pinned
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.poses import blade_pose, pitch_series
+from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.scene.still_scene import flown_pitch
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history

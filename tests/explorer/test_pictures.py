@@ -14,9 +14,17 @@ from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, apart, fit
 from explorer.picture.fields import FIELDS, filled, reverse_flow
-from explorer.picture.picture import DISK_DROP, disk_png, make_picture
+from explorer.picture.picture import (
+    DISK_DROP,
+    about,
+    blade_pose,
+    compose,
+    disk_png,
+    make_picture,
+    rotate,
+    tip_path_pose,
+)
 from explorer.picture.polar import PolarGrid, polar_grid, refined
-from explorer.picture.poses import about, blade_pose, compose, rotate, tip_path_pose
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

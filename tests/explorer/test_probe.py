@@ -14,8 +14,7 @@ from numpy.testing import assert_allclose
 from explorer.charts import svg
 from explorer.hosting.gate import PRESSES
 from explorer.picture.camera_views import pick
-from explorer.picture.picture import DISK_DROP
-from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
+from explorer.picture.picture import DISK_DROP, compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.element import FlowRegion, probe
 from explorer.tabs.probe.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe.probe_measured import lift_chart, public_table

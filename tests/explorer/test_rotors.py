@@ -20,7 +20,7 @@ from explorer.model.inputs import (
     with_optimum,
     with_rotor,
 )
-from explorer.model.pinned import Pinboard, Pinned
+from explorer.model.session_state import Pinboard, Pinned
 from explorer.picture.picture import turned_blades
 from explorer.sharing import share
 from explorer.tabs.design_files import SUFFIXES, UploadedFiles

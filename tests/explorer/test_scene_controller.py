@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 import viser
 
+from explorer.colours import DARK
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
 from explorer.picture.camera_views import apart
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, Field, usual_range
-from explorer.picture.picture import field_values
-from explorer.picture.poses import flown_twist
-from explorer.picture.scene_theme import DARK
+from explorer.picture.picture import field_values, flown_twist
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
 from rotor.design.twist import LinearTwist

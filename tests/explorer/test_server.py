@@ -13,11 +13,11 @@ import pytest
 import viser
 
 from explorer import __main__ as command
+from explorer.colours import LIGHT
 from explorer.model.inputs import FLIGHT, LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
 from explorer.model.sliders import SLIDERS
 from explorer.model.units import SI
 from explorer.picture.picture import make_picture
-from explorer.picture.scene_theme import LIGHT
 from explorer.scene.scene import Scene
 from explorer.tabs.controls import DesignControls
 from rotor.files.make_design import make_design, uh60a_rotor

@@ -7,7 +7,7 @@ import pytest
 from explorer.charts.measured import MeasuredChart
 from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
-from explorer.model.pinned import Pinned
+from explorer.model.session_state import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
 from explorer.sharing.share import code_of, inputs_from
 from explorer.tabs.controls import DesignControls

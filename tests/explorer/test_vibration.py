@@ -14,12 +14,20 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
 from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_chart, index_chart
+from explorer.colours import scene_theme
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
-from explorer.picture.picture import flown_vertices, make_picture, turned_blades
-from explorer.picture.poses import BENDING_SHOWN, blade_pose, drawn_bending, follows_azimuth, rotate
-from explorer.picture.scene_theme import scene_theme
+from explorer.picture.picture import (
+    BENDING_SHOWN,
+    blade_pose,
+    drawn_bending,
+    flown_vertices,
+    follows_azimuth,
+    make_picture,
+    rotate,
+    turned_blades,
+)
 from explorer.picture.wake import hub_lines, hub_words, load_scale
 from explorer.scene.overlays import HubLoadLines
 from explorer.sharing.share import inputs_from

@@ -17,7 +17,7 @@ import trimesh
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from explorer.picture.solids import Mesh, joined, loft, tube
+from explorer.picture.blade_mesh import Mesh, joined, loft, tube
 from rotor.arrays import Array
 
 FILE = Path(__file__).parents[2] / "assets" / "airframe.glb"

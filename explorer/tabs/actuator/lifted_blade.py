@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from explorer.picture.blade_mesh import Mesh
 from explorer.picture.camera_views import Camera, framed
-from explorer.picture.poses import Pose, about, compose, rotate
-from explorer.picture.solids import Mesh
+from explorer.picture.picture import Pose, about, compose, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator, PiezoPly, TorqueTube
 from rotor.actuator.pictures import electronics_station

@@ -10,8 +10,7 @@ from typing import Any
 import viser
 
 from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
-from explorer.model.pinned import same_but_flight
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import SessionState, same_but_flight
 from explorer.model.units import UNITS
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace

@@ -14,13 +14,11 @@ import trimesh
 import viser
 from trimesh.visual.color import ColorVisuals
 
-from explorer.colours import START_COLOURS, colour_map, css
+from explorer.colours import START_COLOURS, colour_map, css, scene_theme
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
-from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices
 from explorer.picture.landscape import BASE, POINTS, SIZE, Landscape, refined
-from explorer.picture.scene_theme import scene_theme
-from explorer.picture.solids import Mesh
 from explorer.tabs.actuator.lifted_blade import segments_of
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.map_panel import Map, MapPanel, place_on

@@ -15,8 +15,7 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
-from explorer.picture.picture import LINE_LIFT
-from explorer.picture.poses import about, drawn_bending, flown_twist
+from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist
 from explorer.scene.controller import SceneController, tie
 from explorer.tabs.context import Player, Tab, TabContext
 from explorer.tabs.keys import COARSE

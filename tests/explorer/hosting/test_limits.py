@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from explorer.hosting import limits as memory
-from explorer.hosting.allowed_hosts import AllowedHosts, host_name, is_loopback, warning
 from explorer.hosting.limits import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
+from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback, warning
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"

@@ -19,9 +19,8 @@ from websockets.typing import Subprotocol
 
 from explorer.app import App, FirstAnswers, PortBusy
 from explorer.hosting import limits, request_filter, viser_compat
-from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.limits import ServerLimits
-from explorer.hosting.request_filter import RequestFilter, with_loading_screen
+from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING
 from explorer.model.units import number
 from rotor import make_design, solve
