@@ -29,7 +29,7 @@ from rotor.design.aircraft import told
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
-from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
+from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.terminal import wrapped
 from rotor.user_input import parse_range
 
@@ -55,7 +55,6 @@ def add_parser(commands: Any) -> None:
     add_design_arguments(parser)
     add_search_arguments(parser, 4)
     add_processes_argument(parser)
-    parser.add_argument("--resume", metavar="FILE", help="store results in this file and resume from it")
     add_output_arguments(parser)
 
 
@@ -64,17 +63,13 @@ def run(args: argparse.Namespace) -> int:
     plan = plan_from(args)
     processes = processes_from(args)
     check_output(args)
-    cells = read_cells(args.resume, plan) if args.resume else []
-    keep = open_cells(args.resume, plan) if args.resume else None
     total = len(plan.concepts) * (len(plan.conditions) + 1)
-    with interruptible() as stop, bar(total - len(cells), " optima") as advance:
+    with interruptible() as stop, bar(total, " optima") as advance:
 
         def add(cell: Cell) -> None:
-            if keep is not None:
-                keep(cell)
             advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
 
-        schedule = run_plan(plan, cells, add, stop, processes if total - len(cells) > 2 else 1)
+        schedule = run_plan(plan, add, stop, processes if total > 2 else 1)
         stopped = stop()
     if args.csv:
         write_table(args.csv, [(*_quantities(plan), *COLUMNS), *_rows(schedule)])
@@ -197,7 +192,7 @@ def report(schedule: Schedule) -> str:
                 sentence += f" Known to ± {sure.change_band / 1e3:.1f} kW: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
-        lines.append("Stopped before the end: use --resume FILE to store results and continue.")
+        lines.append("Stopped before the end.")
     return "\n".join(lines)
 
 

@@ -266,8 +266,8 @@ class _Progress:
 def _summary(store: Store, ended: ChunkRun, message: str) -> int:
     missing = store.missing()
     done = store.study.count - store.study.points_of(missing)
-    if done:
-        results = read_results(store.folder)
+    results = read_results(store.folder) if done else None
+    if results is not None:
         print(report(results, record(results)))
     if ended.stopped and missing:
         print(
@@ -277,7 +277,7 @@ def _summary(store: Store, ended: ChunkRun, message: str) -> int:
         return STOPPED
     if message := message or ended.sentence:
         print(f"rotor: {message}", file=sys.stderr)
-    return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
+    return 0 if not missing and results is not None and results.good.all() else 1
 
 
 def _show(args: argparse.Namespace) -> int:

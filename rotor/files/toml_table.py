@@ -73,9 +73,11 @@ class TomlTable:
             raise self.fail(key, f"{key} is {value!r}: use {' or '.join(choices)}{_near(value, choices)}")
         return value
 
-    def strings(self, key: str) -> tuple[str, ...]:
-        """A list of texts, at least one; one text is read as a list of one."""
-        value = self._take(key, REQUIRED, f'add {key} = ["…"]')
+    def strings(self, key: str, default: Any = REQUIRED) -> Any:
+        """A list of texts as a tuple, of one at least where it must be there; one text is read as a list of one."""
+        value = self._take(key, default, f'add {key} = ["…"]')
+        if value is default or (value == [] and default is not REQUIRED):
+            return default
         items = cast(list[Any], value if isinstance(value, list) else [value])
         if not items or not all(isinstance(item, str) and item for item in items):
             raise self.fail(
@@ -168,7 +170,7 @@ def find_line(text: str, path: tuple[str, ...], key: str | None, index: int = 0)
             elif key is not None and header == (*path, key):
                 keys.append(number)
         elif key is not None and header in (path, path[:-1]):
-            keys += [number] * len(re.findall(rf"(?:^|[{{,\s]){re.escape(key)}\s*=", bare))
+            keys += [number] * len(re.findall(rf"(?:^|[{{,.\s]){re.escape(key)}\s*=", bare))
         if path and header == path[:-1] and re.match(rf"{re.escape(path[-1])}\s*=", bare):
             tables.append(number)
     places = keys or tables

@@ -2,30 +2,24 @@
 
 Conditions are processed in chunks of neighbours, each in its own process. Within a chunk a search starts from the
 optimum of the previous condition, and a concept with more parameters from the optima of the simpler ones. The chunks
-do not depend on the number of processes, so the result does not either. Results can be kept in a file, one line of
-JSON per optimum, to resume an interrupted run.
+do not depend on the number of processes, so the result does not either.
 """
 
-import json
-import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import Any, cast
 
-from rotor.design.design import Design, fingerprint
+from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.doubt import mean_doubt
 from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
-from rotor.optimisation.results import Minimum, Optimum, SearchStatus
+from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.processes import Processes, WorkerLost, run_tasks
 from rotor.trim.doubt import Doubt
 from rotor.trim.solve import solve
-from rotor.user_input import read_text
 
 CHUNK = 4
 """Neighbouring conditions computed together, and concepts of the fixed blade."""
@@ -144,29 +138,27 @@ class Schedule:
 
 def run_plan(
     plan: Plan,
-    known: Sequence[Cell] = (),
     keep: Callable[[Cell], None] | None = None,
     stop: Callable[[], bool] | None = None,
     processes: int = 1,
 ) -> Schedule:
-    """Compute a plan. `found`: cells of an earlier run, kept; `keep` is called with every new cell.
+    """Compute a plan; `keep` is called with every cell.
 
     `stop` is called several times a second; True ends the run with the results so far.
     """
-    cells = {(cell.condition, cell.concept): cell for cell in known}
+    cells: _Known = {}
 
     def add(cell: Cell) -> None:
-        if (cell.condition, cell.concept) not in cells:
-            cells[cell.condition, cell.concept] = cell
-            if keep is not None:
-                keep(cell)
+        cells[cell.condition, cell.concept] = cell
+        if keep is not None:
+            keep(cell)
 
     conditions = range(len(plan.conditions))
     chunks = [tuple(conditions[k : k + CHUNK]) for k in range(0, len(plan.conditions), CHUNK)]
     message = ""
     with Processes(processes) if processes > 1 else nullcontext() as pool:
         try:
-            stopped = run_tasks(pool, [(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks], add, stop)
+            stopped = run_tasks(pool, [(_work_chunk, (plan, chunk)) for chunk in chunks], add, stop)
             if not stopped:
                 concepts = [plan.concepts[k : k + CHUNK] for k in range(0, len(plan.concepts), CHUNK)]
                 run_tasks(pool, [(_work_fixed, (plan, some, dict(cells))) for some in concepts], add, stop)
@@ -179,19 +171,13 @@ def run_plan(
 _Known = dict[tuple[int | None, str], Cell]
 
 
-def _work_chunk(
-    plan: Plan, conditions: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None
-) -> Iterator[Cell]:
-    """All concepts at neighbouring conditions, one after the other.
-
-    One model of power by pitch serves every concept at a condition. So where some of its cells are missing, the
-    searches before these are run again: a plan that is resumed then gives the same numbers.
-    """
+def _work_chunk(plan: Plan, conditions: tuple[int, ...], stop: Callable[[], bool] | None) -> Iterator[Cell]:
+    """All concepts at neighbouring conditions, one after the other."""
+    known: _Known = {}
     for condition in conditions:
 
         def guesses(concept: Concept, condition: int = condition) -> list[tuple[float, ...]]:
-            neighbour = known.get((condition - 1, concept.name)) if condition - 1 in conditions else None
-            return _guesses(plan, condition, concept, known, neighbour)
+            return _guesses(plan, condition, concept, known)
 
         yield from _searches(plan, condition, plan.concepts, known, guesses, stop)
 
@@ -220,9 +206,9 @@ def _searches(
     guesses_of: Callable[[Concept], list[tuple[float, ...]]],
     stop: Callable[[], bool] | None,
 ) -> Iterator[Cell]:
-    """The missing cells of a condition, or of the fixed blade; they are added to those known."""
-    trimmed, missing = TrimmedBlades(), [concept for concept in concepts if (condition, concept.name) not in known]
-    for concept in concepts[: concepts.index(missing[-1]) + 1] if missing else ():
+    """The cells of a condition, or of the fixed blade, added to those known: one model of power serves all."""
+    trimmed = TrimmedBlades()
+    for concept in concepts:
         guesses = guesses_of(concept)
         search = Search(
             design=plan.design_at(condition),
@@ -238,16 +224,14 @@ def _searches(
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
-        if concept in missing:
-            known[condition, concept.name] = cell = Cell(condition, concept.name, optimum)
-            yield cell
+        known[condition, concept.name] = cell = Cell(condition, concept.name, optimum)
+        yield cell
 
 
-def _guesses(
-    plan: Plan, condition: int, concept: Concept, known: _Known, neighbour: Cell | None
-) -> list[tuple[float, ...]]:
+def _guesses(plan: Plan, condition: int, concept: Concept, known: _Known) -> list[tuple[float, ...]]:
     """The neighbour's optimum, and the best of the simpler concepts at this condition."""
     guesses: list[tuple[float, ...]] = []
+    neighbour = known.get((condition - 1, concept.name))
     if neighbour is not None and neighbour.optimum.best is not None:
         guesses.append(neighbour.optimum.best.parameters)
     before = plan.concepts[: plan.concepts.index(concept)]
@@ -257,101 +241,3 @@ def _guesses(
         _, design = min(simpler, key=lambda pair: pair[0])
         guesses.append(nearest(concept, design.twist))
     return guesses
-
-
-FORMAT = "rotor-explorer schedule"
-_LARGEST = 256 * 2**20
-"""[bytes] of a file of cells."""
-
-
-def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
-    """Cells of an earlier run of the same plan; none where the file does not exist yet.
-
-    A last line cut short by a crash is left out. Raises ValueError for a file of another plan, or of something else.
-    """
-    path = Path(path)
-    if str(path) and not os.path.exists(path):  # noqa: PTH110 - Path.exists raises for names that are too long.
-        return []
-    try:
-        lines = read_text(path, "schedule file", "give another file", _LARGEST).splitlines()
-        heading: Any = json.loads(lines[0]) if lines else None
-    except (json.JSONDecodeError, RecursionError) as error:
-        raise ValueError(f"schedule file {str(path)!r} cannot be read ({error}): give another file") from None
-    if not isinstance(heading, dict) or cast(dict[str, Any], heading).get("format") != FORMAT:
-        raise ValueError(f"{str(path)!r} is not a schedule file: give another file, or a new one")
-    if cast(dict[str, Any], heading).get("plan") != fingerprint(plan):
-        raise ValueError(
-            f"schedule file {str(path)!r} was made with other flags: repeat the flags of its run, or give another file"
-        )
-    cells: list[Cell] = []
-    for line in lines[1:]:
-        try:
-            entry: Any = json.loads(line)
-        except json.JSONDecodeError:
-            continue
-        cells.append(_cell(entry, plan))
-    return cells
-
-
-def open_cells(path: str | Path, plan: Plan) -> Callable[[Cell], None]:
-    """Start or continue the file; the returned function appends a cell."""
-    path = Path(path)
-
-    def add(text: str) -> None:
-        try:
-            with path.open("a", encoding="utf-8") as file:
-                file.write(text + "\n")
-        except OSError as error:
-            raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable file") from None
-
-    if not path.exists():
-        add(json.dumps({"format": FORMAT, "plan": fingerprint(plan)}))
-    elif not path.read_text(encoding="utf-8").endswith("\n"):
-        add("")
-    return lambda cell: add(json.dumps(_record(cell), allow_nan=False))
-
-
-def _record(cell: Cell) -> dict[str, Any]:
-    optimum = cell.optimum
-    return {
-        "condition": cell.condition,
-        "concept": cell.concept,
-        "status": optimum.status.value,
-        "message": optimum.message,
-        "minima": [
-            [list(m.parameters), m.power, list(m.starts), list(m.active), m.index]
-            for m in (optimum.minima or ((optimum.best,) if optimum.best is not None else ()))
-        ],
-        "baseline_power": optimum.baseline_power,
-        "baseline_index": optimum.baseline_index,
-        "evaluations": optimum.evaluations,
-        "starts": optimum.starts,
-        "seed": optimum.seed,
-        "elapsed": optimum.elapsed,
-    }
-
-
-def _cell(entry: dict[str, Any], plan: Plan) -> Cell:
-    concept = next(concept for concept in plan.concepts if concept.name == entry["concept"])
-    minima = tuple(
-        Minimum(tuple(values), power, concept.twist(values).spec(), tuple(starts), tuple(active), index)
-        for values, power, starts, active, index in entry["minima"]
-    )
-    design = plan.design_at(entry["condition"])
-    best = minima[0] if minima else None
-    optimum = Optimum(
-        status=SearchStatus(entry["status"]),
-        message=entry["message"],
-        concept=concept.name,
-        design=design if best is None else concept.apply(design, best.parameters),
-        best=best,
-        minima=minima,
-        band=(),
-        baseline_power=entry["baseline_power"],
-        evaluations=entry["evaluations"],
-        starts=entry["starts"],
-        seed=entry["seed"],
-        elapsed=entry["elapsed"],
-        baseline_index=entry["baseline_index"],
-    )
-    return Cell(entry["condition"], concept.name, optimum)

@@ -19,10 +19,8 @@ from rotor.files.make_design import Tell, warn
 from rotor.study.chunks import CONVERGED, arrow_modules, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
-from rotor.user_input import is_file, read_bytes, shorten
+from rotor.user_input import is_file, shorten
 
-_LARGEST = 400_000_000
-"""Bytes that a single file may unpack to."""
 _MANY = 20
 """Number of values from which an axis is divided into ten parts."""
 _FEW = 10
@@ -78,25 +76,20 @@ class Results:
         return code
 
 
-def read_results(folder: str | Path, *, texts: bool = True) -> Results:
-    """The results in a folder; without `texts` those columns are left out but for axes and status, which is quicker.
-
-    ValueError with one sentence for a folder without a study, or without a result yet.
-    """
+def read_results(folder: str | Path) -> Results:
+    """The results in a folder; ValueError with one sentence for one without a study, or without a result yet."""
     about = read_about(folder)
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
     arrow, parquet = arrow_modules()
-    axes = tuple(str(name) for name in about["axes"])
     try:
-        names = _wanted(parquet.read_schema(paths[0]), axes, texts)
-        table = parquet.read_table([str(path) for path in paths], columns=names)
+        table = parquet.read_table([str(path) for path in paths])
     except MemoryError:  # One of Arrow's exceptions too.
         raise
     except (OSError, ValueError, arrow.ArrowException):
         raise _damaged(paths) from None
-    return Results(about, axes, columns_from(table))
+    return Results(about, tuple(map(str, about["axes"])), columns_from(table))
 
 
 def _damaged(paths: list[Path]) -> ValueError:
@@ -119,52 +112,24 @@ def _damaged(paths: list[Path]) -> ValueError:
     )
 
 
-def read_file(content: bytes, name: str) -> Results:
-    """The results in one Parquet file of a study, or in several that were joined, without texts as `read_results`.
-
-    ValueError for any other file, and for one that would fill the memory: some bytes can stand for millions of rows.
-    """
+def read_file(path: str | Path) -> Results:
+    """The results in one Parquet file of a study, or in several that were joined; ValueError for any other file."""
     arrow, parquet = arrow_modules()
     try:
-        file = parquet.ParquetFile(arrow.BufferReader(content))
-        metadata: dict[bytes, bytes] = file.schema_arrow.metadata or {}
-        said: dict[str, Any] = {
-            key.decode(): value.decode() for key, value in metadata.items() if key != b"ARROW:schema"
-        }
-        foreign = ValueError(f"{name!r} is not a result of a study: give a chunk-….parquet of its folder")
-        if said.get("format") != "rotor-explorer study":
-            raise foreign
-        try:
-            said |= {key: json.loads(said[key]) for key in ("axes", "given", "units", "models")}
-        except (KeyError, json.JSONDecodeError):
-            raise foreign from None
-        about, axes = file.metadata, tuple(said["axes"])
-        if not {"point", "status", "power_total_w", *axes} <= set(file.schema_arrow.names):
-            raise foreign
-        packed = sum(about.row_group(k).total_byte_size for k in range(about.num_row_groups))
-        size = max(packed, 8 * about.num_rows * about.num_columns)
-        if size > _LARGEST:
-            raise ValueError(
-                f"{name!r} unpacks to {size / 1e6:,.0f} MB, more than {_LARGEST / 1e6:.0f} MB: "
-                "give a smaller file, or open the study's folder"
-            )
-        names = _wanted(file.schema_arrow, axes, texts=False)
-        table = parquet.read_table(arrow.BufferReader(content), columns=names, read_dictionary=names)
+        table = parquet.read_table(str(path))
+        metadata: dict[bytes, bytes] = table.schema.metadata or {}
+        said: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items()}
+        about: dict[str, Any] = said | {key: json.loads(said[key]) for key in ("axes", "given", "units")}
+        results = Results(about, tuple(about["axes"]), columns_from(table))
+        if not {"point", "status", *results.axes} <= results.columns.keys():
+            raise KeyError(path)
     except MemoryError:  # One of Arrow's exceptions too.
         raise
-    except (OSError, arrow.ArrowException) as error:
-        raise ValueError(f"{name!r} is not a Parquet file ({error}): give a chunk-….parquet of a study") from None
-    return Results(said, axes, columns_from(table))
-
-
-def _wanted(schema: Any, axes: tuple[str, ...], texts: bool) -> list[str]:
-    """Names of the columns to read: numbers, axes and status, and the other texts on demand."""
-    arrow, _ = arrow_modules()
-    return [
-        column.name
-        for column in schema
-        if texts or not arrow.types.is_string(column.type) or column.name in (*axes, "status")
-    ]
+    except (OSError, KeyError, ValueError, arrow.ArrowException):
+        raise ValueError(
+            f"{Path(path).name!r} is not a result of a study: give a chunk-….parquet of its folder"
+        ) from None
+    return results
 
 
 def columns_from(table: Any) -> dict[str, NDArray[Any]]:
@@ -212,8 +177,7 @@ def design_at(place: str, tell: Tell = warn) -> Design:
     path, _, number = place.rpartition(":")
     if not (path and number.isdecimal()):
         raise ValueError(f"row {shorten(place)!r} is not understood: give a study's folder and a point, as DIR:17")
-    content = read_bytes(path, "result", "give a study's folder", _LARGEST) if is_file(path) else None
-    results = read_results(path) if content is None else read_file(content, Path(path).name)
+    results = read_file(path) if is_file(path) else read_results(path)
     row = results.row_of(int(number))
     if row is None:
         points = results.columns["point"]

@@ -1,13 +1,10 @@
 """Study files: TOML with axes, fixed values, models, sampling and optimum settings.
 
-Every error is a ValueError with one sentence that names the file, the line, the value and the remedy. Checked by hand,
-not by msgspec: most keys are quantities whose names and kinds are data, and its messages lack line, value and remedy.
+Every error is a ValueError with one sentence that names the file, the line, the value and the remedy.
 """
 
 import math
 import re
-import tomllib
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,6 +15,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
 from rotor.files.make_design import current_model, make_design
 from rotor.files.rotor_file import find_aircraft
+from rotor.files.toml_table import TomlTable, read_toml
 from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
 from rotor.study.point import check_point
 from rotor.study.study import (
@@ -40,87 +38,48 @@ from rotor.user_input import is_file, parse_range, read_text, refusing, shorten
 _MANY = 10**10
 _STEEPEST = 100.0
 """Twist rates beyond this [°/R] are an error of writing, as in `--twist`."""
-SECTIONS: dict[str, tuple[str, ...]] = {
-    "": ("title", "chunk"),
-    "axes": (),
-    "fixed": (),
-    "models": (),
-    "sample": ("method", "count", "seed"),
-    "optimum": ("starts", "seed", "objective", "rate_deg", "stalled_percent", "index_percent"),
-    "show": ("least", "uncertain"),
-}
-"""Sections and their keys; empty: names of quantities."""
+_SECTIONS = ("axes", "fixed", "models", "sample", "optimum", "show")
+"""The keys of the first three are names of quantities."""
 
 
 class Reader:
     """Reads a study from the text of a file. ValueError with the line for whatever is wrong."""
 
     def __init__(self, text: str, name: str) -> None:
-        self._lines, self._name = text.splitlines(), name
+        self._name = name
         self._aircraft: dict[str, Aircraft] = {}
-        try:
-            self._content = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise ValueError(f"study file {name!r} is not valid TOML ({error}): correct that line") from None
-        for key, value in self._content.items():
-            if key not in SECTIONS[""] and key not in SECTIONS:
-                names = ", ".join([*SECTIONS[""], *(f"[{name}]" for name in SECTIONS if name)])
-                raise self._wrong("", key, f"{key!r} is not known: a study file has {names}")
-            if key in SECTIONS and not isinstance(value, dict):
-                raise self._wrong("", key, f"{key} is not a section: write [{key}] on a line and its keys below")
-        for section, keys in SECTIONS.items():
-            for key in self._section(section) if keys and section else ():
-                if key not in keys:
-                    raise self._wrong(section, key, f"{key!r} is not known in [{section}]: it has {', '.join(keys)}")
+        top = read_toml(f"study file {name!r}", text)
+        self._title = top.string("title", Path(name).stem)
+        self._chunk = top.count("chunk", None, low=1, high=10**6)
+        self._searched = top.has("optimum")
+        self._sections: dict[str, TomlTable] = {
+            section: top.table(section, None) or TomlTable(top.file, text, (section,), {}) for section in _SECTIONS
+        }
+        top.finish()
 
-    def _section(self, name: str) -> dict[str, Any]:
-        return self._content.get(name, {})
-
-    def _wrong(self, section: str, key: str, sentence: str) -> ValueError:
-        """The error for a key: the sentence with file and line."""
-        line = self._line(section, key)
-        return ValueError(f"study file {self._name!r}{f' line {line}' if line else ''}: {sentence}")
-
-    def _line(self, section: str, key: str) -> int | None:
-        """The line of a key, or of its section, written as [section], [section.key], section.key = or section = {…}."""
-        here, heading_at = "", None
-        for number, line in enumerate(self._lines, start=1):
-            heading = re.match(r"\s*\[+\s*([\w-]+)\s*(?:\.\s*([\w-]+)\s*)?\]", line)
-            if heading:
-                here = heading[1]
-                if heading[2] and (here, heading[2]) == (section, key):
-                    return number
-                if here == (section or key) and not heading[2]:
-                    heading_at = number
-            elif here == section and key and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*[.=]", line):
-                return number
-            elif here == "" and section and (dotted := re.match(rf"\s*{section}\s*(?:\.\s*([\w-]+)\s*)?[.=]", line)):
-                if dotted[1] == key:
-                    return number
-                heading_at = number
-        return heading_at
+    def _wrong(self, section: str, key: str | None, sentence: str) -> ValueError:
+        """The error for a key, or a section: the sentence with file and line."""
+        return self._sections[section].fail(key, sentence)
 
     def study(self) -> Study:
-        sample = self._section("sample")
         axes, ranges = self._axes()
-        places = StudyPoints(axes, self._sample(sample, ranges))
+        places = StudyPoints(axes, self._sample(ranges))
         if not axes and places.sample is None:
-            raise self._wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
+            raise self._wrong("axes", None, "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
         searching = self._searching()
-        title = self._read("", "title", Path(self._name).stem, lambda value: isinstance(value, str), "give a text")
         if places.count > _MANY:
-            raise self._wrong("axes", "", f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
-        chunk = self._whole("", "chunk", default_chunk(places.count, search=searching is not None), 1, 10**6)
+            raise self._wrong("axes", None, f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
+        chunk = self._chunk or default_chunk(places.count, search=searching is not None)
         aircraft = tuple(self._aircraft.items())
-        study = Study(title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
+        study = Study(self._title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
         self._try_points(study)
         return replace(study, show=self._aims(study))
 
     def _axes(self) -> tuple[tuple[StudyAxis, ...], list[tuple[str, float, float]]]:
         axes: list[StudyAxis] = []
         ranges: list[tuple[str, float, float]] = []
-        for key, value in self._section("axes").items():
+        for key, value in self._sections["axes"].values.items():
             self._known("axes", key)
             if isinstance(value, dict):
                 ranges.append((key, *self._range(key, cast(dict[str, Any], value))))
@@ -199,27 +158,25 @@ class Reader:
             raise self._wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
         return float(cast(float, low)), float(cast(float, high))
 
-    def _sample(self, record: dict[str, Any], ranges: list[tuple[str, float, float]]) -> Sample | None:
+    def _sample(self, ranges: list[tuple[str, float, float]]) -> Sample | None:
+        sample = self._sections["sample"]
         if not ranges:
-            if record:
-                raise self._wrong(
-                    "", "sample", "[sample] has no range to sample: give an axis as { low = …, high = … }"
-                )
+            if sample.values:
+                raise sample.fail(None, "[sample] has no range to sample: give an axis as { low = …, high = … }")
             return None
-        if not record:
+        if not sample.values:
             key = ranges[0][0]
             raise self._wrong("axes", key, f"axis {key} is a range: add [sample] with method and count")
         methods = get_args(Method)
-        method = self._read("sample", "method", methods[0], methods.__contains__, f"use {' or '.join(methods)}")
-        if "count" not in record:
-            raise self._wrong("", "sample", "[sample] has no count: say how many points, for example count = 1024")
-        count = self._whole("sample", "count", 0, 1, 2**24)
-        return Sample(method, count, self._whole("sample", "seed", 0, 0, 2**31), tuple(ranges))
+        method = sample.string("method", methods[0], choices=methods)
+        count, seed = sample.count("count", low=1, high=2**24), sample.count("seed", 0, low=0, high=2**31)
+        sample.finish()
+        return Sample(method, count, seed, tuple(ranges))
 
     def _given(self, varied: set[str]) -> dict[str, Value]:
         given: dict[str, Value] = {}
         for section in ("fixed", "models"):
-            for key, value in self._section(section).items():
+            for key, value in self._sections[section].values.items():
                 self._known(section, key)
                 quantity = QUANTITIES[key]
                 if quantity.section != section:
@@ -235,32 +192,34 @@ class Reader:
         return given
 
     def _searching(self) -> OptimumSettings | None:
-        if "optimum" not in self._content:
+        if not self._searched:
             return None
-        plain, objectives = OptimumSettings(), ", ".join(OBJECTIVES)
-        rate = self._read("optimum", "rate_deg", None, _rates, f"give two numbers up to ±{_STEEPEST:g}, as [-20, 0]")
-        stalled = self._read("optimum", "stalled_percent", None, _percent, "give 0 to 100")
-        return OptimumSettings(
-            starts=self._whole("optimum", "starts", plain.starts, 1, 1000),
-            seed=self._whole("optimum", "seed", plain.seed, 0, 2**31),
-            objective=self._read("optimum", "objective", "total", OBJECTIVES.__contains__, f"use {objectives}"),
+        section, plain = self._sections["optimum"], OptimumSettings()
+        rate = section.numbers("rate_deg", None, low=-_STEEPEST, high=_STEEPEST)
+        if rate is not None and not (len(rate) == 2 and rate[0] < rate[1]):
+            raise section.fail("rate_deg", f"rate_deg is {list(rate)}: give two numbers, as [-20, 0]")
+        stalled = section.number("stalled_percent", None, low=0.0, high=100.0)
+        settings = OptimumSettings(
+            starts=section.count("starts", plain.starts, low=1, high=1000),
+            seed=section.count("seed", plain.seed, low=0, high=2**31),
+            objective=section.string("objective", plain.objective, choices=OBJECTIVES),
             rate=rate and (math.radians(rate[0]), math.radians(rate[1])),
             stalled=None if stalled is None else stalled / 100.0,
-            index=self._read(
-                "optimum", "index_percent", None, lambda value: _finite(value) and value > 0, "give more than 0"
-            ),
+            index=section.number("index_percent", None, low=1e-6),
         )
+        section.finish()
+        return settings
 
     def _aims(self, study: Study) -> ShowSettings:
+        show = self._sections["show"]
         numbers = [column.name for column in columns_of(study) if column.kind == "number"]
-        remedy = f"name a column, one of {', '.join(numbers)}"
-        least = self._read("show", "least", ShowSettings.least, numbers.__contains__, remedy)
-        remedy = f"list axes, of {', '.join(study.axis_names)}"
-        uncertain = tuple(self._read("show", "uncertain", [], lambda value: isinstance(value, list), remedy))
+        least = show.string("least", ShowSettings.least, choices=numbers)
+        uncertain = show.strings("uncertain", ())
+        show.finish()
         try:
             check_uncertain(uncertain, study.axis_names, tuple(study.points.sampled))
         except ValueError as error:
-            raise self._wrong("show", "uncertain", str(error)) from None
+            raise show.fail("uncertain", str(error)) from None
         return ShowSettings(least, uncertain)
 
     def _try_points(self, study: Study) -> None:
@@ -280,9 +239,9 @@ class Reader:
                 section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
                 raise self._wrong(section, at, str(error)) from None
 
-    def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str]:
+    def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str | None]:
         """The key named in an error message, else the key whose removal makes the point valid."""
-        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._section(section)]
+        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._sections[section].values]
         for section, key in keys:
             value = values[key]
             if re.search(rf"\b{re.escape(key)}\b", sentence) or (isinstance(value, str) and repr(value) in sentence):
@@ -291,32 +250,11 @@ class Reader:
             with suppress(ValueError):
                 check_point({name: value for name, value in values.items() if name != key}, study)
                 return section, key
-        return "axes", ""
-
-    def _whole(self, section: str, key: str, default: int, low: int, high: int) -> int:
-        remedy = f"give a whole number in {low}…{high}"
-        return self._read(section, key, default, lambda value: type(value) is int and low <= value <= high, remedy)
-
-    def _read(self, section: str, key: str, default: Any, right: Callable[[Any], bool], remedy: str) -> Any:
-        """The value of a key, or the default where it is not given."""
-        record = self._section(section) if section else self._content
-        if key in record and not right(record[key]):
-            raise self._wrong(section, key, f"{key} is {record[key]!r}: {remedy}")
-        return record.get(key, default)
+        return "axes", None
 
 
 def _finite(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _percent(value: Any) -> bool:
-    return _finite(value) and 0.0 <= value <= 100.0
-
-
-def _rates(value: Any) -> bool:
-    """Whether it is two twist rates [°/R], the lower one first."""
-    pair = cast(list[Any], value) if isinstance(value, list) else []
-    return len(pair) == 2 and all(_finite(rate) and abs(rate) <= _STEEPEST for rate in pair) and pair[0] < pair[1]
 
 
 @dataclass(frozen=True)

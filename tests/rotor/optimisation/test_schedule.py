@@ -1,10 +1,9 @@
-"""Schedules: properties of every schedule, processes, and files to continue from."""
+"""Schedules: properties of every schedule, and processes."""
 
 import multiprocessing
 import os
 import signal
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.results import Minimum, SearchStatus
-from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
+from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.trim.solve import solve
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")
@@ -101,35 +100,12 @@ def test_two_processes_give_the_same_result():
         same(a.optimum.best, b.optimum.best)
 
 
-@pytest.mark.slow
-def test_results_are_kept_after_a_stop_and_not_computed_again(tmp_path: Path):
-    path, whole = tmp_path / "found.jsonl", plan("linear", "two-segment")
+def test_results_are_kept_after_a_stop():
     heard: list[Cell] = []
-    keep = open_cells(path, whole)
-
-    def take(cell: Cell) -> None:
-        heard.append(cell)
-        keep(cell)
-
-    part = run_plan(whole, keep=take, stop=lambda: len(heard) >= 3)
+    part = run_plan(plan("linear", "two-segment"), heard.append, lambda: len(heard) >= 3)
     assert not part.complete
     assert len(part.cells) == len(heard) >= 3
     assert part.in_flight_gain("linear") is None
-    with path.open("a") as file:
-        file.write('{"condition": 2, "conc')  # Cut short by a crash.
-    found = read_cells(path, whole)
-    assert [(cell.condition, cell.concept) for cell in found] == [(cell.condition, cell.concept) for cell in heard]
-    for cell, kept in zip(found, heard, strict=True):
-        assert cell.optimum.best == kept.optimum.best
-        assert cell.optimum.design == kept.optimum.design
-    again: list[Cell] = []
-    keep = open_cells(path, whole)
-    finished = run_plan(whole, found, lambda cell: (again.append(cell), keep(cell))[0])
-    assert finished.converged
-    assert len(again) == len(finished.cells) - len(found)
-    assert len(read_cells(path, whole)) == len(finished.cells)
-    for one, other in zip(finished.cells, run_plan(whole).cells, strict=True):
-        same(one.optimum.best, other.optimum.best)
 
 
 @pytest.mark.slow
@@ -147,17 +123,6 @@ def test_a_lost_worker_is_reported_and_its_results_are_kept():
     assert "worker process was lost" in schedule.message
     assert not schedule.complete
     assert schedule.cells
-
-
-def test_a_file_of_another_schedule_is_refused(tmp_path: Path):
-    path = tmp_path / "found.jsonl"
-    open_cells(path, plan("linear"))
-    with pytest.raises(ValueError, match="made with other flags"):
-        read_cells(path, replace(plan("linear"), limits=Limits(stalled=0.01)))
-    path.write_text("mu,hours\n")
-    with pytest.raises(ValueError, match="cannot be read"):
-        read_cells(path, plan("linear"))
-    assert read_cells(tmp_path / "none.jsonl", plan("linear")) == []
 
 
 def test_a_condition_that_cannot_trim_is_reported():

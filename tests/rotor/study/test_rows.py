@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from rotor.__main__ import main
 from rotor.assets import asset_path, package_version
 from rotor.files.design_file import load_design
-from rotor.study.chunks import Store, StudyProvenance, evaluate_chunk
+from rotor.study.chunks import Store, StudyProvenance, arrow_modules, evaluate_chunk
 from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
 from rotor.study.study_file import StudyFile, parse_study
 from rotor.trim.solve import solve
@@ -73,15 +73,21 @@ def test_an_optimum_brings_its_blade_with_it(tmp_path: Path):
     assert {span.section for span in design_of_row(optima, 1).rotor.blade.spans} == {"sc1094r8", "sc1095"}
 
 
-def test_a_single_file_says_enough(trims: tuple[Path, Results]):
+def test_a_single_file_says_enough(trims: tuple[Path, Results], tmp_path: Path):
     folder, results = trims
     file = folder / "chunk-000001.parquet"
-    alone = read_file(file.read_bytes(), file.name)
+    alone = read_file(file)
     point = int(alone.columns["point"][0])
     assert design_of_row(alone, 0) == design_at(f"{folder}:{point}") == design_at(f"{file}:{point}")
     row = results.row_of(point)
     assert row is not None
     assert design_of_row(results, row) == design_of_row(alone, 0)
+    other = tmp_path / "letter.parquet"
+    arrow, parquet = arrow_modules()
+    parquet.write_table(arrow.table({"point": [0]}), other)
+    for path in (other, Path(__file__)):
+        with pytest.raises(ValueError, match="is not a result of a study"):
+            design_at(f"{path}:0")
 
 
 def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
