@@ -16,9 +16,10 @@ from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
 from rotor.validation.inflow import SET as INFLOW_SET
-from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
+from rotor.validation.inflow import InflowAgreement, inflow_agreement
 from rotor.validation.page import SETS as TRUST_SETS
 from rotor.validation.page import write_set
+from rotor.validation.trust import description
 
 _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 """Sets of the trust page that are not points of a rotor on a stand."""
@@ -99,7 +100,7 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
         lines.append(
             f"{row.mu:6.2f}  {row.model:<30}{correlation:>12}{row.rms:9.4f}{row.mean:9.4f}{row.measured_mean:10.4f}"
         )
-    return "\n".join([*lines, wrapped(WHY)])
+    return "\n".join([*lines, wrapped(description(INFLOW_SET).text[0])])
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:

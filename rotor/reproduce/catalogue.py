@@ -18,7 +18,7 @@ from rotor.reproduce import (
 )
 from rotor.reproduce.report import Report
 from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
-from rotor.validation.trust import TrustRow, TrustSet, bound, share
+from rotor.validation.trust import TrustRow, TrustSet, description
 
 
 @dataclass(frozen=True)
@@ -152,79 +152,56 @@ def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:
 
 
 def _grid(known: dict[str, Report]) -> TrustSet:
-    test = "rotor/reproduce/test_chapter_3.py::test_figure_3_7"
-    presets = ("thesis", FLIGHT_LINEAR)
+    words, presets = description("grid"), ("thesis", FLIGHT_LINEAR)
     rows = [
-        share("grid", "verification", f"Power at 40 elements, {words}", "limit of finer grids",
-              max(known[number].numbers[f"{preset}_error_at_40"] for preset in presets), 2e-4, test, digits=2)
-        for words, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
+        words.share(f"Power at 40 elements, {where}", max(known[number].numbers[f"{p}_error_at_40"] for p in presets),
+                    2e-4, digits=2, against="limit of finer grids")
+        for where, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
     ]  # fmt: skip
     error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
     area = known["2.8"].numbers
     rows += [
-        bound("grid", "Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
-              "rotor/reproduce/test_chapter_3.py::test_figure_3_9"),
-        share("grid", "verification", "Reverse-flow area, µ 0.30, counted in cells", "the circle r = −µ sin ψ",
-              area["reverse_area"] / area["circle_area"] - 1.0, 5e-3,
-              "rotor/reproduce/test_chapter_2.py::test_figure_2_8", digits=2),
+        words.bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5, "test_figure_3_9"),
+        words.share("Reverse-flow area, µ 0.30, counted in cells", area["reverse_area"] / area["circle_area"] - 1.0,
+                    5e-3, digits=2, against="the circle r = −µ sin ψ",
+                    test="rotor/reproduce/test_chapter_2.py::test_figure_2_8"),
     ]  # fmt: skip
-    return TrustSet(
-        "grid", "Grid", "Power over elements and azimuths", f"{rows[0].shown} at 40 elements",
-        "Finer grids of the same equations, with linear inflow; the lifting line has a grid of its own.",
-        tuple(rows), tuple(_chart(known[number], -1) for number in ("3.7", "3.8", "3.9")),
-    )  # fmt: skip
+    charts = (_chart(known[number], -1) for number in ("3.7", "3.8", "3.9"))
+    return words.page(f"{rows[0].shown} at 40 elements", rows, charts)
 
 
 def _keys_1987(report: Report) -> TrustSet:
-    rows = tuple(
-        share("keys-1987", "indicative", f"Power of −17.3° over −11.5°, {words}, {name}",
-              f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)",
-              report.numbers[f"{name}_{key}"] - published, 3e-3, "rotor/reproduce/test_chapter_3.py::test_keys_1987",
-              unit="points")
+    words = description("keys-1987")
+    rows = [
+        words.share(f"Power of −17.3° over −11.5°, {where}, {name}", report.numbers[f"{name}_{key}"] - published, 3e-3,
+                    unit="points", against=f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)")
         for name in ("thesis-wake", "flight")
-        for key, words, published in (
-            ("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST),
-        )
-    )  # fmt: skip
-    return TrustSet(
-        "keys-1987", "Keys et al. 1987", "Power of twist −17.3° over −11.5°", f"{rows[2].shown}, {rows[3].shown}",
-        "Keys et al. 1987, a wind-tunnel model of another rotor, as the thesis quotes it.",
-        rows, (_chart(report),), (report.because,),
-    )  # fmt: skip
+        for key, where, published in (("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST))
+    ]  # fmt: skip
+    return words.page(f"{rows[2].shown}, {rows[3].shown}", rows, (_chart(report),), text=(report.because,))
 
 
 def _tail_rotor(report: Report) -> TrustSet:
-    row = share("tail-rotor", "indicative", "Tail rotor over main-rotor power, mean of four speeds",
-                "5 % (the thesis)", report.numbers["mean"] - 0.05, 3e-3,
-                "rotor/reproduce/test_chapter_3.py::test_tail_rotor", unit="points")  # fmt: skip
-    return TrustSet(
-        "tail-rotor", "Tail rotor", "Its part of main-rotor power", row.shown, "5 % at every speed, the thesis, p. 25.",
-        (row,), (_chart(report),), (report.because,),
-    )  # fmt: skip
+    words = description("tail-rotor")
+    what = "Tail rotor over main-rotor power, mean of four speeds"
+    row = words.share(what, report.numbers["mean"] - 0.05, 3e-3, unit="points")
+    return words.page(row.shown, (row,), (_chart(report),), text=(report.because,))
 
 
 def _statements(reports: Sequence[Report]) -> TrustSet:
-    rows: list[TrustRow] = []
+    words, rows = description("thesis"), list[TrustRow]()
     for checked in filter(lambda report: report.checkable, reports):
         chapter = checked.number[0] if checked.number[0].isdigit() else "3"
         name = checked.title.lower().replace(" ", "_").replace(".", "_")
-        test = _TESTS.get(checked.title, f"test_chapter_{chapter}.py::test_{name}")
-        rows.append(
-            TrustRow("thesis", "document", checked.title, checked.statement, checked.verdict.value, None, 0.0,
-                     f"rotor/reproduce/{test}", checked.ours)
-        )  # fmt: skip
+        test = "rotor/reproduce/" + _TESTS.get(checked.title, f"test_chapter_{chapter}.py::test_{name}")
+        row = words.row(checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.ours,
+                        against=checked.statement)  # fmt: skip
+        rows.append(replace(row, error=None))
     count = Counter(row.shown for row in rows)
-    places = tuple(map(float, range(len(count))))
-    series = Points("", tuple(map(float, count.values())), places, 1)
-    return TrustSet(
-        "thesis", "Statements of the thesis", f"{len(rows)} figures, tables and claims",
-        f"{count['agrees']} agree, {count['differs']} differ",
-        "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, 2016. "
-        "Figures of which only the caption is known, and drawings, are not here.",
-        tuple(rows), (Chart("Verdicts", Axis("figures, tables and claims"), Axis(names=tuple(count)), (series,)),),
-        ("*Agrees* and *differs* judge a statement. *As loaded*: its numbers are our input. "
-         "*Indicative*: compared with data of unclear origin.",),
-    )  # fmt: skip
+    series = (Points("", tuple(count.values()), range(len(count)), 1),)
+    chart = Chart("Verdicts", Axis("figures, tables and claims"), Axis(names=tuple(count)), series)
+    error = f"{count['agrees']} agree, {count['differs']} differ"
+    return words.page(error, rows, (chart,), compared=f"{len(rows)} figures, tables and claims")
 
 
 def _chart(report: Report, place: int = 0) -> Chart:

@@ -10,7 +10,7 @@ of the same thrust.
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,11 +18,13 @@ import numpy as np
 
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.chart import AZIMUTH, Axis, Chart, Series
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.distribution import distribution
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation.trust import description
 
 HIGHEST = 10
 """Harmonic of loads."""
@@ -79,11 +81,8 @@ CASES = (
 )
 """MN: 0.8° of pitch at 3/rev at the root, for least noise. NASA TM-88351 for the Gazelle."""
 TESTS = tuple(dict.fromkeys(case.test for case in CASES))
-REPORTS = {
-    "hart2-airloads": "HART II, DNW 2001, as the public code OpenCOPTER carries it",
-    "gazelle-airloads": "NASA TM-88351 (1987), flight, digitised by the authors of HEROES",
-    PITCH_LINK: "Marpu et al. (AIAA 2013), 40 × 80 ft tunnel, digitised by the authors of SONATA",
-}
+REPORTS = {name: description(name).against or description(name).source for name in TESTS}
+"""Sources, by test."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,6 +242,16 @@ def harmonics(psi: Array, values: Array, highest: int) -> Array:
 def wave(of: Array, n: int) -> complex:
     """A exp(iφ) of the part A cos(nψ − φ) of `harmonics`."""
     return complex(of[n], of[n + len(of) // 2])
+
+
+def closed(psi: Array, values: Array) -> tuple[Array, Array]:
+    """Azimuths [°] and values of a line around the azimuth, with the first repeated at 360°."""
+    return np.append(np.degrees(psi), 360.0), np.append(values, values[0])
+
+
+def azimuth_chart(title: str, label: str, series: Iterable[Series]) -> Chart:
+    """A chart over the azimuth."""
+    return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(label), tuple(series))
 
 
 def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement]:

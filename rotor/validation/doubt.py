@@ -11,7 +11,7 @@ from rotor.trim.doubt import doubt
 from rotor.trim.solve import solve
 from rotor.validation.compare import design_at, load_set
 from rotor.validation.flown import TITLES, measured_powers
-from rotor.validation.trust import TrustRow, TrustSet
+from rotor.validation.trust import TrustRow, TrustSet, description
 
 NAME = "doubt"
 QUANTITIES: dict[str, Callable[[Design], float]] = {
@@ -63,51 +63,20 @@ def _held(name: str, design: Design, measured: float) -> Iterator[HeldPoint]:
 
 def doubt_set() -> TrustSet:
     """For the trust page."""
-    held = list(held_points())
+    words, held = description(NAME), list(held_points())
     by_name = {name: [point for point in held if point.name == name] for name in dict.fromkeys(p.name for p in held)}
-    rows = tuple(_row(name, points) for name, points in by_name.items())
-    names = tuple(by_name)
-    series = tuple(
-        Points("", tuple(p.error / p.band for p in points), (float(k),) * len(points), 1)
-        for k, points in enumerate(by_name.values())
-    )
-    inside = sum(point.inside for point in held)
-    return TrustSet(
-        name=NAME,
-        title="Measured powers within the bands",
-        compared="Shaft powers within the band of ours",
-        error=f"{inside} of {len(held)} inside",
-        source="the sets of measured powers above; sizes and sources of what is uncertain: assets/doubt.toml",
-        rows=rows,
-        charts=(Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=names), series),),
-        text=(
-            "A band holds what the inputs leave open, not what the models leave out, nor the scatter of the "
-            "measurement. It is not widened where it misses: a cause is named, or it stays as it is.",
-        ),
-        points=(
-            ("Set", "Points", "Inside", "Mean band", "Mean error", "Worst error"),
-            *(
-                (
-                    name, f"{len(points)}", f"{sum(p.inside for p in points)}",
-                    f"{100 * sum(p.band for p in points) / len(points):.1f} %",
-                    f"{100 * sum(p.error for p in points) / len(points):+.1f} %",
-                    f"{100 * max((p.error for p in points), key=abs):+.1f} %",
-                )
-                for name, points in by_name.items()
-            ),
-        ),
-    )  # fmt: skip
-
-
-_NOTES = {
-    "Bo 105": "Mass, attitude and what the figure's power holds are not stated: 25 % low at 99 kt.",
-}
-
-
-def _row(name: str, points: list[HeldPoint]) -> TrustRow:
-    inside = sum(point.inside for point in points)
-    return TrustRow(
-        NAME, "validation", name, "measurement", f"{inside} of {len(points)}",
-        inside / len(points), 0.1, "rotor/validation/test_doubt_set.py::test_the_shares_are_those_shipped",
-        _NOTES.get(name, ""),
-    )  # fmt: skip
+    heads = ("Set", "Points", "Inside", "Mean band", "Mean error", "Worst error")
+    rows: list[TrustRow] = []
+    series: list[Points] = []
+    cells: list[tuple[str, ...]] = [heads]
+    for k, (name, points) in enumerate(by_name.items()):
+        count, inside = len(points), sum(point.inside for point in points)
+        rows.append(words.row(name, f"{inside} of {count}", inside / count, 0.1, note=words.notes.get(name, "")))
+        series.append(Points("", [point.error / point.band for point in points], [k] * count, 1))
+        errors = [point.error for point in points]
+        band, mean = sum(point.band for point in points) / count, sum(errors) / count
+        parts = f"{100 * band:.1f} %", f"{100 * mean:+.1f} %", f"{100 * max(errors, key=abs):+.1f} %"
+        cells.append((name, f"{count}", f"{inside}", *parts))
+    error = f"{sum(point.inside for point in held)} of {len(held)} inside"
+    chart = Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=tuple(by_name)), tuple(series))
+    return words.page(error, rows, (chart,), points=cells)

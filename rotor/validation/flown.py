@@ -15,7 +15,7 @@ import numpy as np
 from rotor.aero.momentum import glauert_inflow
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
-from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
+from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.study.series import between_drag_areas
@@ -23,14 +23,15 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.airloads import (
     CASES,
-    REPORTS,
     CurveAgreement,
     MeasuredCurve,
     agreement,
+    azimuth_chart,
+    closed,
     measured_curves,
     our_curve,
 )
-from rotor.validation.trust import TrustRow, TrustSet, judged, rms, share
+from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
 POWERS = "flown-power"
 """Name of the set."""
@@ -48,7 +49,6 @@ AIRLOADS = "gazelle-airloads"
 LEAST = 0.9
 """Target: correlation of c_l at each radius."""
 _LIFT = {"cl": "c_l", "cl_u2": "c_l (r + µ sin ψ)²"}
-_TEST = "rotor/validation/test_flown.py"
 
 
 POWER_REPORTS = {
@@ -207,29 +207,14 @@ def tail_pitch(solution: Solution) -> float:
 
 def flown_set() -> TrustSet:
     """For the trust page."""
-    powers, angles = list(flown_powers()), flown_angles()
-    return TrustSet(
-        name=POWERS,
-        title="Power and controls in flight",
-        compared="Main-rotor power of two helicopters over speed, pitch angles",
-        error=", ".join(
-            f"{title} {100 * shape_errors(*_trimmed(powers, rotor))[0]:.1f} %" for rotor, title in TITLES.items()
-        ),
-        source=(
-            "Gazelle: NASA TM-88351 (1987); Bo 105: Padfield, Helicopter Flight Dynamics (1996), figures 4.10 and "
-            "4.11; both digitised by the authors of the public code HEROES"
-        ),
-        rows=(*_power_rows(powers), *_gazelle_rows(powers), *map(_angle_row, angles)),
-        charts=(*(_power_chart(powers, rotor) for rotor in ("bo105", "gazelle")), _angle_chart(angles)),
-        text=(
-            "Shape: each power over the measured one, over the mean of these quotients, less 1; the level is that "
-            "mean less 1. The Bo 105's mass is not stated, 2200 kg is assumed. The band lies between drag areas "
-            "of the rotor files, which are sourced and not fitted.",
-            f"The Bo 105 misses its target narrowly: with each power over the mean of its own curve the shape's error "
-            f"is {100.0 * _by_own_means(powers, 'bo105'):.2f} %.",
-            "Models of hover and slow flight rule below µ 0.05 (22 kt for the Bo 105), where no inflow model is "
-            "proven.",
-        ),
+    words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
+    own = 100.0 * _by_own_means(powers, "bo105")
+    shapes = (f"{name} {100 * shape_errors(*_trimmed(powers, rotor))[0]:.1f} %" for rotor, name in TITLES.items())
+    return words.page(
+        ", ".join(shapes),
+        (*_power_rows(powers), *_gazelle_rows(powers), *map(_angle_row, angles)),
+        (*(_power_chart(powers, rotor) for rotor in ("bo105", "gazelle")), _angle_chart(angles)),
+        text=(paragraph.format(by_own_means=own) for paragraph in words.text),
         points=_points(powers, angles),
     )
 
@@ -247,61 +232,42 @@ def _trimmed(powers: Sequence[FlownPower], rotor: str) -> tuple[list[float], lis
     return [ours for ours, _ in mine], [measured for _, measured in mine]
 
 
-_POWER_NOTES = {
-    "gazelle": "FC4 (µ 0.26) lies 14 % high and no one drag area fits it with the others.",
-    "bo105": (
-        "The target is missed by 0.004 %, above µ 0.05 alone the shape's error is 9.6 %. Measured power climbs "
-        "faster from 60 kt on: ours is 25 % low at 99 kt, and 23 % with the largest drag area of the sources. Mass, "
-        "attitude, losses of the transmission and what else the figure's power holds are not stated."
-    ),
-}
-
-
 def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
-    test = f"{_TEST}::test_powers_of_flight"
+    words, test = description(POWERS), "test_powers_of_flight"
     for rotor, title in TITLES.items():
         shape, level = shape_errors(*_trimmed(powers, rotor))
-        yield TrustRow(
-            POWERS, "validation", f"{title}: power over speed, shape", "flight test", f"rms {100 * shape:.1f} %", shape,
-            5e-3, test, _POWER_NOTES[rotor], f"{100 * SHAPE:g} %", judged(shape, SHAPE),
+        yield words.row(
+            f"{title}: power over speed, shape", f"rms {100 * shape:.1f} %", shape, 5e-3, test=test, note=rotor,
+            target=f"{100 * SHAPE:g} %", met=shape <= SHAPE,
         )  # fmt: skip
-        yield share(POWERS, "validation", f"{title}: power over speed, level", "flight test", level, 5e-3, test)
+        yield words.share(f"{title}: power over speed, level", level, 5e-3, test=test)
 
 
 def _gazelle_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
+    words = description(POWERS)
     errors = [np.subtract(row.angles, row.measured_angles) for row in powers if row.angles and row.measured_angles]
-    notes = {"collective": "Ours at 0.75 R; the report does not say where it takes its own."}
-    for name, of in zip(list(ANGLES.values())[:3], list(np.array(errors).T), strict=True):
-        size = rms(of)
-        yield TrustRow(
-            POWERS, "validation", f"SA349/2 Gazelle: {name}, four flights", "flight test", f"rms {size:.1f}°", size,
-            0.05, f"{_TEST}::test_controls_of_flight", notes.get(name, ""),
-        )  # fmt: skip
+    for name, differences in zip(list(ANGLES.values())[:3], list(np.array(errors).T), strict=True):
+        size, note = rms(differences), words.notes.get(name, "")
+        yield words.row(f"SA349/2 Gazelle: {name}, four flights", f"rms {size:.1f}°", size, 0.05, note=note)
 
 
 def _angle_row(angle: FlownAngle) -> TrustRow:
-    notes = {
-        "theta1c": "Ours keeps the hub free of moments; the flown hub carried those of tail and centre of gravity.",
-        "theta1s": "As for cyclic 1c.",
-        "theta0_tail": "By blade elements of an untwisted tail rotor; the force of the fin is left out.",
-    }
-    size = rms(angle.error)
-    return TrustRow(
-        POWERS, "validation", f"Bo 105: {ANGLES[angle.quantity]} over speed", "flight test",
-        f"rms {size:.1f}°, mean {angle.error.mean():+.1f}°", size, 0.1, f"{_TEST}::test_controls_of_flight",
-        notes.get(angle.quantity, ""),
+    words, size = description(POWERS), rms(angle.error)
+    return words.row(
+        f"Bo 105: {ANGLES[angle.quantity]} over speed", f"rms {size:.1f}°, mean {angle.error.mean():+.1f}°", size, 0.1,
+        note=words.notes.get(angle.quantity, ""),
     )  # fmt: skip
 
 
 def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
     mine = sorted((row for row in powers if row.rotor == rotor and row.ours is not None), key=lambda row: row.mu)
-    mu = tuple(row.mu for row in mine)
+    mu = [row.mu for row in mine]
     series: list[Series] = [
-        Points("measured", mu, tuple(row.measured / 1e3 for row in mine)),
-        Line("computed", mu, tuple((row.ours or math.nan) / 1e3 for row in mine), 1, dots=True),
+        Points("measured", mu, [row.measured / 1e3 for row in mine]),
+        Line("computed", mu, [(row.ours or math.nan) / 1e3 for row in mine], 1, dots=True),
     ]
     for k, word in enumerate(("lowest", "highest")):
-        ends = tuple(math.nan if row.band is None else row.band[k] / 1e3 for row in mine)
+        ends = [math.nan if row.band is None else row.band[k] / 1e3 for row in mine]
         series.append(Line(f"{word} drag area", mu, ends, 2 + k, dashes=True))
     return Chart(f"Power of the {TITLES[rotor]}", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), tuple(series))
 
@@ -338,69 +304,37 @@ def gazelle_set() -> TrustSet:
     curves = [curve for curve in measured_curves() if curve.case.test == AIRLOADS]
     agreements = [agreement(curve, solutions[curve.case.name]) for curve in curves]
     lift = [beside.correlation for beside in agreements if beside.quantity == "cl"]
-    return TrustSet(
-        name=AIRLOADS,
-        title="SA349/2 Gazelle, section lift",
-        compared="section c_l over azimuth, three radii, µ 0.14 and 0.36",
-        error=f"correlation {min(lift):.2f} to {max(lift):.2f}",
-        source=f"{REPORTS[AIRLOADS]}; flights FC1 and FC2, for no other are airloads at hand",
-        rows=tuple(
-            _lift_row(
-                name,
-                quantity,
-                [beside for beside in agreements if (beside.case.name, beside.quantity) == (name, quantity)],
-            )
-            for quantity in _LIFT
-            for name in solutions
-        ),
-        charts=tuple(
-            _lift_chart(name, [(curve, our_curve(curve, solutions[name])) for curve in curves]) for name in solutions
-        ),
-        text=(
-            "The report gives c_l of the section, and the target is set for it: harmonics 1 to 10 without the mean. "
-            "Most of its change around the azimuth is that of speed: c_l is large where the blade is slow. Lift "
-            "itself goes with c_l (r + µ sin ψ)²; there the correlation is lower, and no target was set. Angle of "
-            "attack is not measured and the report's way from pressures to c_l is not known to us.",
-            "More azimuths and panels (24 × 48, 36 × 48 in place of 24 × 24) move the correlations of c_l by less "
-            "than 0.01. Power and controls: [power and controls in flight](flown-power.md).",
-        ),
+    return description(AIRLOADS).page(
+        f"correlation {min(lift):.2f} to {max(lift):.2f}",
+        (_lift_row(name, quantity, agreements) for quantity in _LIFT for name in solutions),
+        (_lift_chart(solution, [curve for curve in curves if (curve.case.name, curve.quantity) == (name, "cl")])
+         for name, solution in solutions.items()),
         points=_lift_points(agreements),
-    )
+    )  # fmt: skip
 
 
 def _lift_row(name: str, quantity: str, agreements: Sequence[CurveAgreement]) -> TrustRow:
-    least = min(curve.correlation for curve in agreements)
-    judged = quantity == "cl"
-    return TrustRow(
-        set=AIRLOADS,
-        kind="validation",
-        what=f"{name}: correlation of {_LIFT[quantity]} at r/R {', '.join(f'{curve.r:g}' for curve in agreements)}",
-        against=REPORTS[AIRLOADS],
-        shown=", ".join(f"{curve.correlation:.2f}" for curve in agreements),
-        error=least,
-        allowed=0.02,
-        test=f"{_TEST}::test_airloads_of_the_gazelle",
+    mine = [curve for curve in agreements if (curve.case.name, curve.quantity) == (name, quantity)]
+    least, judged = min(curve.correlation for curve in mine), quantity == "cl"
+    return description(AIRLOADS).row(
+        f"{name}: correlation of {_LIFT[quantity]} at r/R {', '.join(f'{curve.r:g}' for curve in mine)}",
+        ", ".join(f"{curve.correlation:.2f}" for curve in mine),
+        least,
+        0.02,
         target=f"at least {LEAST:g} at each" if judged else "",
-        verdict=("met" if least >= LEAST else "missed") if judged else "no target",
+        met=least >= LEAST if judged else None,
     )
 
 
-def _lift_chart(name: str, curves: Sequence[tuple[MeasuredCurve, tuple[Array, Array]]]) -> Chart:
+def _lift_chart(solution: Solution, curves: Sequence[MeasuredCurve]) -> Chart:
     """c_l at the radii."""
     series: list[Series] = []
-    mine = [curve for curve in curves if curve[0].case.name == name and curve[0].quantity == "cl"]
-    for k, (measured, (psi, values)) in enumerate(mine, start=1):
-        at = tuple(np.degrees(measured.psi).tolist())
-        series.append(Points(f"measured, {measured.r:g} R", at, measured.values, k))
-        ours = tuple(np.append(values, values[0]).tolist())
-        series.append(Line("computed", (*np.degrees(psi).tolist(), 360.0), ours, k))
-    mu = mine[0][0].case.conditions["mu"]
-    return Chart(
-        f"Section lift coefficient, {name}, µ {mu:g}",
-        Axis("azimuth [°]", ticks=AZIMUTH),
-        Axis(f"c_l, {name}"),
-        tuple(series),
-    )
+    for k, measured in enumerate(curves, start=1):
+        series.append(Points(f"measured, {measured.r:g} R", np.degrees(measured.psi), measured.values, k))
+        series.append(Line("computed", *closed(*our_curve(measured, solution)), k))
+    case = curves[0].case
+    title = f"Section lift coefficient, {case.name}, µ {case.conditions['mu']:g}"
+    return azimuth_chart(title, f"c_l, {case.name}", series)
 
 
 def _lift_points(agreements: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:

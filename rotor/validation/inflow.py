@@ -15,12 +15,13 @@ from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.lifting_line.influence import at_points
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
-from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Series
+from rotor.chart import Chart, Line, Points, Series
 from rotor.files.make_design import make_design
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.trust import TrustRow, TrustSet, rms
+from rotor.validation.airloads import azimuth_chart
+from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
 ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
@@ -28,14 +29,6 @@ CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
 MODELS = (*(model.name for model in LINEAR_MODELS), "local-momentum", LiftingLineInflow.name)
 SET = "2mrts-inflow"
 """Name of the set on the command line."""
-WHY = (
-    "The lifting line is taken a chord above the disk, where the velocimeter measured. In the disk its mean over time "
-    "has correlations of 0.89, 0.86, 0.67 at advance ratios 0.15, 0.23, 0.35: what small parts of the load induce "
-    "fades above the disk. So it was the height that made wakes which answer the load look poor, not that they do not "
-    "roll up. The other models know the disk alone; at 0.35 linear inflow still ranks above the lifting line. From "
-    "0.23 on the measured mean is half of momentum theory's, which all of them share, for a reason not known."
-)
-"""What the comparison shows, as far as it is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,34 +84,21 @@ DRAWN, RADIUS = (LiftingLineInflow.name, "pitt-peters"), 0.74
 
 def inflow_set() -> TrustSet:
     """For the trust page: the correlations, and the inflow over azimuth at one radius."""
-    agreements = list(inflow_agreement())
+    words, agreements = description(SET), list(inflow_agreement())
     rows: list[TrustRow] = []
-    for name in SHOWN:
+    for name in reversed(SHOWN):
         mine = [row for row in agreements if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
         rows.append(
-            TrustRow(
-                SET,
-                "validation",
-                f"Inflow over the disk: correlation at µ {', '.join(f'{row.mu:g}' for row in mine)}, {name}",
-                "NASA TM-100541 to 100543, 2MRTS rotor, laser velocimeter one chord above the disk",
+            words.row(
+                f"{words.title}: correlation at µ {', '.join(f'{row.mu:g}' for row in mine)}, {name}",
                 ", ".join(f"{value:.2f}" for value in known),
                 sum(known) / len(known),
                 0.02,
-                "rotor/validation/test_validation.py::test_measured_inflow",
-                f"rms {', '.join(f'{row.rms:.4f}' for row in mine)} of the tip speed.",
+                note=f"rms {', '.join(f'{row.rms:.4f}' for row in mine)} of the tip speed.",
             )
         )
-    return TrustSet(
-        name=SET,
-        title="Inflow over the disk",
-        compared="Correlation at µ 0.15, 0.23, 0.35",
-        error=rows[-1].shown,
-        source=rows[-1].against,
-        rows=tuple(reversed(rows)),
-        charts=tuple(map(_chart, measured_inflow())),
-        text=(WHY,),
-    )
+    return words.page(rows[0].shown, rows, map(_chart, measured_inflow()))
 
 
 def _chart(measured: MeasuredInflow) -> Chart:
@@ -126,13 +106,11 @@ def _chart(measured: MeasuredInflow) -> Chart:
     here = [k for k, r in enumerate(measured.r) if r == RADIUS]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     ring = MeasuredInflow(measured.mu, np.full_like(psi, RADIUS), psi, np.zeros_like(psi))
-    angle = tuple(np.degrees(psi).tolist())
-    places, values = np.degrees(measured.psi)[here], measured.inflow[here]
-    series: list[Series] = [Points("measured", places, values)]
+    series: list[Series] = [Points("measured", np.degrees(measured.psi)[here], measured.inflow[here])]
     for k, name in enumerate(DRAWN, start=1):
-        series.append(Line(name, angle, tuple(_time_mean(name, ring).tolist()), k))
+        series.append(Line(name, np.degrees(psi), _time_mean(name, ring), k))
     title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
-    return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(f"inflow over ΩR, µ {measured.mu:g}"), tuple(series))
+    return azimuth_chart(title, f"inflow over ΩR, µ {measured.mu:g}", series)
 
 
 def inflow_agreement() -> Iterator[InflowAgreement]:

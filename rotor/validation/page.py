@@ -1,10 +1,10 @@
 """The trust page: a summary with one row a set, and a page with charts and numbers for each.
 
-A further set is one function that returns a `TrustSet`, listed in `SETS` under its name. Its rows give the numbers and
-verdicts, its charts are drawn from the same numbers: `Points` for what was measured, `Line` for ours,
-`Axis("azimuth [°]", ticks=AZIMUTH)` over azimuth. The function runs when the page is made and may take its time. Each
-row names the test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust` makes all
-of it anew.
+A further set is its words in `assets/trust_sets.toml` (`SetDescription`), and one function that returns a `TrustSet`,
+listed in `SETS` under its name. Its rows give the numbers and verdicts, its charts are drawn from the same numbers:
+`Points` for what was measured, `Line` for ours. The function runs when the page is made and may take its time. Each row
+names the test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust` makes all of
+it anew.
 """
 
 import csv

@@ -17,23 +17,12 @@ from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.validation.airloads import columns
-from rotor.validation.trust import TrustRow, TrustSet, judged
+from rotor.validation.trust import TrustSet, description
 
 SET = "glasgow-loops"
 MACH = 0.119
 RUNS = ("14051", "14061")
 NAMES = ("C_n", "C_m")
-_TITLE = "Pitching aerofoil"
-_WHY = {
-    "C_n": "",
-    "C_m": "The vortex comes too early: here at 18 to 20°, measured at 23 to 25°. Leishman and Beddoes let it go at "
-    "the normal force of static stall, 1.24 here, which attached flow has at 12.7°. Onset at 16.7° alone would leave "
-    "an rms of 0.084 and 0.108, less than static data; lags two or three times as long, or a travel of 5 semi-chords, "
-    "leave 0.09 to 0.13. An onset that is later at any rate of pitch contradicts the static data, and how it follows "
-    "the rate needs loops at several: both runs have one. The only larger force that is public at this speed, 1.60 "
-    "(DSmodel), was adapted by its author and is not taken. The moment of the vortex is a third to a half of the "
-    "measured one.",
-}
 _AZIMUTHS = 192
 _ENDS = ((90.0, 0.0, 1.29, -0.32), (180.0, 0.0, 1.8, 0.0))
 """Where the table has no measurement, as it continues: α [°], C_l, C_d, C_m. Far from all angles compared."""
@@ -128,32 +117,28 @@ def _static(table: SectionTable, alpha: Array, mach: float) -> Array:
 
 def loops_set() -> TrustSet:
     """For the trust page: rms of C_n and C_m beside that of static data, and the loops."""
+    words = description(SET)
     loops = [stall_loop(run) for run in RUNS]
-    rows = tuple(
-        TrustRow(
-            SET, "validation", f"{_TITLE}: {name}, {loop.motion}", "University of Glasgow, dynamic stall database",
-            f"rms {dynamic:.3f}, static {static:.3f}", dynamic, 0.005,
-            "rotor/validation/test_stall_loops.py::test_loops_of_glasgow", _WHY[name], "that of static data",
-            judged(dynamic, static),
-        )
+    rows_of = {
+        name: [
+            words.row(
+                f"{words.title}: {name}, {loop.motion}", f"rms {dynamic:.3f}, static {static:.3f}", dynamic, 0.005,
+                note=words.notes.get(name, ""), target="that of static data", met=dynamic <= static,
+            )
+            for loop in loops
+            for dynamic, static in [(loop.rms(loop.dynamic)[k], loop.rms(loop.static)[k])]
+        ]
         for k, name in enumerate(NAMES)
-        for loop in loops
-        for dynamic, static in [(loop.rms(loop.dynamic)[k], loop.rms(loop.static)[k])]
-    )  # fmt: skip
-    rows_of = {name: [row for row in rows if f": {name}," in row.what] for name in NAMES}
-    return TrustSet(
-        SET, _TITLE, "C_n and C_m of two runs through stall, k 0.077",
-        "; ".join(f"{name} rms {', '.join(f'{row.error:.2f}' for row in loops)}" for name, loops in rows_of.items()),
-        "University of Glasgow, dynamic stall database, model 5, Mach 0.119, as the tests of OpenFAST carry it", rows,
-        tuple(_chart(loop, k) for loop in loops for k in range(len(NAMES))),
-        ("The static data are those of the model itself, its wake is Theodorsen's: `solve --dynamic-stall`.",),
-    )  # fmt: skip
+    }  # fmt: skip
+    error = "; ".join(f"{name} rms {', '.join(f'{row.error:.2f}' for row in rows)}" for name, rows in rows_of.items())
+    charts = (_chart(loop, k) for loop in loops for k in range(len(NAMES)))
+    return words.page(error, (row for rows in rows_of.values() for row in rows), charts)
 
 
 def _chart(loop: StallLoop, k: int) -> Chart:
     """Measured, static and with dynamic stall over the angle of attack."""
     parts = np.degrees(loop.alpha), loop.static[k], loop.dynamic[k]
-    alpha, static, dynamic = (tuple(np.append(part, part[0]).tolist()) for part in parts)  # Closed loops.
+    alpha, static, dynamic = (np.append(part, part[0]) for part in parts)  # Closed loops.
     series = (
         Points("measured", alpha[:-1], loop.measured[k]),
         Line("dynamic stall", alpha, dynamic, 1),

@@ -4,7 +4,9 @@ The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped 
 and compares them, so they stay current.
 """
 
-from dataclasses import dataclass
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -93,32 +95,81 @@ class TrustSet:
         return "missed" if "missed" in verdicts else "met" if "met" in verdicts else "no target"
 
 
-def judged(error: float | None, most: float) -> Verdict:
-    """Whether an error is at most its target in size; one that is not known misses it."""
-    return "met" if error is not None and abs(error) <= most else "missed"
-
-
 def rms(values: ArrayLike) -> float:
     """Root mean square."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def bound(name: str, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
-    """A row whose error is rounding or discretisation: its size matters, not its digits."""
-    verdict, target = judged(error, below), f"below {below:.0e}"
-    shown = target if verdict == "met" else f"{abs(error):.0e}"
-    return TrustRow(name, "verification", what, against, shown, abs(error), below, test, "", target, verdict)
+@dataclass(frozen=True)
+class SetDescription:
+    """What one set compares, in words; its rows and charts are computed."""
+
+    name: str
+    title: str
+    compared: str
+    source: str
+    test: str
+    """`file::function` below tests/ of the rows that name no other."""
+    kind: Kind = "validation"
+    against: str = ""
+    """Of its rows; empty: the source."""
+    text: tuple[str, ...] = ()
+    notes: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Remarks on rows, by a word for the row."""
+
+    def row(
+        self, what: str, shown: str, error: float, allowed: float, *, test: str = "", note: str = "", target: str = "",
+        met: bool | None = None, against: str = "",
+    ) -> TrustRow:  # fmt: skip
+        """A row of this set.
+
+        test: function in the file of `self.test`, or with a file of its own. note: a word of `notes`, or the remark.
+        met: whether the target is; None without one.
+        """
+        return TrustRow(
+            self.name, self.kind, what, against or self.against or self.source, shown, error, allowed,
+            test if "::" in test else f"{self.test.partition('::')[0]}::{test}" if test else self.test,
+            self.notes.get(note, note), target, "no target" if met is None else "met" if met else "missed",
+        )  # fmt: skip
+
+    def share(
+        self, what: str, error: float, allowed: float, *, unit: str = "%", digits: int = 1, most: float | None = None,
+        **more: Any,
+    ) -> TrustRow:  # fmt: skip
+        """A row whose error is a part of something, shown in per cent or points of per cent; `most`: its target."""
+        judged: dict[str, Any] = {}
+        if most is not None:
+            judged = {"target": f"{100 * most:g} {unit}", "met": abs(error) <= most}
+        return self.row(what, f"{100 * error:+.{digits}f} {unit}", error, allowed, **judged, **more)
+
+    def bound(self, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
+        """A row whose error is rounding or discretisation: its size matters, not its digits."""
+        met, target = abs(error) <= below, f"below {below:.0e}"
+        shown = target if met else f"{abs(error):.0e}"
+        return self.row(what, shown, abs(error), below, test=test, target=target, met=met, against=against)
+
+    def page(
+        self, error: str, rows: Iterable[TrustRow], charts: Iterable[Chart], *, compared: str = "",
+        text: Iterable[str] | None = None, points: Iterable[Sequence[str]] = (),
+    ) -> TrustSet:  # fmt: skip
+        """The set with what was computed; `compared` and `text` where numbers stand in them."""
+        return TrustSet(
+            self.name, self.title, compared or self.compared, error, self.source, tuple(rows), tuple(charts),
+            self.text if text is None else tuple(text), tuple(map(tuple, points)),
+        )  # fmt: skip
 
 
-def share(
-    name: str, kind: Kind, what: str, against: str, error: float, allowed: float, test: str, note: str = "", *,
-    unit: str = "%", digits: int = 1, target: float | None = None,
-) -> TrustRow:  # fmt: skip
-    """A row whose error is a part of something, shown in per cent or in points of per cent."""
-    return TrustRow(
-        name, kind, what, against, f"{100 * error:+.{digits}f} {unit}", error, allowed, test, note,
-        "" if target is None else f"{100 * target:g} {unit}", "no target" if target is None else judged(error, target),
-    )  # fmt: skip
+@cache
+def description(name: str) -> SetDescription:
+    """The words of a set of the trust page."""
+    record: dict[str, Any] = dict(_descriptions()[name])
+    record["text"] = tuple(record.get("text", ()))
+    return SetDescription(name, **record)
+
+
+@cache
+def _descriptions() -> dict[str, Any]:
+    return tomllib.loads(asset_path("trust_sets.toml").read_text(encoding="utf-8"))
 
 
 @cache

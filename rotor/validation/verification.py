@@ -8,6 +8,7 @@ Neither is a dependency: they are installed by the extras `test` and `crosscheck
 import importlib
 import importlib.util
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,7 +32,7 @@ from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.trust import TrustRow, TrustSet, bound, share, trust_rows
+from rotor.validation.trust import TrustRow, TrustSet, description, trust_rows
 
 SPEEDS = (0.1, 0.2, 0.3)
 CCBLADE_MASSES = (5000.0, 8322.4)
@@ -40,56 +41,38 @@ SECTION = "sc1095-thesis"
 MACH = 0.3
 AXIAL_SPEED = 0.02
 """CCBlade divides by the axial speed; hover is run as a climb of 0.02 m/s, with about 13 m/s induced."""
-DYNBEM_DIFFERENCES = (
-    "Same: blade, twist, section table, collective, cyclic, shaft tilt, no loss factors. Theirs: three inflow states "
-    "driven by thrust and both hub moments, rigid blades. Ours: the same states with zero hub moments, and coning "
-    "taken away by a heavy blade."
-)
-CCBLADE_DIFFERENCES = (
-    "Same: blade, twist, section table, collective, Prandtl tip factor. Theirs: a turbine code run as a rotor (section "
-    "mirrored), sin φ for φ in the tip factor. Ours leaves out swirl; both are shown."
-)
 
 
 def theory() -> TrustSet:
     """The equations as solved against what they must satisfy."""
-    flapping, second = _flapping()
+    words, (flapping, second) = description("theory"), _flapping()
     bounds = (
-        bound("theory", "Uniform inflow of the ideal twist, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(),
-              1e-12, "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow"),
-        bound("theory", "Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)",
-              _closes(), 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance"),
-        bound("theory", "Shaft power is the sum of its parts, three inflow models", "identity", _energy(), 1e-8,
-              "rotor/trim/test_power.py::test_energy_identity"),
-        bound("theory", "Gradient of power by linear twist, lifting line", "central differences", _gradient(), 1e-6,
-              "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences"),
-        bound("theory", "Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
-              "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected"),
+        words.bound("Uniform inflow of the ideal twist, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(), 1e-12,
+                    "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow"),
+        words.bound("Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)",
+                    _closes(), 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance"),
+        words.bound("Shaft power is the sum of its parts, three inflow models", "identity", _energy(), 1e-8,
+                    "rotor/trim/test_power.py::test_energy_identity"),
+        words.bound("Gradient of power by linear twist, lifting line", "central differences", _gradient(), 1e-6,
+                    "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences"),
+        words.bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
+                    "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected"),
     )  # fmt: skip
-    rows = (
-        *bounds,
-        TrustRow(
-            "theory", "verification", "First-harmonic flapping, µ 0.15, free flapping",
-            "equation of motion in time", f"{flapping:.2f}°", flapping, 0.02,
-            "rotor/dynamics/test_flapping.py::test_ode_agrees_with_harmonic_balance",
-            f"The rest is the neglected 2/rev motion ({second:.2f}°).",
-        ),
+    motion = words.row(
+        "First-harmonic flapping, µ 0.15, free flapping", f"{flapping:.2f}°", flapping, 0.02,
+        against="equation of motion in time", note=f"The rest is the neglected 2/rev motion ({second:.2f}°).",
     )  # fmt: skip
-    places = tuple(map(float, range(len(bounds))))
+    places = range(len(bounds))
     chart = Chart(
         "Errors and their bounds", Axis("relative error", log=True),
         Axis(names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)")),
         (
-            Points("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, 1),
-            Points("bound", tuple(row.allowed for row in bounds), places, mark="cross"),
+            Points("error", [max(row.error or 0.0, 1e-17) for row in bounds], places, 1),
+            Points("bound", [row.allowed for row in bounds], places, mark="cross"),
         ),
     )  # fmt: skip
     met = sum(row.verdict == "met" for row in bounds)
-    return TrustSet(
-        "theory", "Theory", "Identities and closed forms", f"{met} of {len(bounds)} within bounds",
-        "Momentum theory, identities of the discretised equations, closed forms and integration in time.",
-        rows, (chart,),
-    )  # fmt: skip
+    return words.page(f"{met} of {len(bounds)} within bounds", (*bounds, motion), (chart,))
 
 
 def _ideal_twist() -> float:
@@ -185,6 +168,7 @@ class CodeComparison:
     power: float
     """Torque of the other code over ours, minus one."""
     detail: str
+    """Behind that of thrust in a remark."""
 
 
 def have(package: str) -> bool:
@@ -192,45 +176,36 @@ def have(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
 
 
-def dynbem() -> TrustSet:
-    """Pitt–Peters inflow in forward flight; the shipped rows where dynbem is not installed."""
-    test = "rotor/validation/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
-    cases = beside_dynbem() if have("dynbem") else []
-    rows = [
-        share("dynbem", "public code", f"Torque, {case.condition}", "dynbem 0.8, Pitt–Peters", case.power, 5e-4, test,
-              f"Thrust {100 * case.thrust:+.2f} %. {case.detail}.", digits=2)
-        for case in cases
+def _code_rows(name: str, package: str, what: str, beside: Callable[[], list[CodeComparison]]) -> list[TrustRow]:
+    """Each condition in another code; the shipped rows where it is not installed."""
+    if not have(package):
+        return [row for row in trust_rows() if row.set == name]
+    return [
+        description(name).share(f"{what}, {case.condition}", case.power, 5e-4, digits=2,
+                                note=f"Thrust {100 * case.thrust:+.2f} %{case.detail}.")
+        for case in beside()
     ]  # fmt: skip
-    rows = rows or [row for row in trust_rows() if row.set == "dynbem"]
-    series = Line("dynbem's torque over ours", SPEEDS, _percent(rows), 1, dots=True)
-    chart = Chart("Torque of dynbem over ours", Axis("advance ratio µ"), Axis("difference [%]"), (series,))
-    return TrustSet(
-        "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
-        "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
-    )  # fmt: skip
+
+
+def dynbem() -> TrustSet:
+    """Pitt–Peters inflow in forward flight."""
+    rows = _code_rows("dynbem", "dynbem", "Torque", beside_dynbem)
+    power = _percent(rows)
+    series = (Line("dynbem's torque over ours", SPEEDS, power, 1, dots=True),)
+    chart = Chart("Torque of dynbem over ours", Axis("advance ratio µ"), Axis("difference [%]"), series)
+    return description("dynbem").page(f"{power[-1]:+.2f} % at most", rows, (chart,))
 
 
 def ccblade() -> TrustSet:
-    """Hover, without and with swirl; the shipped rows where WISDEM is not installed."""
-    test = "rotor/validation/test_cross_codes.py::test_ccblade_hover"
-    cases = beside_ccblade() if have("wisdem") else []
-    rows = [
-        share("ccblade", "public code", f"Power, {case.condition}", "CCBlade of WISDEM 4.2, axial", case.power, 5e-4,
-              test, f"Thrust {100 * case.thrust:+.2f} %, {case.detail}.", digits=2)
-        for case in cases
-    ]  # fmt: skip
-    rows = rows or [row for row in trust_rows() if row.set == "ccblade"]
+    """Hover, without and with swirl."""
+    rows = _code_rows("ccblade", "wisdem", "Power", beside_ccblade)
     power = _percent(rows)
     series = (
         Line("without swirl", CCBLADE_MASSES, power[0::2], 1, dots=True),
         Line("with swirl", CCBLADE_MASSES, power[1::2], 2, dots=True),
     )
     chart = Chart("Hover power of CCBlade over ours", Axis("mass [kg]"), Axis("difference [%]"), series)
-    return TrustSet(
-        "ccblade", "CCBlade", "Hover power without and with swirl",
-        f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",
-        "CCBlade of WISDEM 4.2, run at our collective.", tuple(rows), (chart,), (CCBLADE_DIFFERENCES,),
-    )  # fmt: skip
+    return description("ccblade").page(f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %", rows, (chart,))
 
 
 def _percent(rows: list[TrustRow]) -> tuple[float, ...]:
@@ -293,7 +268,7 @@ def _one_dynbem(mu: float) -> CodeComparison:
         condition=f"µ {mu:g}",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
         power=float(forces.Q_spin) / torque - 1.0,
-        detail=f"λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
+        detail=f". λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
         f"{_inflow_gradient(ours):.4f} λ0",
     )
 
@@ -355,5 +330,5 @@ def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
         condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
         power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,
-        detail=f"C_T/σ {ours.ct_over_sigma:.3f}",
+        detail=f", C_T/σ {ours.ct_over_sigma:.3f}",
     )

@@ -1,10 +1,10 @@
-"""What was tried on the missing 2/rev of the UH-60A's pitch-link load in changed data: rows of its trust page, anew.
+"""What was tried on the missing 2/rev of the UH-60A's pitch-link load: rows of its trust page, anew.
 
-`python -m tests.tools.pitch_link_causes` prints the rows of `_TRIED_IN_CODE` in `rotor/validation/uh60a.py`: amplitude
-of 2/rev [kN] and correlation of the curve at µ 0.2, 0.3 and 0.37. A minute. What an input of a design can change is
-tried by that module itself.
+`python -m tests.tools.pitch_link_causes` prints the rows of the table in `assets/trust_sets.toml`: amplitude of 2/rev
+[kN] and correlation of the curve at µ 0.2, 0.3 and 0.37. Two minutes.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -19,7 +19,8 @@ from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.validation import airloads, uh60a
+from rotor.design.design import Design
+from rotor.validation import airloads
 
 Moment = Callable[[Array, Array, Array, Array], Array]
 """Of α [rad] in a column, the Mach number in a row, C_l and C_m there: by how much C_m is larger."""
@@ -27,6 +28,54 @@ Blade = Callable[[BladeTorsion, Array], BladeTorsion]
 """Of the torsion of a blade and its `tip_mass` with the centre of gravity a chord aft, (elements,): the changed one."""
 
 Row = tuple[tuple[float, ...], tuple[float, ...]]
+AT = (0.2, 0.3, 0.37)
+
+
+def _structure(name: str, factor: float) -> Callable[[Design], Design]:
+    def change(design: Design) -> Design:
+        blade = design.rotor.blade
+        value = getattr(blade.structure, name)
+        scaled = tuple(factor * x for x in value) if isinstance(value, tuple) else factor * value
+        structure = replace(blade.structure, **{name: scaled})  # type: ignore[type-var]
+        return replace(design, rotor=replace(design.rotor, blade=replace(blade, structure=structure)))
+
+    return change
+
+
+def _shaft(degrees: float) -> Callable[[Design], Design]:
+    def change(design: Design) -> Design:
+        assert design.condition.stand is not None
+        stand = replace(design.condition.stand, shaft_tilt=math.radians(degrees))
+        return replace(design, condition=replace(design.condition, stand=stand))
+
+    return change
+
+
+def _flapping(degrees: float) -> Callable[[Design], Design]:
+    return lambda design: replace(design, condition=replace(design.condition, flap_1c=math.radians(degrees)))
+
+
+def _models(**changes: Any) -> Callable[[Design], Design]:
+    return lambda design: replace(design, models=replace(design.models, **changes))
+
+
+DESIGNS: dict[str, Callable[[Design], Design]] = {
+    "as computed": _models(),
+    "half the control stiffness": _structure("control_stiffness", 0.5),
+    "GJ 20 % less": _structure("torsional_stiffness", 0.8),
+    "torsional inertia 15 % more": _structure("torsional_inertia", 1.15),
+    "EI in lag 30 % less": _structure("lag_stiffness", 0.7),
+    "shaft upright": _shaft(0.0),
+    "shaft 10° forward": _shaft(10.0),
+    "flapping 2° up over the tail": _flapping(2.0),
+    "flapping 2° down over the tail": _flapping(-2.0),
+    "Pitt–Peters inflow": _models(inflow="pitt-peters"),
+    "local-momentum inflow": _models(inflow="local-momentum"),
+    "without bending": _models(bending=False),
+    "dynamic stall everywhere": _models(dynamic_stall="on"),
+    "steady sections": _models(dynamic_stall="off", unsteady="off"),
+}
+"""Changes of an input of the design."""
 
 _PLAIN = elastic.moment_table
 
@@ -42,7 +91,6 @@ def _without_tuck(alpha: Array, mach: Array, lift: Array, moment: Array) -> Arra
 
 
 MOMENTS: dict[str, Moment] = {
-    "as computed": lambda alpha, mach, lift, moment: 0.0 * lift,
     "C_m 0.01 more, everywhere": lambda alpha, mach, lift, moment: 0.01 + 0.0 * lift,
     "C_m 0.02 more, everywhere": lambda alpha, mach, lift, moment: 0.02 + 0.0 * lift,
     "C_m 0.01 more above Mach 0.7": lambda alpha, mach, lift, moment: 0.01 * _fast(mach) + 0.0 * lift,
@@ -75,17 +123,17 @@ def _table(change: Moment) -> Callable[[SectionTable, float | None], Array]:
     return table
 
 
-def _row(at: Sequence[float]) -> Row:
+def _row(at: Sequence[float], change: Callable[[Design], Design]) -> Row:
     """2/rev [kN] and correlation at these advance ratios."""
     found = list[tuple[float, float]]()
     for curve in airloads.measured_curves():
-        if curve.case.test == uh60a.PITCH_LINK and curve.case.conditions["mu"] in at:
-            load = airloads.agreement(curve, solve(curve.case.design()).require())
+        if curve.case.test == airloads.PITCH_LINK and curve.case.conditions["mu"] in at:
+            load = airloads.agreement(curve, solve(change(curve.case.design())).require())
             found.append((1e-3 * load.amplitude(2), load.correlation))
     return tuple(second for second, _ in found), tuple(correlation for _, correlation in found)
 
 
-def found_with(words: str, at: Sequence[float] = uh60a.TRIED_AT) -> Row:
+def found_with(words: str, at: Sequence[float] = AT) -> Row:
     """A row of the table: 2/rev [kN] and correlation."""
     plain = problem.build_problem.__defaults__
     try:
@@ -94,9 +142,9 @@ def found_with(words: str, at: Sequence[float] = uh60a.TRIED_AT) -> Row:
             _forget()
         elif words in BLADES:
             problem.__dict__["build_torsion"] = _changed(BLADES[words])
-        else:
+        elif words not in DESIGNS:
             problem.build_problem.__defaults__ = (problem.Truncation(torsion=4),)
-        return _row(at)
+        return _row(at, DESIGNS.get(words, _models()))
     finally:
         elastic.__dict__["moment_table"], problem.__dict__["build_torsion"] = _PLAIN, build_torsion
         problem.build_problem.__defaults__ = plain
@@ -122,6 +170,6 @@ def _changed(alter: Blade) -> Callable[..., BladeTorsion]:
 
 
 if __name__ == "__main__":
-    for words in (*MOMENTS, *BLADES, "four torsion modes"):
+    for words in (*DESIGNS, *MOMENTS, *BLADES, "four torsion modes"):
         second, curve = (", ".join(f"{value:.2f}" for value in row) for row in found_with(words))
-        print(f'    ("{words}", ({second}), ({curve})),', flush=True)
+        print(f"| {words[:1].upper()}{words[1:]} | {second} | {curve} |", flush=True)

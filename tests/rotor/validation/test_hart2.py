@@ -84,16 +84,10 @@ def test_moment_of_the_pitch_rate(solutions: dict[str, Solution]):
 
 
 def test_normal_force(found: dict[tuple[str, str], CurveAgreement]):
-    """BL misses 0.8, MN meets it; the changes of inputs do not mend BL, the measured twist mends half of it."""
+    """BL misses 0.8, MN meets it."""
     base = found["BL", "cn_m2"]
     assert abs(base.mean / base.measured_mean - 1.0) < 0.05
     assert_allclose((base.correlation, found["MN", "cn_m2"].correlation), (0.58, 0.85), atol=0.03)
-    made = [found for _, found in hart2.attempts()]
-    tried = [baseline.correlation for baseline, _, _ in made]
-    assert_allclose(tried, [0.58, 0.60, 0.56, 0.61, 0.54, 0.45, 0.69, 0.70], atol=0.03)
-    assert max(tried) < hart2.LEAST_CORRELATION
-    *_, twisted, moving = (moved.correlation for _, moved, _ in made)
-    assert_allclose((twisted, moving), (0.91, 0.95), atol=0.02)
 
 
 def test_moments(found: dict[tuple[str, str], CurveAgreement]):
