@@ -35,7 +35,7 @@ import theory_figures  # noqa: E402
 
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
-from explorer.export.report import document  # noqa: E402
+from explorer.export import report  # noqa: E402
 from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import build_parser  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
@@ -161,7 +161,7 @@ class Commands(SphinxDirective):
         for parser in (
             *rotor_commands.choices.values(),
             page_command._parser(),
-            document._parser(),
+            report._parser(),
             story_file._parser(),
         ):
             text = parser.format_help()

@@ -5,9 +5,9 @@ from html import escape
 import numpy as np
 
 import rotor
+from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.colours import PARTS
-from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
-from explorer.export.report.figures import figure
+from explorer.export.figures import figure
 from explorer.picture.fields import FIELDS
 from rotor.chart import Axis, Chart, Line
 

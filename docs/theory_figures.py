@@ -9,7 +9,7 @@ from pictures import disk_figure
 
 import rotor
 from explorer.colours import PARTS
-from explorer.export.report.figures import figure
+from explorer.export.figures import figure
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement

@@ -27,7 +27,7 @@ from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, called, run_command
 
 _COMMANDS = {
-    "report": "explorer.export.report.document",
+    "report": "explorer.export.report",
     "blade": "explorer.export.blade",
     "story": "explorer.story.story_file",
 }

@@ -38,7 +38,7 @@ from explorer.tabs.optimise.landscape_panel import LandscapePanel
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.probe.probe_panel import ProbePanel
+from explorer.tabs.probe_panel import ProbePanel
 from explorer.tabs.results import ResultsPanel, beside_labels
 from explorer.tabs.sensitivity_panel import SensitivityPanel
 from explorer.tabs.twist_curve import TwistCurveEditor

@@ -23,7 +23,7 @@ import viser
 import explorer
 import rotor
 from explorer.export.provenance import condition_line, file_stem
-from explorer.export.report.tables import conditions
+from explorer.export.tables import conditions
 from explorer.model.inputs import OPENING, ROWS, Inputs, inputs_of, with_rotor
 from explorer.model.session_state import Pinned, same_but_flight
 from explorer.model.sliders import SLIDERS, flight_sensitivities, limits

@@ -32,9 +32,10 @@ ORDER = {
         "export", "story", "tabs", "page", "session", "app", "notebook",
     ),
     "explorer/tabs": (
-        "layout", "keys", "display", "form", "stand_controls", "controls", "context", "background", "design_files",
+        "layout", "display", "form", "stand_controls", "controls", "context", "background", "design_files",
         "history_panel", "waterfall", "live_charts", "envelope_panel", "results", "twist_curve", "export_panel",
-        "sensitivity_panel", "probe", "vibration_panel", "actuator", "views", "optimise", "lecture",
+        "sensitivity_panel", "element",
+        "probe_measured", "probe_drawing", "probe_panel", "vibration_panel", "actuator", "views", "optimise", "lecture",
     ),
 }  # fmt: skip
 """Folders and files of each package from the ground up: each imports only from itself and those before it."""

@@ -1,10 +1,22 @@
-"""Drawings as SVG: marks, words and lines of any size."""
+"""Drawings as SVG: marks, words and lines of any size; and the disk from above.
+
+The disk has its field, marked regions, azimuth marks, flight arrow, colour bar and key.
+"""
 
 import base64
 import math
 from collections.abc import Iterable
 
-from rotor.markup import Attribute, Markup, tag
+from explorer.colours import RIM, VOID, DiskInk, colour_map, css
+from explorer.model.units import SI, Units
+from explorer.picture import disk_image
+from explorer.picture.fields import Field, reverse_flow
+from explorer.picture.picture import disk_png
+from explorer.picture.polar import ALL_MARKS, MarkedRegion, Marks, polar_grid, region_codes
+from explorer.text.design_words import flight_words, title_words
+from rotor import Solution
+from rotor.chart import bar_ticks
+from rotor.markup import Attribute, Markup, group, tag
 
 Point = tuple[float, float]
 
@@ -114,3 +126,128 @@ def text(x: float, y: float, words: str, size: float, *, anchor: str = "start", 
 def image(x: float, y: float, wide: float, high: float, png: bytes) -> Markup:
     data = base64.b64encode(png).decode("ascii")
     return tag("image", x=x, y=y, width=wide, height=high, href=f"data:image/png;base64,{data}")
+
+
+Range = tuple[float, float]
+
+HALF = 134.0
+"""Half the edge of the drawing, where the rotor's radius is 100."""
+_STOPS = 25
+
+
+def disk_drawing(
+    solution: Solution,
+    field: Field,
+    colour_range: Range,
+    pixels: int = disk_image.SIZE,
+    marks: Marks = ALL_MARKS,
+    letters: float = 9.0,
+    units: Units = SI,
+) -> Markup:
+    """The inside of an SVG that spans −HALF…HALF: nose up, advancing side right.
+
+    `pixels`: along each edge of the field's picture; `letters`: their height.
+    """
+    half = disk_image.half_width(100.0, min(pixels, disk_image.LARGEST))
+    png = disk_png(solution, field, colour_range, size=pixels, marks=marks)
+    cutout = 100.0 * solution.design.rotor.blade.root_cutout
+    rings = [tag("circle", r=r, fill="none") for r in (100.0, cutout)]
+    rim = tag("g", rings, tag("path", d=_ticks()), stroke=css(RIM), stroke_width=0.8)
+    return group(image(-half, -half, 2 * half, 2 * half, png), rim, _labels(letters), _flight(solution, letters, units))
+
+
+def disk_svg(solution: Solution, field: Field, colour_range: Range, marks: Marks, units: Units) -> Markup:
+    """The drawing as a file of its own, with a title, the colour bar and the key; black on white."""
+    size, wide = 9.0, 200.0
+    key, at = [], -HALF + 6.0
+    for title, swatch in key_entries(solution, field, marks):
+        key.append(tag("g", swatch, text(18.0, 7.5, title, size), transform=f"translate({at:.1f} 0)"))
+        at += 30.0 + 0.55 * size * len(title)
+    bar = bar_drawing(field, colour_range, wide, "scale")
+    look: dict[str, Attribute] = {"font_family": "system-ui,sans-serif", "color": "#212529", "style": "background:#fff"}
+    return tag(
+        "svg",
+        text(0, -HALF - 20, title_words(solution.design), 10.5, anchor="middle", weight=650),
+        text(0, -HALF - 6, flight_words(solution.design, units), size, anchor="middle"),
+        disk_drawing(solution, field, colour_range, 1000, marks, size, units),
+        tag("g", bar, transform=f"translate({-0.5 * wide:g} {HALF + 4:g})"),
+        tag("g", key, transform=f"translate(0 {HALF + 48:g})"),
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"{-HALF:g} {-HALF - 34:g} {2 * HALF:g} {2 * HALF + 98:g}",
+        **look,
+    )
+
+
+def _ticks() -> str:
+    parts = []
+    for degrees in range(0, 360, 10):
+        reach = 4.0 if degrees % 90 == 0 else 2.4 if degrees % 30 == 0 else 1.2
+        (x, y), (x_end, y_end) = _at(degrees, 100.6), _at(degrees, 100.6 + reach)
+        parts.append(f"M{x:.2f},{y:.2f}L{x_end:.2f},{y_end:.2f}")
+    return "".join(parts)
+
+
+def _labels(size: float) -> Markup:
+    """Four azimuths, and the sense of rotation outside the rim between ψ 22° and 51°."""
+    (x, y), (x_end, y_end) = _at(22.0, 109.0), _at(45.0, 109.0)
+    head = " ".join(f"{a:.2f},{b:.2f}" for a, b in (_at(45.0, 105.6), _at(51.0, 109.0), _at(45.0, 112.4)))
+    arc = f"M{x:.2f},{y:.2f}A109,109 0 0 0 {x_end:.2f},{y_end:.2f}"
+    return group(
+        text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
+        text(107, 0.35 * size, "90°", size),
+        text(0, -107, "180°", size, anchor="middle"),
+        text(-107, 0.35 * size, "270°", size, anchor="end"),
+        tag("path", d=arc, fill="none", stroke=css(RIM), stroke_width=2.4),
+        tag("polygon", points=head, fill=css(RIM)),
+    )
+
+
+def _at(psi_deg: float, r: float) -> tuple[float, float]:
+    psi = math.radians(psi_deg)
+    return r * math.sin(psi), r * math.cos(psi)
+
+
+def _flight(solution: Solution, size: float, units: Units) -> Markup:
+    """The arrow ahead of the nose with the speed; nothing in hover."""
+    speed = solution.design.airspeed
+    if speed == 0.0:
+        return Markup()
+    arrow = tag("path", d="M0,-131 l4.4,7 h-2.9 v6 h-3 v-6 h-2.9 Z", fill="#c92a2a")
+    return arrow + text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
+
+
+def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> Markup:
+    """A colour bar `wide` across with its label above and its numbers below: 4 × `size` high. `name`: unique."""
+    stops = [
+        tag("stop", offset=f"{k / (_STOPS - 1):.4f}", stop_color=css(colour))
+        for k, colour in enumerate(colour_map(field.colours, _STOPS).tolist())
+    ]
+    scale: list[Markup] = []
+    for percent, word in bar_ticks(*colour_range):
+        x = 0.01 * wide * percent
+        scale.append(tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor"))
+        scale.append(text(x, 3.75 * size, word, 0.92 * size, anchor="middle"))
+    return group(
+        tag("linearGradient", stops, id=name),
+        text(0, size, field.label, size),
+        tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})"),
+        scale,
+    )
+
+
+def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, Markup]]:
+    """Key of the marked regions and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
+    grid, ink = polar_grid(solution.disk, 80, 240), DiskInk()
+    codes = region_codes(solution, grid, marks, 0.02)
+    entries: list[tuple[str, Markup]] = []
+    for region, title, colour, dashes in (
+        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, None),
+        (MarkedRegion.STALLED, "stall", ink.stall, None),
+        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, "4 3"),
+    ):
+        if codes is not None and (codes == region).any():
+            swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
+            entries.append((title, swatch))
+    if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(solution, grid).any():
+        entries.append(("not defined", tag("rect", width=14, height=8, rx=1.5, fill=css(VOID))))
+    return entries

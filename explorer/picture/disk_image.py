@@ -15,8 +15,7 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
 from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map, greyed
 from explorer.picture.airframe import Airframe
-from explorer.picture.polar import Places, PolarGrid
-from explorer.picture.regions import Bytes, MarkedRegion
+from explorer.picture.polar import Bytes, MarkedRegion, Places, PolarGrid
 from rotor.arrays import Array
 from rotor.compiled import compiled
 

@@ -59,17 +59,6 @@ def reverse_flow(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
     return refined(solution, grid).u_t < 0.0
 
 
-def filled(disk: DiskFields, values: Array) -> Array:
-    """`values` with the reverse-flow part of each azimuth replaced by its first element outside.
-
-    A quantity that jumps across the reverse-flow circle can then be interpolated up to the circle from outside.
-    """
-    reverse = disk.u_t < 0.0
-    # Reverse flow fills the inner part of an azimuth; beyond the tip of a column that is reversed throughout, the last.
-    first_outside = np.minimum(reverse.sum(axis=0), len(disk.r) - 1)
-    return np.where(reverse, values[first_outside, np.arange(values.shape[1])], values)
-
-
 def _refined(name: str, least: float = -math.inf) -> Callable[[Solution, PolarGrid], Array]:
     """Samples a field of the disk as it is, at least `least`."""
     return lambda solution, grid: np.maximum(grid.refine(getattr(solution.disk, name)), least)

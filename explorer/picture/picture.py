@@ -16,8 +16,7 @@ from explorer.picture.airframe import SHAFT_FORWARD, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.disk_image import encode_png
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import polar_grid, refined
-from explorer.picture.regions import NO_MARKS, Marks, region_codes
+from explorer.picture.polar import NO_MARKS, Marks, polar_grid, refined, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw

@@ -13,8 +13,7 @@ from explorer.model.units import number
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
-from explorer.picture.regions import divergence_margin, region_masks
+from explorer.picture.polar import PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, as_json

@@ -16,8 +16,7 @@ from explorer.model.units import UNITS, Units
 from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
-from explorer.tabs.keys import Keyboard
-from explorer.tabs.layout import Layout
+from explorer.tabs.layout import Keyboard, Layout
 from explorer.workers.pool import Pool
 from rotor.user_input import brief
 

@@ -12,11 +12,11 @@ import viser
 from PIL import Image
 
 from explorer.charts.plots import PowerCurves
+from explorer.charts.svg import disk_svg
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
-from explorer.export.disk_drawing import disk_svg
+from explorer.export.contents import ReportEntry, judged_actuator, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
-from explorer.export.report.contents import ReportEntry, judged_actuator, report_of
-from explorer.export.report.document import report_html
+from explorer.export.report import report_html
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS

@@ -17,7 +17,7 @@ from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.actuator.lifted_blade import fit_lifted
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
-from explorer.tabs.probe.probe_panel import ProbePanel
+from explorer.tabs.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, pinned_name
 from explorer.text.glossary import hint
 from rotor import Design, Solution

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 import rotor
-from explorer.export.report.actuator_sides import actuator_html
-from explorer.export.report.contents import actuator_report
+from explorer.export.actuator_sides import actuator_html
+from explorer.export.contents import actuator_report
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
-from explorer.tabs.probe.probe_drawing import ALPHA, DRAG, LIFT
+from explorer.tabs.probe_drawing import ALPHA, DRAG, LIFT
 from rotor.arrays import Array
 
 EYES = {

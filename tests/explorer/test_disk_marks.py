@@ -21,8 +21,19 @@ from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.plan import stall_segments
-from explorer.picture.polar import Sums, angles_of_attack, polar_grid, refined, stall_angles
-from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, mark_line, region_codes, region_masks
+from explorer.picture.polar import (
+    NO_MARKS,
+    MarkedRegion,
+    Marks,
+    Sums,
+    angles_of_attack,
+    mark_line,
+    polar_grid,
+    refined,
+    region_codes,
+    region_masks,
+    stall_angles,
+)
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import make_design

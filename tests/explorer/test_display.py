@@ -9,7 +9,7 @@ from fake_bridge import Bridge
 
 from explorer.model.inputs import ViewState
 from explorer.tabs.display import Display
-from explorer.tabs.probe.probe_panel import ProbePanel
+from explorer.tabs.probe_panel import ProbePanel
 
 
 def test_a_press_takes_the_next_pace_and_the_blade_walks_at_it():

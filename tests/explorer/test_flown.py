@@ -12,9 +12,9 @@ from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of, first_condition, measured_conditions
 from explorer.model.units import SI
 from explorer.sharing.share import code_of, inputs_from
-from explorer.tabs.probe.element import probe
-from explorer.tabs.probe.probe_drawing import probe_panel
-from explorer.tabs.probe.probe_measured import beside_measured, correlation, measured_panel
+from explorer.tabs.element import probe
+from explorer.tabs.probe_drawing import probe_panel
+from explorer.tabs.probe_measured import beside_measured, correlation, measured_panel
 from explorer.text.readout import drag_band_words, open_drag_area
 from explorer.text.status import cautions, validated
 from rotor.study.series import between_drag_areas

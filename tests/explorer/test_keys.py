@@ -11,7 +11,7 @@ import pytest
 import viser
 from viser import _messages
 
-from explorer.tabs.keys import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, keys_help, leads
+from explorer.tabs.layout import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, keys_help, leads
 
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (

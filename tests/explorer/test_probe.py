@@ -15,10 +15,9 @@ from explorer.charts import svg
 from explorer.hosting.gate import PRESSES
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import DISK_DROP, compose, rotate, rotor_pose, tip_path_pose
-from explorer.tabs.probe.element import FlowRegion, probe
-from explorer.tabs.probe.probe_drawing import drawing, probe_panel
-from explorer.tabs.probe.probe_measured import lift_chart, public_table
-from explorer.tabs.probe.ride import AZIMUTHS, turn_of
+from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
+from explorer.tabs.probe_drawing import drawing, probe_panel
+from explorer.tabs.probe_measured import lift_chart, public_table
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design

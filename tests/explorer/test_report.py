@@ -16,19 +16,19 @@ from PIL import Image
 
 from explorer import __main__ as command
 from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
-from explorer.export.disk_drawing import disk_svg, key_entries
+from explorer.charts.svg import disk_svg, key_entries
+from explorer.export import report as document
+from explorer.export.contents import DesignReport, ReportEntry, report_of
 from explorer.export.provenance import versions
-from explorer.export.report import document
-from explorer.export.report.contents import DesignReport, ReportEntry, report_of
-from explorer.export.report.document import report_html
-from explorer.export.report.tables import vibration
+from explorer.export.report import report_html
+from explorer.export.tables import vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
-from explorer.picture.regions import NO_MARKS, Marks
+from explorer.picture.polar import NO_MARKS, Marks
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.web import json_block
 from rotor.design.design import Design

@@ -7,9 +7,9 @@ from functools import cache
 
 import pytest
 
-from explorer.export.report.contents import JudgedActuator, ReportEntry, judged_actuator, report_of
-from explorer.export.report.document import report_html
-from explorer.export.report.figures import actuator_section
+from explorer.export.contents import JudgedActuator, ReportEntry, judged_actuator, report_of
+from explorer.export.figures import actuator_section
+from explorer.export.report import report_html
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.tabs.actuator.actuator_words import verdict_panel

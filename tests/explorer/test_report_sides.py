@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import rotor
-from explorer.export.report import contents
-from explorer.export.report.actuator_sides import SOURCES, actuator_html
-from explorer.export.report.contents import ActuatorReport, actuator_report
-from explorer.export.report.document import main
+from explorer.export import contents
+from explorer.export.actuator_sides import SOURCES, actuator_html
+from explorer.export.contents import ActuatorReport, actuator_report
+from explorer.export.report import main
 from rotor.actuator import Verdict, actuator_stability, failure, fly, phase_sweep, try_actuator, verdict_sentence
 
 ROOT = Path(__file__).parents[2]
@@ -186,6 +186,6 @@ def test_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: p
     assert main([str(tmp_path / "s61.json"), "--actuator", "MFC_P1", "--out", str(out)]) == 2
     assert "choose that rotor" in capsys.readouterr().err
     assert not out.exists()
-    monkeypatch.setattr("explorer.export.report.document.actuator_report", lambda *_: report())
+    monkeypatch.setattr("explorer.export.report.actuator_report", lambda *_: report())
     assert main([design, "--actuator", "MFC_P1", "--out", str(out)]) == 0
     assert out.read_text(encoding="utf-8") == page()

@@ -7,8 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.picture.fields import FIELDS
-from explorer.picture.polar import polar_grid, refined
-from explorer.picture.regions import MarkedRegion, Marks, region_codes
+from explorer.picture.polar import MarkedRegion, Marks, polar_grid, refined, region_codes
 from explorer.picture.wake import inflow_arrows, tip_vortex_path
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

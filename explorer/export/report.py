@@ -13,11 +13,11 @@ from pathlib import Path
 from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
+from explorer.export import figures, tables
+from explorer.export.actuator_sides import actuator_html
+from explorer.export.contents import DesignReport, ReportEntry, actuator_report, colours_of, report_of
+from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
-from explorer.export.report import figures, tables
-from explorer.export.report.actuator_sides import actuator_html
-from explorer.export.report.contents import DesignReport, ReportEntry, actuator_report, colours_of, report_of
-from explorer.export.report.figures import actuator_section
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage

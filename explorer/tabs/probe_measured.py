@@ -9,8 +9,8 @@ import numpy as np
 from explorer.colours import LIMIT, NOW, THIS
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
+from explorer.tabs.element import Probe
 from explorer.tabs.live_charts import chart_box
-from explorer.tabs.probe.element import Probe
 from explorer.text.glossary import READOUTS, tip
 from explorer.text.readout import dash
 from explorer.text.status import section_title

@@ -9,14 +9,12 @@ from explorer.charts import svg
 from explorer.charts.svg import Point
 from explorer.colours import NOW, THIS
 from explorer.model.units import degrees, number
-from explorer.picture.blade_mesh import blade_axes_outline
+from explorer.tabs.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.tabs.live_charts import chart_box
-from explorer.tabs.probe.element import Blend, FlowRegion, Probe
-from explorer.tabs.probe.probe_measured import HEIGHT as CHART_HEIGHT
-from explorer.tabs.probe.probe_measured import lift_chart, public_table, with_indices
+from explorer.tabs.probe_measured import HEIGHT as CHART_HEIGHT
+from explorer.tabs.probe_measured import lift_chart, public_table, with_indices
 from explorer.text.glossary import tip
 from explorer.text.readout import dash
-from explorer.text.status import section_title
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.markup import Attribute, Content, Markup, group, tag
@@ -38,7 +36,6 @@ _WIDEST = math.radians(31.0)
 """Widest angle that is drawn [rad]."""
 _RAY, _COLUMN = 134.0, 266.0
 """Where the rays of small angles end, and where their words begin."""
-_OUTLINE = 61
 _FAINT, _BOLD = 0.6, 600
 """Opacity of what is less important, and weight of what is more."""
 
@@ -98,12 +95,6 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
     label = "The blade section with its velocity triangle and forces"
     told: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
     return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **told), scales
-
-
-def outline(section: Blend) -> Array:
-    """The true outline, blended as the blade is; (y, z) in reference chords about the quarter chord."""
-    inner, outer = (blade_axes_outline(name, _OUTLINE) for name in (section.inner, section.outer))
-    return (1.0 - section.weight) * inner + section.weight * outer
 
 
 def _factor(length: float, floor: float, factors: tuple[int, ...]) -> int:
@@ -245,18 +236,6 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
         public_table(probe),
         data_explorer="probe",
     )
-
-
-def where(psi: float) -> str:
-    """What an azimuth [rad] is called."""
-    names = ("over the tail", "aft, advancing", "advancing side", "ahead, advancing",
-             "over the nose", "ahead, retreating", "retreating side", "aft, retreating")  # fmt: skip
-    return names[round(math.degrees(psi) / 45.0) % 8]
-
-
-def sections_of(section: Blend) -> str:
-    """Name of the section; of two where one goes over into the other."""
-    return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.installed()))
 
 
 def _head(probe: Probe) -> Markup:

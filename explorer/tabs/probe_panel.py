@@ -18,12 +18,10 @@ from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist
 from explorer.scene.controller import SceneController, tie
 from explorer.tabs.context import Player, Tab, TabContext
-from explorer.tabs.keys import COARSE
-from explorer.tabs.layout import by_hand
-from explorer.tabs.probe.element import Probe, probe
-from explorer.tabs.probe.probe_drawing import outline, probe_panel
-from explorer.tabs.probe.probe_measured import BesideMeasured, beside_measured, measured_panel
-from explorer.tabs.probe.ride import Ride
+from explorer.tabs.element import Probe, Ride, probe
+from explorer.tabs.layout import COARSE, by_hand
+from explorer.tabs.probe_drawing import outline, probe_panel
+from explorer.tabs.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
 from rotor import Rotor, Solution

@@ -10,9 +10,9 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
+from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.colours import BASELINE, IDEAL
-from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
-from explorer.export.report.contents import DesignReport, JudgedActuator, ReportEntry, colours_of, fields_of
+from explorer.export.contents import DesignReport, JudgedActuator, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units, number
 from explorer.picture.fields import Field
 from explorer.text.readout import balance, fuel_words, pair_words, signed

@@ -7,7 +7,7 @@ import numpy as np
 from explorer.charts.doubt import MOST_ROWS
 from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
-from explorer.export.report.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
 from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number

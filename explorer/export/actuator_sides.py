@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterable, Sequence
 
 from explorer import web
+from explorer.export.contents import CRUISE, HARMONIC, ActuatorReport
+from explorer.export.figures import balance_bars, legs_table, twist_over_flight
 from explorer.export.provenance import PROGRAM, versions
-from explorer.export.report.contents import CRUISE, HARMONIC, ActuatorReport
-from explorer.export.report.figures import balance_bars, legs_table, twist_over_flight
 from explorer.model.units import BLANK, SI, number
 from explorer.text.design_words import flight_words, model_words, title_words
 from explorer.text.readout import fuel_used, pair_words

@@ -1,1 +1,0 @@
-"""The Probe tab: one blade element at (r, ψ), drawn, in numbers and in the scene."""
