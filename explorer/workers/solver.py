@@ -10,15 +10,14 @@ from typing import Any
 from rotor import Design, Optimum, Solution, make_design, solve
 from rotor.design.quantities import PRESETS
 from rotor.optimisation import (
-    Cell,
     Concept,
     Objective,
     Plan,
     Schedule,
     Search,
-    SearchStatus,
     at_condition,
     measure,
+    run_plan,
     run_search,
 )
 from rotor.trim import power_gradient
@@ -139,44 +138,14 @@ class ScheduleTask:
     plan: Plan
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
-        """Reports every `Cell`, then `FixedPowers`. Every leg uses all its starts."""
-        plan, concept = self.plan, self.plan.concepts[0]
-        cells: list[Cell] = []
-        guesses: tuple[tuple[float, ...], ...] = ()
-        for k, leg in enumerate((*plan.conditions, None)):
-            if leg is None:
-                guesses = _middle(cells, plan)
-            search = Search(
-                design=plan.design_at(None if leg is None else k),
-                concept=concept,
-                objective=Objective(plan.quantity, plan.conditions if leg is None else (leg,)),
-                limits=plan.limits,
-                starts=plan.starts if leg is not None else min(plan.starts, 3),
-                seed=plan.seed,
-                guesses=guesses,
-                band=False,
-            )
-            optimum = run_search(search, stop=stop)
-            if optimum.status is SearchStatus.STOPPED:
-                return Schedule(plan, tuple(cells))
-            guesses = () if optimum.best is None else (optimum.best.parameters,)
-            cells.append(Cell(None if leg is None else k, concept.name, optimum))
-            tell(cells[-1])
-        powers = [measure(Objective(plan.quantity, (leg,)), cells[-1].optimum.design, gradient=False).power
-                  for leg in plan.conditions]  # fmt: skip
-        tell(FixedPowers(tuple(powers)))
-        return Schedule(plan, tuple(cells))
-
-
-def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
-    """The mean of the best moving blades, weighted by hours: the start of the search for a fixed one."""
-    shares = Objective(plan.quantity, plan.conditions).shares
-    optima = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
-    total = sum(share for share, _ in optima)
-    if not optima:
-        return ()
-    return (tuple(sum(share * best.parameters[k] for share, best in optima) / total
-                  for k in range(len(plan.concepts[0].parameters))),)  # fmt: skip
+        """Reports every `Cell`, then `FixedPowers`."""
+        plan = self.plan
+        schedule = run_plan(plan, tell, stop)
+        if schedule.complete:
+            fixed = schedule.cells[-1].optimum.design
+            powers = (measure(Objective(plan.quantity, (leg,)), fixed, gradient=False).power for leg in plan.conditions)
+            tell(FixedPowers(tuple(powers)))
+        return schedule
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate
 from rotor.study.study import QUANTITIES, Study, Value, columns_of
 from rotor.study.study_file import StudyFile
-from rotor.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten
+from rotor.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
 """The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
@@ -163,8 +163,10 @@ class Store:
             if known is not None:
                 self._check(known, provenance)
             self._lock = _hold(self.folder)
-            self._write(ABOUT, _about(file.study, provenance, known))  # First: a folder without it is not a study's.
-            self._write(SOURCE, file.text.encode())
+            write_whole(
+                self.folder / ABOUT, _about(file.study, provenance, known)
+            )  # First: a folder without it is not a study's.
+            write_whole(self.folder / SOURCE, file.text)
             for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()
         except OSError as error:
@@ -196,7 +198,7 @@ class Store:
     def keep(self, chunk: int, content: bytes) -> None:
         """Store a chunk. StoreError, for example where the disk is full, leaves the folder as it was."""
         try:
-            self._write(f"chunk-{chunk:06d}.parquet", content)
+            write_whole(self.folder / f"chunk-{chunk:06d}.parquet", content)
         except OSError as error:
             raise StoreError(
                 f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
@@ -214,19 +216,6 @@ class Store:
                 f"folder {str(self.folder)!r} was computed by rotor-explorer {known.get('package_version')}, this is "
                 f"{provenance.version}: give another --out DIR, or install that version"
             )
-
-    def _write(self, name: str, content: bytes) -> None:
-        part = self.folder / f".{name}.part"
-        try:
-            with part.open("wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            part.replace(self.folder / name)
-        except OSError:
-            with suppress(OSError):
-                part.unlink()
-            raise
 
 
 def read_about(folder: str | Path) -> dict[str, Any]:
