@@ -95,18 +95,6 @@ def test_code_compiled_after_its_files_were_replaced_is_not_kept_as_theirs(two: 
 
 
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.97])
-def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, share: float):
-    assert module(source).kernel(1.0) == 2.0
-    (kept,) = source.parent.rglob(f"*kernel*.{ending}")
-    kept.write_bytes(kept.read_bytes()[: int(share * kept.stat().st_size)])
-    damaged = module(source).kernel
-    assert (damaged(1.0), hits(damaged)) == (2.0, 0)
-    again = module(source).kernel
-    assert (again(1.0), hits(again)) == (2.0, 1)
-
-
-@pytest.mark.parametrize("ending", ["nbi", "nbc"])
 def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
     """LLVM ended the program over such code; here no bit of code is looked at that has not its checksum."""
     assert module(source).kernel(1.0) == 2.0

@@ -11,21 +11,8 @@ from numpy.testing import assert_allclose
 import rotor
 from rotor.design.twist import parse_twist
 from rotor.trim.adjoint import power_gradient
-from tests.tools.thirty_designs import FILE
 
 QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}
-
-
-def test_a_rotor_file_is_named_by_its_path(tmp_path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.toml").write_text(FILE, encoding="utf-8")
-    assert rotor.make_design(rotor="mine.toml").rotor.name == "My rotor"
-
-
-def test_help_of_make_design_lists_the_choices():
-    text = rotor.make_design.__doc__ or ""
-    for name in ("lifting-line", "closed-form", "wind-tunnel", "thesis"):
-        assert name in text
 
 
 def test_twist_is_a_number_in_tables():

@@ -1,10 +1,6 @@
 """Files and text of any kind become a value or one short sentence, at once."""
 
-import json
 import os
-import signal
-import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -173,29 +169,6 @@ def test_a_file_that_can_be_written_stays_as_it_is(tmp_path: Path):
     check_writable(path)
     assert path.read_text(encoding="utf-8") == "kept"
     assert make_folder(tmp_path / "x" / "y").is_dir()
-
-
-_SAVING = """
-import sys
-from rotor.files.make_design import make_design
-design = make_design(mu=0.2)
-design.save(sys.argv[1])
-print("saved", flush=True)
-while True:
-    design.save(sys.argv[1])
-"""
-
-
-@pytest.mark.slow
-def test_a_save_that_is_killed_leaves_the_earlier_file(tmp_path: Path):
-    path = tmp_path / "design.json"
-    for pause in (0.01, 0.03, 0.1):
-        with subprocess.Popen([sys.executable, "-c", _SAVING, str(path)], stdout=subprocess.PIPE) as saving:
-            assert saving.stdout is not None
-            assert saving.stdout.readline() == b"saved\n"
-            time.sleep(pause)
-            saving.send_signal(signal.SIGKILL)
-        assert json.loads(path.read_text(encoding="utf-8"))["advance_ratio"] == 0.2
 
 
 def test_a_save_on_a_full_disk_leaves_the_earlier_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -68,19 +68,6 @@ class TestNewest:
         worker.stop()
         assert seen == [0, 49]
 
-    def test_the_last_change_is_always_seen(self):
-        state, seen = [0], [0]
-
-        def update() -> None:
-            seen[0] = state[0]
-
-        worker = NewestWins(update, fail, UpdatePool(2))
-        for k in range(200):
-            state[0] = k
-            worker.wake()
-        until(lambda: seen[0] == 199)
-        worker.stop()
-
     def test_an_error_is_reported_and_survived(self):
         errors, turns = list[Exception](), itertools.count()
 

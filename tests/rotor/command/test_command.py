@@ -3,8 +3,6 @@
 import csv
 import json
 import math
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -280,15 +278,6 @@ def test_ideal_states_its_units(capsys: pytest.CaptureFixture[str]):
     power = solved(capsys, "--mu", "0.2", "--inflow", "uniform", "--off", "tip-loss", "--twist", "ideal")["power_w"]
     assert_allclose(found["glauert_kw"], power["induced"] / 1e3, rtol=0.02)
     assert_allclose(found["lift_limited"], ideal_factor(0.2, found["ct"]) or math.nan, rtol=1e-3)
-
-
-def test_python_m_rotor():
-    """`python -m rotor` from a shell: exit code and clean stderr."""
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "rotor", "solve", "--mu", "0.2", "--json"], capture_output=True, text=True
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    assert json.loads(done.stdout)["status"] == "converged"
 
 
 def test_ranges():

@@ -13,7 +13,7 @@ from rotor.__main__ import main
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
-from rotor.optimisation.ideal_bound import bound_line, find_bound, ideal_factor
+from rotor.optimisation.ideal_bound import find_bound
 from rotor.trim.solve import solve
 
 OTHERS = SHIPPED_ROTORS[1:]
@@ -118,12 +118,6 @@ def test_a_shipped_twist_fits_any_rotor():
     design = make_design(rotor="r22", twist="uh60a+linear:2")
     assert design.twist.spec() == "uh60a+linear:2"
     assert make_design(twist="s61").twist == shipped_aircraft("s61").rotor.builtin_twist
-
-
-def test_the_ideal_bound_is_read_only_for_its_rotor():
-    assert bound_line(5, 0.13).azimuths == 50
-    assert ideal_factor(0.2, 0.0065, "r22") is None
-    assert ideal_factor(0.2, 0.0065, "uh60a") is not None
 
 
 @pytest.mark.slow

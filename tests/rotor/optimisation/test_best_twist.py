@@ -40,15 +40,6 @@ def test_ends_are_those_of_searches_alone():
     )
 
 
-def test_in_hover_it_lies_between_annuli_and_a_lifting_line():
-    best = best_linear_twist(rotor.make_design(hover=True))
-    assert {each.cause for each in best.ranges} == {"flat", "doubt", "mass", "wake"}
-    annuli, line = degrees(best, "wake")
-    assert annuli == pytest.approx(math.degrees(best.rate))
-    assert annuli == pytest.approx(-16.5, abs=0.3)
-    assert line == pytest.approx(-18.3, abs=0.3)
-
-
 def test_on_a_stand_neither_mass_nor_drag_counts():
     stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
     assert nearby_flights(stand) == []

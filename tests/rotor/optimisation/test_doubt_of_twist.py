@@ -92,11 +92,6 @@ def test_hover_has_another_wake_with_more_twist(capsys: pytest.CaptureFixture[st
     assert math.isfinite(answer["saving_doubt_percent"])
 
 
-def test_in_hover_the_best_twist_is_a_band_between_the_wakes(capsys: pytest.CaptureFixture[str]):
-    assert main(["optimise", "--hover", "--starts", "1"]) == 0
-    assert "-18.3 to -16.5 between annuli and a lifting line" in " ".join(capsys.readouterr().out.split())
-
-
 def test_the_doubt_of_a_twist_in_flight_names_masses_and_drag_areas(capsys: pytest.CaptureFixture[str]):
     command = ["optimise", "--mu", "0.2", "--inflow", "uniform", "--starts", "1", "--doubt", "--json"]
     assert main(command) == 0

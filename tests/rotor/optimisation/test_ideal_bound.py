@@ -221,9 +221,3 @@ def test_no_trimmed_blade_is_below_the_bound(mu: float):
 )
 def test_it_is_compared_only_with_what_it_bounds(design: Design, why: str):
     assert why in not_bounded(design)
-
-
-def test_bound_at_the_ends_of_the_table():
-    assert ideal_factor(0.0, 0.0065) == 1.0
-    assert ideal_factor(0.42, 0.0065) is None
-    assert ideal_factor(0.2, 0.006509) == pytest.approx(1.145, abs=1e-3)

@@ -31,18 +31,6 @@ def small(mu: float, **choices: float) -> Design:
     return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
-def test_mission_is_the_mean_by_hours():
-    """Hand calculation: (1·P1 + 3·P2)/4."""
-    design = small(0.2)
-    conditions = (FlightCondition(0.0, 8000.0), FlightCondition(0.25, 7500.0, 1000.0))
-    powers = [solve(replace(design, condition=condition)).power.total for condition in conditions]
-    made = measure(
-        Objective("total", (WeightedCondition(conditions[0], 1.0), WeightedCondition(conditions[1], 3.0))), design
-    )
-    assert made.power is not None
-    assert_allclose(made.power, (powers[0] + 3.0 * powers[1]) / 4.0, rtol=1e-9)
-
-
 def test_hover_and_cruise():
     design = small(0.2)
     mixed = hover_and_cruise(design, 0.25, 0.3)

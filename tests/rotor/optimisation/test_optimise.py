@@ -84,12 +84,6 @@ def test_the_free_division_is_no_worse_than_any_fixed_one():
         assert free.power <= fixed.power * (1.0 + 1e-6)
 
 
-def test_a_start_that_leads_to_a_known_minimum_takes_two_trims_at_most():
-    (one, _), (six, best) = (searched(small(0.25), "two-segment", starts=n) for n in (1, 6))
-    assert len(best.starts) == 6
-    assert six.evaluations - one.evaluations <= 2 * 5
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.1, 0.2, 0.3, 0.35])
 def test_no_point_of_a_fine_grid_is_better(mu: float):

@@ -145,16 +145,6 @@ def workers_of(folder: Path) -> set[str]:
     return {parquet.read_metadata(path).metadata[b"worker"].decode() for path in folder.glob("chunk-*.parquet")}
 
 
-def test_two_workers_give_the_results_of_one_process(cluster: Cluster, tmp_path: Path):
-    file, out = study_file(tmp_path), tmp_path / "out"
-    done = finished(file, out, "--scheduler", cluster.address)
-    assert (done.returncode, done.stderr.count("\n")) == (0, 1)
-    assert "has no encryption and no password" in done.stderr
-    assert "1,860 of 1,860 points, 0 failed" in done.stdout
-    same_as_serial(file, read_results(out))
-    assert len(workers_of(out)) == 2
-
-
 def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

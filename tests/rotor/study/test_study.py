@@ -4,7 +4,6 @@ import importlib
 import json
 import math
 import signal
-import time
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import pairwise
@@ -18,12 +17,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 from rotor.__main__ import main
 from rotor.assets import asset_path
 from rotor.command.common import interruptible
-from rotor.command.study import estimate
 from rotor.files.make_design import make_design
 from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
-from rotor.study.study import QUANTITIES, Sample, StudyAxis, StudyPoints, columns_of, default_chunk
+from rotor.study.study import QUANTITIES, Sample, StudyAxis, StudyPoints, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -31,23 +29,6 @@ from rotor.trim.solve import solve
 WHENCE = StudyProvenance("0.0", None, "0")
 COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
 SMALL = 'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n' + COARSE
-
-
-BLADES = """
-title = "Blades in hover and cruise"
-chunk = 100
-[axes]
-mu = [0, 0.15, 0.3]
-inboard_rate_deg = [-16, -8, 0]
-outboard_rate_deg = [-16, -8]
-division = [0.4, 0.6]
-[fixed]
-concept = "two-segment"
-[models]
-inflow = "pitt-peters"
-elements = 16
-azimuths = 48
-"""
 
 
 def test_neighbours_differ_by_one_step_and_every_point_occurs_once():
@@ -86,12 +67,6 @@ def test_samples_fill_their_ranges_and_are_ordered_in_small_steps(method: Any):
     assert_allclose(unit.mean(axis=0), 0.5, atol=0.01)
     step = np.sqrt((np.diff(unit, axis=0) ** 2).sum(axis=1)).mean()
     assert step < 3.0 / math.sqrt(500)  # At random it would be 0.52.
-
-
-def test_chunks_hold_all_points_in_order():
-    study = parse_study(SMALL)
-    assert [study.span(k) for k in range(study.chunks)] == [(0, 4), (4, 6)]
-    assert default_chunk(10**9, search=False) * 20_000 >= 10**9  # Not too many files in a folder.
 
 
 STAND = "[axes]\nmu = [0.1]\n[models]\ntrim = 'wind-tunnel'\n[fixed]\nrotor = 'xv15'\n"
@@ -464,20 +439,6 @@ def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
     assert {"index_percent", "hub_mx_nm", "torsion_1_per_rev"} <= names
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [pytest.param("two_segment.toml", marks=pytest.mark.nightly), "hover_cruise.toml"])
-def test_a_dry_run_tells_the_time_within_a_factor_of_one_and_a_half(name: str):
-    """Searches too, of which the last thirtieth takes a third of the time; chunks evenly spread stand for the whole."""
-    study = read_study(asset_path(f"studies/{name}")).study
-    each, _ = estimate(study)
-    spans = [study.span(chunk) for chunk in range(0, study.chunks, 1 if study.optimum else 4)]
-    begin = time.process_time()
-    for span in spans:
-        evaluate_points(study, *span)
-    spent = (time.process_time() - begin) / sum(end - first for first, end in spans)
-    assert spent / 1.5 < each < 1.5 * spent
-
-
 SMALLER = {
     "hover_cruise.toml": {},
     "hundred_thousand.toml": {"100_000": "48"},
@@ -500,9 +461,3 @@ def test_shipped_studies_run_to_their_end(name: str, tmp_path: Path):
     file.write_text(text, encoding="utf-8")
     assert main(["study", str(file), "--out", str(tmp_path / "out"), "--workers", "1"]) == 0
     assert read_results(tmp_path / "out").good.all()
-
-
-def test_elastic_blades_trim_in_hover_too():
-    """The bracket of the collective in hover must not close while the elastic twist still moves."""
-    rows = evaluate_points(parse_study(BLADES), 0, 36)
-    assert [row["status"] for row in rows] == ["converged"] * 36
