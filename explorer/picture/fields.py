@@ -33,6 +33,8 @@ class Field:
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
     absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
     """Where else the quantity is not defined, on the polar grid."""
+    needs: str = ""
+    """Field of `DiskFields` that holds the quantity, where a model may be off; empty: always there."""
     note: str = ""
     speeds: int | None = None
     """Size and range go with chord × tip speed to this power; None: the same for all rotors."""
@@ -46,8 +48,14 @@ class Field:
     def label(self) -> str:
         return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
 
+    def exists(self, solution: Solution) -> bool:
+        """Whether the models of a solution have the quantity."""
+        return not self.needs or getattr(solution.disk, self.needs) is not None
+
     def void(self, solution: Solution, grid: PolarGrid) -> NDArray[np.bool_] | None:
         """Where there is no value on the polar grid, shape (radii, azimuths); None: nowhere."""
+        if not self.exists(solution):
+            return np.ones(grid.shape, dtype=bool)
         parts = [] if self.absent is None else [self.absent(solution, grid)]
         if self.void_in_reverse_flow:
             parts.append(reverse_flow(solution, grid))
@@ -143,11 +151,6 @@ def _unsteady(name: str) -> Callable[[Solution, PolarGrid], Array]:
     return sample
 
 
-def _without(name: str) -> Callable[[Solution, PolarGrid], NDArray[np.bool_]]:
-    """Everywhere where the disk has no such field, else nowhere."""
-    return lambda solution, grid: np.full(grid.shape, getattr(solution.disk, name) is None)
-
-
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
@@ -164,12 +167,17 @@ FIELDS: dict[str, Field] = {
         Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
-        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, _without("unsteady")),
-        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, _without("unsteady")),
-        Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, absent=_without("elastic_twist")),
+        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, needs="unsteady"),
+        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, needs="unsteady"),
+        Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, needs="elastic_twist"),
     )
 }
 """By title, in the order of the menu."""
+
+
+def fields_of(solution: Solution) -> list[str]:
+    """Titles of the quantities that the models of a solution have."""
+    return [title for title, field in FIELDS.items() if field.exists(solution)]
 
 
 def fitted_range(field: Field, values: Array, trim: float = 0.005) -> tuple[float, float]:

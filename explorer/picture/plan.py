@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from explorer.model.inputs import ViewState
-from explorer.model.units import number
+from explorer.model.units import UNITS, number
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.picture import disk_png
@@ -166,7 +166,7 @@ def plan(
         "field": field.title,
         "unit": field.unit,
         "regions": _regions(solution, view, pinned),
-        "flight": solution.design.airspeed > 0.0,
+        "flight": UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
         "around": as_json(around_chart(solution)),
         "mu": round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
     }
@@ -212,16 +212,24 @@ def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> li
 
 
 def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
-    """Parts of the disk πR² and of the thrust in each region, by name. Thrust may be negative there."""
+    """Parts of the disk πR² and of the thrust in each region, by name. Thrust may be negative there.
+
+    The two parts of stall add up to the area that the solution says; the finer grid divides it between them.
+    """
     grid = polar_grid(solution.disk, *_FINE)
     thrust = grid.refine(solution.disk.dct)
     area = np.broadcast_to(grid.r[:, None], thrust.shape)
     rings, steps = (grid.r[1] - grid.r[0]), 2.0 * math.pi / len(grid.psi)
     total = float(np.sum(thrust))
-    return {
+    shares = {
         name: (float(np.sum(area[inside])) * rings * steps / math.pi, float(np.sum(thrust[inside])) / total)
         for name, inside in region_masks(solution, grid).items()
     }
+    stalled = shares["stall"][0] + shares["negative_stall"][0]
+    for name in ("stall", "negative_stall") if stalled else ():
+        area_share, thrust_share = shares[name]
+        shares[name] = area_share * solution.stalled_area / stalled, thrust_share
+    return shares
 
 
 def _lines(segments: Array) -> list[list[list[float]]]:

@@ -11,7 +11,7 @@ from explorer.hosting.browser import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.picture.fields import FIELDS, Field
+from explorer.picture.fields import FIELDS, Field, fields_of
 from explorer.scene.controller import TURN_RATES
 from rotor.chart import bar_ticks
 
@@ -38,6 +38,7 @@ class Display:
         """B − A is to be shown as soon as there is an A."""
         self._allowed = self._held = self._playing = self._fitted = self._faded = False
         self._pace, self._stalled = "normal", ""
+        self._fields = list(FIELDS)
         self._range: tuple[Field, tuple[float, float]] | None = None
         self._beyond = (False, False)
         bridge.on("field", lambda title: self._change(field=title) if title in FIELDS else None)
@@ -92,7 +93,8 @@ class Display:
         self._show_field()
 
     def show(self, state: SessionState) -> None:
-        """How much of the disk is stalled."""
+        """How much of the disk is stalled, and the quantities that its models have."""
+        self._fields = fields_of(state.solution)
         share = 100.0 * state.solution.stalled_area
         self._stalled = f"{number(share, 1)} %" if share >= 0.05 else ""
         self._show_field()
@@ -145,7 +147,7 @@ class Display:
         (field, range_), view = self._range, self._view
         self._bridge.set(
             field={
-                "fields": list(FIELDS),
+                "fields": [title for title in FIELDS if title in self._fields or title == view.field],
                 "field": view.field,
                 "unit": f"{field.unit}{field.note}",
                 "colours": _bar(field.colours),

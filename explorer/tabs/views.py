@@ -123,8 +123,8 @@ class SettingsPanel(Tab):
         gui.add_html(tag("div.rx.rx-dim.rx-small", words))
         bind("units", lambda: self._change(units=_after(tuple(UNITS), context.view().units)))
         bind("dark", lambda: self._change(dark=not context.view().dark))
-        bind("field_next", lambda: self._change(field=_after(tuple(FIELDS), context.view().field)))
-        bind("field_previous", lambda: self._change(field=_after(tuple(FIELDS), context.view().field, -1)))
+        bind("field_next", lambda: self._step_field(1))
+        bind("field_previous", lambda: self._step_field(-1))
 
     def show(self, state: SessionState) -> None:
         """Follow the view, which keys change too."""
@@ -133,6 +133,12 @@ class SettingsPanel(Tab):
     def _change(self, **values: object) -> None:
         display = self._context.display
         display.set_view(replace(display.view(), **values))  # pyright: ignore[reportArgumentType]
+
+    def _step_field(self, step: int) -> None:
+        """The next quantity that there is, or the one before."""
+        state, shown = self._context.state(), self._context.view().field
+        titles = [t for t in FIELDS if state is None or t == shown or FIELDS[t].exists(state.solution)]
+        self._change(field=_after(tuple(titles), shown, step))
 
     def _enlarge(self) -> None:
         """Big type in wider panels, or both as usual."""

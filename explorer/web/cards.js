@@ -50,6 +50,11 @@
     arrows: ['Inflow', '<path d="M5 0v9M2.200 6 5 9.5 7.800 6M15 0v9M12.200 6 15 9.5 17.800 6" stroke="var(--rx-accent)" stroke-width="1.5" fill="none"/>'],
     drag_divergence: ['Drag divergence', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
   };
+  const line = (colour, dashes = '') => `<path d="M0 5.5H20" stroke="${colour}" stroke-width="2.4" stroke-dasharray="${dashes}"/>`;
+  const PLANNED = [
+    ['stall', 'Stall', line('var(--rx-stall)')], ['negative_stall', 'Negative stall', line('var(--rx-stall)', '7 3')],
+    ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')], ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
+  ];
   RX.paint('field', now => {
     const card = document.querySelector('.rxf-field');
     card.hidden = !now;
@@ -69,8 +74,13 @@
     fit.textContent = now.fitted ? 'Reset' : 'Fit';
     fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
     const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="beside" aria-pressed="${now.beside}">A beside B</button><button data-do="region" data-value="wipe" aria-pressed="${now.wipe}">Wipe A | B</button>`;
-    part('legend').innerHTML = Object.entries(REGIONS).map(([name, [title, swatch]]) =>
-      `<button data-do="region" data-value="${name}" aria-pressed="${now.regions[name]}"><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${name === 'stall' && now.stalled ? ` ${text(now.stalled)}` : ''}</button>`).join('') + apart;
+    // The plan draws outlines, and each region has its own share there.
+    const shares = RX.state.plan && Object.fromEntries(RX.state.plan.regions.map(one => [one.name, one.words.split(' · ')[0]]));
+    const entries = shares ? PLANNED.filter(([name]) => name !== 'negative_stall' || name in shares) : Object.entries(REGIONS).map(([name, [title, swatch]]) => [name, title, swatch]);
+    part('legend').innerHTML = entries.map(([name, title, swatch]) => {
+      const region = name === 'negative_stall' ? 'stall' : name, share = shares ? shares[name] : name === 'stall' && now.stalled;
+      return `<button data-do="region" data-value="${region}" aria-pressed="${now.regions[region]}" ${!shares && name === 'stall' ? 'title="Of the disk, at high and at negative angles of attack"' : ''}><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${share ? shares ? ` <span class="rxf-num">${text(share)}</span>` : ` ${text(share)}` : ''}</button>`;
+    }).join('') + apart;
   });
 
   RX.paint('turn', now => {

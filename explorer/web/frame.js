@@ -78,6 +78,9 @@
     if (near.dataset.page) return toggle(near.dataset.page);
     if (near.dataset.do === 'pin' && state.bar?.pinned && near.closest('.rxf-bar')) return pinMenu(near);
     if (near.dataset.do === 'mode') mark(near.dataset.value);
+    // In a narrow window a mode brings its controls along, and a view makes room for itself.
+    if (near.dataset.do === 'mode' && innerWidth <= 1100) openRail(true);
+    if (near.dataset.do === 'view' && innerWidth <= 860) openRail(false);
     if (near.closest('[data-part=menu]') && near.dataset.do !== 'along') menu.hidden = true;
     RX.send(near.dataset.do, near.type === 'checkbox' ? near.checked : near.dataset.value ?? null);
   });
@@ -133,16 +136,43 @@
       RX.send('drawer', '');
       if (page.dataset.rail === 'open') return;
     }
-    if (page.dataset[name] === 'open') delete page.dataset[name]; else page.dataset[name] = 'open';
-    root.querySelector(`[data-page=${name}]`).ariaExpanded = String(page.dataset[name] === 'open');
+    open(name, page.dataset[name] !== 'open');
+  }
+  function open(name, wanted) {
+    if (wanted) page.dataset[name] = 'open'; else delete page.dataset[name];
+    for (const button of root.querySelectorAll(`[data-page=${name}]`)) button.ariaExpanded = String(wanted);
     window.dispatchEvent(new Event('resize'));
   }
-  function openRail(open) {
-    if (open) page.dataset.rail = 'open'; else delete page.dataset.rail;
-    root.querySelector('[data-page=rail]').ariaExpanded = String(open);
-  }
-  RX.openRail = openRail;
-  if (innerWidth <= 700) openRail(true);
+  const openRail = RX.openRail = wanted => open('rail', wanted);
+  if (innerWidth <= 860) openRail(true);
+  // The sheet follows the finger that pulls its edge; the canvas takes its new size when it is let go.
+  const grip = root.querySelector('.rxf-grip');
+  let pull = null, pulled = -Infinity;
+  grip.addEventListener('pointerdown', event => {
+    const high = Number.parseFloat(getComputedStyle(document.querySelector('[data-dock-region=right]') ?? grip).height);
+    pull = {y: event.clientY, high: page.matches('[data-drawer], [data-rail=open]') ? high : 0, moved: false};
+    grip.setPointerCapture(event.pointerId);
+  });
+  grip.addEventListener('pointermove', event => {
+    if (!pull || (!pull.moved && Math.abs(event.clientY - pull.y) < 6)) return;
+    if (!pull.moved) page.style.setProperty('--rx-under', `${pull.high}px`);
+    pull.moved = true;
+    pull.now = Math.min(Math.max(pull.high + pull.y - event.clientY, 0), 0.62 * innerHeight);
+    page.style.setProperty('--rx-pulled', `${pull.now}px`);
+    if (!page.matches('[data-drawer]')) page.dataset.rail = 'open';
+  });
+  grip.addEventListener('click', event => { if (event.timeStamp - pulled < 400) event.stopPropagation(); });  // It was no press.
+  grip.addEventListener('pointercancel', () => { pull = null; page.style.removeProperty('--rx-under'); });
+  grip.addEventListener('pointerup', event => {
+    const {moved, now} = pull ?? {};
+    pull = null;
+    page.style.removeProperty('--rx-under');
+    if (!moved) return;
+    if (now < 90) page.style.removeProperty('--rx-pulled');
+    if (now < 90 && state.bar?.drawer) RX.send('drawer', '');
+    openRail(now >= 90);
+    pulled = event.timeStamp;
+  });
 
   function mark(mode) {
     for (const button of root.querySelectorAll('.rxf-modes button')) button.setAttribute('aria-current', String(button.dataset.value === mode));
@@ -259,7 +289,7 @@
     });
   });
   function placeLabels(client, box) {
-    const taken = [];
+    const taken = [], cards = [...root.querySelectorAll('.rxf-stage > .rxf-card, .rxf-low > .rxf-card')].map(card => card.getBoundingClientRect());
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
@@ -274,9 +304,15 @@
         top += label.offsetHeight / 2;
         for (const [near, over, wide, high] of taken) if (left < near + wide && near < left + label.offsetWidth && top < over + high && over < top + high) top = over + high + 2;
       }
-      taken.push([left, top, label.offsetWidth, label.offsetHeight]);
-      label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';
-      label.style.transform = `translate(${Math.max(4, Math.min(left, box.width - label.offsetWidth - 4)).toFixed(1)}px, ${Math.max(4, top).toFixed(1)}px)`;
+      left = Math.max(4, Math.min(left, box.width - label.offsetWidth - 4));
+      top = Math.max(4, top);
+      // None lies behind a card or over another.
+      const [wide, high] = [label.offsetWidth, label.offsetHeight], meets = (x, y, w, h) => left < x + w && x < left + wide && top < y + h && y < top + high;
+      const free = !taken.some(other => meets(...other)) && !cards.some(card => card.width && meets(card.left - box.left, card.top - box.top, card.width, card.height));
+      seen = free && at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1;
+      if (seen) taken.push([left, top, wide, high]);
+      label.style.visibility = seen ? 'visible' : 'hidden';
+      label.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
     });
   }
 

@@ -16,7 +16,7 @@
     page.toggleAttribute('data-lecture', Boolean(step));
     place.hidden = !step;
     if (begins || !step) {
-      RX.openRail(!step && innerWidth <= 700);  // Full-bleed, until the controls are asked for.
+      RX.openRail(!step && innerWidth <= 860);  // Full-bleed, until the controls are asked for.
       if (!step) story.end();
       window.dispatchEvent(new Event('resize'));
     }

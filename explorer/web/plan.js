@@ -2,12 +2,12 @@
 // angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
 (() => {
   const {text, part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
-  const DEGREE = Math.PI / 180, RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40};
+  const DEGREE = Math.PI / 180, RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
   const COLOURS = {stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)'};
   const DASHES = {negative_stall: '7 3', drag_divergence: '3 4'};
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'c_l', 2, ''], ['margin', 'To stall', 1, '°']];
   const fixed = (value, digits, unit = '') => Charts.fixed(value, digits) + unit;
-  let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
+  let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null, told = null;
 
   const unpack = ({low, step, data}) => {
     const bytes = Uint8Array.from(atob(data), one => one.charCodeAt(0)), steps = new Uint16Array(bytes.buffer);
@@ -30,10 +30,13 @@
   const polar = (x, y) => [Math.hypot(x - layout.x, y - layout.y) / layout.radius, (Math.atan2(x - layout.x, y - layout.y) / DEGREE + 360) % 360];
   const path = line => 'M' + line.map(([x, y]) => `${(layout.x + layout.radius * x).toFixed(1)} ${(layout.y + layout.radius * y).toFixed(1)}`).join('L');
 
-  // The largest circle between the cards; on a small stage the labels stand below it.
+  // The largest circle beside the cards, or on a stage that is higher than wide between them; there the key of the
+  // regions has their shares, which labels beside the circle have else.
   function arrange() {
-    const width = place.clientWidth, height = place.clientHeight, wide = width > 640;
-    const left = wide ? 288 : 20, right = wide ? LABEL.width + 26 : 20, top = wide ? 34 : (seen('.rxf-power')?.bottom ?? 84) + 14, bottom = wide ? 34 : 250;
+    const width = place.clientWidth, height = place.clientHeight, wide = width > 700 && width >= height;
+    page.dataset.plan = wide ? 'beside' : 'stacked';
+    const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
+    const left = wide ? 288 : 8, right = wide ? LABEL.width + 26 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM, bottom = wide ? ROOM : height - low + ROOM;
     const radius = Math.max(60, Math.min((height - top - bottom) / 2, (width - left - right) / 2));
     const chart = around.firstElementChild;
     return {chart: {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
@@ -45,23 +48,19 @@
       const main = psi % 90 === 0, some = psi % 30 === 0, [ax, ay] = xy(1.008, psi), [bx, by] = xy(1 + (main ? .04 : some ? .026 : .014), psi);
       marks.push(`M${ax.toFixed(1)} ${ay.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}`);
     }
-    const words = [[0, 'TAIL · ψ 0°'], [90, 'ADVANCING · 90°'], [180, RX.state.plan.flight ? 'NOSE ↑ · 180°' : 'NOSE · 180°'], [270, 'RETREATING · 270°']].map(([psi, word]) => {
-      if (psi % 180) {  // Along the rim at the sides, where labels stand further out.
-        const side = psi === 90 ? 1 : -1, cx = x + side * (radius + 22);
-        return `<text x="${cx}" y="${y}" text-anchor="middle" transform="rotate(${90 * side} ${cx} ${y})">${word}</text>`;
-      }
-      return `<text x="${x}" y="${psi ? y - radius - 17 : y + radius + 25}" text-anchor="middle">${word}</text>`;
-    });
+    // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
+    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27;
+    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [x + radius, below, 'end', 'ADVANCING · 90° →'], [x - radius, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
+      .map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
+    const [ax, ay] = xy(1.055, 32), [bx, by] = xy(1.055, 52), head = [[1.03, 52], [1.055, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi).map(v => v.toFixed(1)));
+    words.push(`<path d="M${ax} ${ay}A${1.055 * radius} ${1.055 * radius} 0 0 0 ${bx} ${by}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/><polygon points="${head.join(' ')}" fill="var(--rx-dim)"/>`);
     return `<circle cx="${x}" cy="${y}" r="${radius}" fill="none" stroke="var(--rx-ink)"/><circle cx="${x}" cy="${y}" r="${radius * RX.state.plan.root}" fill="var(--rx-paper)" stroke="var(--rx-faint)"/>
       <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${words.join('')}`;
   }
 
   // Each label on the nearer side, as high as its region, none over another; what has no room left goes right.
   function labels(regions) {
-    if (!layout.wide) {
-      const top = layout.y + layout.radius + 34;
-      return {lines: '', boxes: regions.map((one, k) => ({one, left: 16, top: top + 21 * k}))};
-    }
+    if (!layout.wide) return {lines: '', boxes: []};
     const low = seen('.rxf-field'), high = seen('.rxf-power');
     const columns = {
       left: {x: 16, from: (high?.bottom ?? 20) + 12, to: (low?.top ?? layout.height) - LABEL.height - 12, taken: []},
@@ -94,14 +93,16 @@
   // A card of the stage, in the stage's own coordinates.
   function seen(name) {
     const box = document.querySelector(name)?.getClientRects()[0], stage = place.getBoundingClientRect();
-    return box && {top: box.top - stage.top, bottom: box.bottom - stage.top};
+    return box && {left: box.left - stage.left, right: box.right - stage.left, top: box.top - stage.top, bottom: box.bottom - stage.top};
   }
 
   RX.paint('plan', now => {
-    page.toggleAttribute('data-plan', Boolean(now));
+    if (!now) delete page.dataset.plan;
+    const key = now && now.regions.map(one => one.words).join();
+    if (key !== told) { told = key; RX.again('field'); }  // Its key is that of the plan.
     place.hidden = around.hidden = !now;
     if (!now) { pointer = null; pins = []; around.innerHTML = ''; return; }
-    if (!around.childElementCount) around.innerHTML = '<div class="rxf-chart" data-wide></div><div class="rxf-chart rxf-shares"></div>';
+    if (!around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
     if (now.values) {
       tables = Object.fromEntries(Object.entries(now.values).map(([name, one]) => [name, unpack(one)]));
       tables.before = now.alpha_a ? unpack(now.alpha_a) : undefined;
@@ -113,9 +114,9 @@
     const before = now.regions.flatMap(one => one.before).map(line => `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`).join('');
     const outlines = shown.flatMap(one => one.lines.map(line => `<path d="${path(line)}" stroke="var(--rx-paper)" stroke-width="4" opacity=".75"/><path d="${path(line)}" stroke="${COLOURS[one.name]}" stroke-width="2" ${DASHES[one.name] ? `stroke-dasharray="${DASHES[one.name]}"` : ''}/>`)).join('');
     place.querySelector('svg').innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}" href="data:image/png;base64,${now.picture}"/>
-      ${rim()}<g data-blades></g>${before}<g fill="none" stroke-linejoin="round">${outlines}${named.lines}</g><g data-cursor></g>`;
+      ${rim()}<g data-blades></g>${before}<g fill="none" stroke-linejoin="round">${outlines}${named.lines}</g><g data-tied></g><g data-cursor></g>`;
     place.querySelector('svg').setAttribute('viewBox', `0 0 ${width} ${height}`);
-    place.querySelector('[data-labels]').innerHTML = named.boxes.map(({one, left, top}) => `<div class="rxf-card rxf-region" data-region="${one.name}" style="--c:${COLOURS[one.name]};left:${left}px;top:${top}px" ${layout.wide ? '' : 'data-line'}><b>${text(one.title)}</b><span class="rxf-num">${text(one.words)}</span></div>`).join('');
+    place.querySelector('[data-labels]').innerHTML = named.boxes.map(({one, left, top}) => `<div class="rxf-card rxf-region" data-region="${one.name}" style="--c:${COLOURS[one.name]};left:${left}px;top:${top}px"><b>${text(one.title)}</b><span class="rxf-num">${text(one.words)}</span></div>`).join('');
     turn();
     cursor();
     drawPins();
@@ -143,14 +144,39 @@
     return ROWS.map(([name, title, digits, unit]) => `<dt>${title}</dt><dd class="${name === 'margin' && value.margin < 0 ? 'rxf-bad' : ''}">${fixed(value[name], digits, unit)}</dd>`).join('') + field;
   };
   const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-ride-at="${pin}" title="One slow turn with this section">Ride</button><button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
-  // Beside its point, away from the hub where there is room. A card's size is asked for once: to ask between two writes
-  // costs a layout.
+  // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
+  function size(element) {
+    const kind = `${element.querySelectorAll('dt').length} ${element.hasAttribute('data-pin')} ${RX.state.plan.field}`;
+    return sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
+  }
+  const inside = (left, top, w, h) => [Math.min(Math.max(8, left), layout.width - w - 8), Math.min(Math.max(8, top), layout.height - h - 8)];
+  // Beside its point, away from the hub where there is room.
   function put(element, r, psi) {
-    const [x, y] = xy(r, psi), kind = `${element.querySelectorAll('dt').length} ${element.hasAttribute('data-pin')} ${RX.state.plan.field}`;
-    const [w, h] = sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
-    const outward = x >= layout.x ? x + 16 : x - 16 - w, left = Math.min(Math.max(8, outward), layout.width - w - 8), top = Math.min(Math.max(8, y - h / 2), layout.height - h - 8);
+    const [x, y] = xy(r, psi), [w, h] = size(element), [left, top] = inside(x >= layout.x ? x + 16 : x - 16 - w, y - h / 2, w, h);
     element.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
+  }
+  // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
+  function tie(all) {
+    const stage = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean), labels = [...place.querySelectorAll('[data-labels] > *')].map(one => ({left: one.offsetLeft, top: one.offsetTop, right: one.offsetLeft + one.offsetWidth, bottom: one.offsetTop + one.offsetHeight}));
+    const points = RX.state.plan.regions.flatMap(one => one.lines.flat()).map(([px, py]) => [layout.x + layout.radius * px, layout.y + layout.radius * py]).concat(pins.map(pin => xy(pin.r, pin.psi)));
+    const taken = [...stage, ...labels], lines = [];
+    pins.forEach((pin, k) => {
+      if (!all[k]) return;
+      const [x, y] = xy(pin.r, pin.psi), [w, h] = size(all[k]);
+      let best = null;
+      for (let angle = 0; angle < 360; angle += 15) for (const far of [14, 60, 120, 200, 300]) {
+        const [ux, uy] = [Math.cos(angle * DEGREE), Math.sin(angle * DEGREE)], [left, top] = inside(x + ux * (far + w / 2) - w / 2, y + uy * (far + h / 2) - h / 2, w, h);
+        const over = taken.filter(box => left < box.right && box.left < left + w && top < box.bottom && box.top < top + h).length;
+        const hides = points.filter(([px, py]) => px > left - 6 && px < left + w + 6 && py > top - 6 && py < top + h + 6).length;
+        const cost = 1000 * over + 12 * hides + far;
+        if (!best || cost < best.cost) best = {cost, left, top};
+      }
+      taken.push({left: best.left, top: best.top, right: best.left + w, bottom: best.top + h});
+      lines.push(`<path d="M${x} ${y}L${Math.min(Math.max(x, best.left), best.left + w)} ${Math.min(Math.max(y, best.top), best.top + h)}" stroke="var(--rx-accent)" stroke-width="1.5"/>`);
+      all[k].style.transform = `translate(${best.left.toFixed(0)}px, ${best.top.toFixed(0)}px)`;
+    });
+    place.querySelector('[data-tied]').innerHTML = lines.join('');
   }
   function cursor() {
     const here = place.querySelector('[data-cursor]'), reading = place.querySelector('[data-reading]');
@@ -168,13 +194,13 @@
   function drawPins() {
     const all = place.querySelector('[data-pins]');
     all.innerHTML = tables.alpha ? pins.map((pin, k) => `<div class="rxf-card rxf-reading" data-pin>${card(pin.r, pin.psi, k)}</div>`).join('') : '';
-    pins.forEach((pin, k) => { if (all.children[k]) put(all.children[k], pin.r, pin.psi); });
+    tie([...all.children]);
   }
 
-  // α around the circle, with the stall angles there, and the shares of the regions beside it.
+  // α around the circle, with the stall angles there.
   function drawAround() {
     if (!tables.alpha || !around.childElementCount) return;
-    const [chart, shares] = around.children, {width, height} = layout.chart, x = Array.from({length: 121}, (_, k) => 3 * k);
+    const chart = around.firstElementChild, {width, height} = layout.chart, x = Array.from({length: 121}, (_, k) => 3 * k);
     const at360 = table => x.map(psi => reversed(circle, psi) ? null : at(table, circle, psi));
     const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), line = (y, colour, thick, dashes) => ({kind: 'line', x, y, colour, width: thick, dashes});
     const margins = alpha.map((v, k) => v === null ? Infinity : Math.min(upper[k] - v, v - lower[k])), margin = Math.min(...margins), here = pointer && !reversed(circle, pointer.psi);
@@ -187,8 +213,6 @@
         line(alpha, 'var(--rx-blade)', 2.1), ...(here ? [{kind: 'points', x: [pointer.psi], y: [at(tables.alpha, circle, pointer.psi)], colour: 'var(--rx-blade)'}] : []),
       ],
     }, {width, height});
-    const regions = RX.state.plan.regions.filter(one => one.lines.length);
-    shares.innerHTML = `<div class="rxf-head"><b>Regions</b><span class="rxf-dim">share of disk area · of thrust</span></div>` + (regions.map(one => `<div class="rxf-share rxf-num"><i style="background:${COLOURS[one.name]}"></i><span>${text(one.title)}</span><span>${text(one.words.replace(/ (area|thrust)/g, ''))}</span></div>`).join('') || '<p class="rxf-dim">None is marked.</p>');
   }
 
   RX.also('power', now => place.toggleAttribute('data-faded', Boolean(now.problem)));
@@ -235,5 +259,5 @@
     cursor(); drawPins(); drawAround();
     RX.say(card(pointer.r, pointer.psi, null).replace(/<dt>/g, ', ').replace(/<\/dt>/g, ' ').replace(/<[^>]+>/g, ''));
   });
-  new ResizeObserver(() => RX.again('plan')).observe(place);
+  for (const one of [place, ...document.querySelectorAll('.rxf-field, .rxf-power')]) new ResizeObserver(() => RX.again('plan')).observe(one);
 })();
