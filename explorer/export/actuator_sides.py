@@ -192,16 +192,18 @@ def _fails(report: ActuatorReport) -> Markup:
                 number(100.0 * there.stalled_area, 1),
                 number(math.degrees(there.collective), 1),
                 number(math.degrees(there.cyclic), 1),
+                number(None if there.controls_left is None else 100.0 * there.controls_left),
                 number(None if one is None else one.force_n),
                 number(None if one is None else one.moment_nm),
                 number(None if one is None else 1e3 * one.track_m),
             )
             rows.append(_cells(cells, "failure", f"failure-{found.stops_at:g}-{point.mu:g}"))
     heads = ("stops in", "flown in", "twist °", "power kW", "cost kW", "engines left kW", "stalled %", "collective °",
-             "cyclic °", "1/rev N", "1/rev N·m", "track mm")  # fmt: skip
+             "cyclic °", "controls left %", "1/rev N", "1/rev N·m", "track mm")  # fmt: skip
     note = (
         f"All blades stopped, cruise at µ {CRUISE:g}; the last three columns: stopped on one blade only, at once per "
-        "revolution on the hub. Engines as at sea level, without losses. Left out there: a pilot who trims again, the "
+        "revolution on the hub. Controls left: of a control's range to its nearer stop, 50 in the middle. Engines as "
+        "at sea level, without losses. Left out there: a pilot who trims again, the "
         "wake of one different blade, its motion in lag and bending."
     )
     return tag("section", title, _table(rows, heads, "failures"), tag("p.note", note))

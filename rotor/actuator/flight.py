@@ -12,6 +12,7 @@ from rotor.actuator.optimum import best_swings, best_twist
 from rotor.actuator.verdict import NOTHING, Verdict
 from rotor.arrays import Array
 from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -70,6 +71,8 @@ class ActuatorFlight:
     """
 
     legs: tuple[FlightLeg, ...]
+    jig: TwistLaw
+    """Twist of the blade with no voltage (a tube at rest)."""
     wanted: Array
     """Twist of least power on each leg by the same blade and actuator, were its range without end."""
     reached: Array
@@ -178,6 +181,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         saved = np.array([engines.flow(before) - engines.flow(after) for before, after in pairs])
     return ActuatorFlight(
         legs=tuple(legs),
+        jig=jig,
         wanted=(np.array(wanted) - undriven) @ shapes,
         reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),

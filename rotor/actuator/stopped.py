@@ -70,7 +70,21 @@ class Flown:
     """[rad], as the following; pitch at 0.75 R."""
     cyclic: float
     """Amplitude of the cyclic."""
+    controls_left: float | None
+    """The least part of a control's range that is left to its stop, 0.5 in the middle and negative beyond; None where
+    the rotor file does not say."""
     message: str
+
+    def record(self) -> dict[str, float | None]:
+        """Numbers, for JSON and tables; angles in degrees."""
+        return {
+            "power_w": self.power,
+            "twist_deg": math.degrees(self.twist),
+            "stalled_percent": 100.0 * self.stalled_area,
+            "collective_deg": math.degrees(self.collective),
+            "cyclic_deg": math.degrees(self.cyclic),
+            "controls_left_percent": None if self.controls_left is None else 100.0 * self.controls_left,
+        }
 
 
 @dataclass(frozen=True)
@@ -97,15 +111,13 @@ class FailurePoint:
     def record(self) -> dict[str, Any]:
         """Texts and numbers, for JSON and tables; angles in degrees."""
         one = {} if self.one_blade is None else vars(self.one_blade)
-        trims = {"working": self.working, "stopped": self.stopped}
+        trims: dict[str, Any] = {}
+        for name, trim in (("working", self.working), ("stopped", self.stopped)):
+            trims |= {f"{name}_{key}": value for key, value in trim.record().items()}
         return {
             "mu": self.mu,
             "speed_kt": self.speed / KNOT,
-            **{f"{name}_power_w": trim.power for name, trim in trims.items()},
-            **{f"{name}_twist_deg": math.degrees(trim.twist) for name, trim in trims.items()},
-            **{f"{name}_stalled_percent": 100.0 * trim.stalled_area for name, trim in trims.items()},
-            **{f"{name}_collective_deg": math.degrees(trim.collective) for name, trim in trims.items()},
-            **{f"{name}_cyclic_deg": math.degrees(trim.cyclic) for name, trim in trims.items()},
+            **trims,
             "message": self.stopped.message,
             "cost_w": self.cost,
             "power_left_w": self.power_left,
@@ -159,11 +171,14 @@ def failure(
     speeds = [stops_at, *mu]
     flight = fly(actuator, [FlightLeg(f"µ {speed:g}", speed) for speed in speeds])
     heavy = [with_actuator_mass(driven, actuator.installed) for driven in flight.designs]
-    return Failure(actuator.installed.actuator.id, stops_at, frozen(heavy[1:], heavy[0]))
+    return Failure(actuator.installed.actuator.id, stops_at, frozen(heavy[1:], heavy[0], flight.jig))
 
 
-def frozen(working: Sequence[Design], stopped: Design) -> tuple[FailurePoint, ...]:
-    """Each design as it is, and with the twist and the active twist of the one at which the actuator stops."""
+def frozen(working: Sequence[Design], stopped: Design, jig: TwistLaw | None = None) -> tuple[FailurePoint, ...]:
+    """Each design as it is, and with the twist and the active twist of the one at which the actuator stops.
+
+    jig: the twist at which the stops of the controls hold, for pitch is given at the root; by default each its own.
+    """
     points: list[FailurePoint] = []
     for design in working:
         stuck = replace(design, twist=stopped.twist, active_twist=stopped.active_twist)
@@ -174,16 +189,22 @@ def frozen(working: Sequence[Design], stopped: Design) -> tuple[FailurePoint, ..
         alone = here.converged and stuck.active_twist == design.active_twist and not why_not_one(design)
         one = one_blade(here, stopped.twist) if alone else None
         mu = design.condition.advance_ratio
-        points.append(FailurePoint(mu, design.airspeed, _flown(here), _flown(there), left, one))
+        points.append(FailurePoint(mu, design.airspeed, _flown(here, jig), _flown(there, jig), left, one))
     return tuple(points)
 
 
-def _flown(trim: Solution) -> Flown:
-    controls = trim.controls
+def _flown(trim: Solution, jig: TwistLaw | None) -> Flown:
+    design, controls = trim.design, trim.controls
+    stops, stations = design.aircraft.controls, [design.rotor.blade.root_cutout, 0.75, 1.0]
+    root, rest, tip = design.twist(stations)
+    left = None
+    if stops is not None:
+        as_rigged = (design.twist if jig is None else jig)(stations)
+        turned = float(root - rest - (as_rigged[0] - as_rigged[1]))
+        left = stops.left(controls.collective + turned, controls.cyclic_1c, controls.cyclic_1s)
     power = trim.power.total if trim.converged else None
     cyclic = math.hypot(controls.cyclic_1c, controls.cyclic_1s)
-    ends = trim.design.twist([trim.design.rotor.blade.root_cutout, 1.0])
-    return Flown(float(ends[1] - ends[0]), power, trim.stalled_area, controls.collective, cyclic, trim.message)
+    return Flown(float(tip - root), power, trim.stalled_area, controls.collective, cyclic, left, trim.message)
 
 
 def why_not_one(design: Design) -> str:

@@ -149,17 +149,18 @@ def failure_report(found: stopped.Failure) -> str:
     lines = [
         f"stopped at µ {found.stops_at:g}, its twist frozen; one blade: the others work",
         f"{'µ':<7}{'kt':>4}{'twist':>9}{'power':>12}{'cost':>11}{'engines left':>14}{'stalled':>9}{'collective':>12}"
-        f"{'one blade':>13}",
+        f"{'controls left':>15}{'one blade':>13}",
     ]
     for point in found.points:
         row, there, one = point.record(), point.stopped, point.one_blade
         left = "" if point.power_left is None else f"{point.power_left / 1e3:.0f} kW"
         cost = "" if point.cost is None else f"{point.cost / 1e3:+.1f} kW"
         power = "no trim" if there.power is None else f"{there.power / 1e3:.1f} kW"
+        free = "" if there.controls_left is None else f"{100.0 * there.controls_left:.0f} %"
         shaken = "" if one is None else f"{one.force_n:.0f} N 1/rev"
         lines.append(
             f"{point.mu:<7g}{row['speed_kt']:>4.0f}{math.degrees(there.twist):>8.2f}°{power:>12}{cost:>11}{left:>14}"
-            f"{row['stopped_stalled_percent']:>7.1f} %{math.degrees(there.collective):>10.1f} °{shaken:>14}"
+            f"{row['stopped_stalled_percent']:>7.1f} %{math.degrees(there.collective):>10.1f} °{free:>14}{shaken:>14}"
         )
     return "\n".join(lines)
 

@@ -6,6 +6,7 @@ to its mount. There shaft tilt, thrust or collective, and flapping are given in 
 number and air density are those of the test.
 """
 
+import cmath
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
@@ -304,6 +305,34 @@ class RotorFiles:
     """(name, text) of the rotor file and of every file it names."""
 
 
+@dataclass(frozen=True)
+class ControlRange:
+    """From stop to stop of each control, as the pitch that it gives the blade, with the others at mid-travel [rad]."""
+
+    collective: tuple[float, float]
+    """Pitch at 0.75 R."""
+    lateral: tuple[float, float]
+    """cos (ψ + phase) part of pitch."""
+    longitudinal: tuple[float, float]
+    """sin (ψ + phase) part of pitch."""
+    phase: float = 0.0
+    """[rad]"""
+
+    def places(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> dict[str, float]:
+        """Where each control stands in its range by name, 0 and 1 at its stops, of pitch θ0 + θ1c cos ψ + θ1s sin ψ."""
+        turned = (cyclic_1c + 1j * cyclic_1s) * cmath.exp(1j * self.phase)
+        pitch = {
+            "collective": (collective, self.collective),
+            "lateral": (turned.real, self.lateral),
+            "longitudinal": (turned.imag, self.longitudinal),
+        }
+        return {name: (value - low) / (high - low) for name, (value, (low, high)) in pitch.items()}
+
+    def left(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> float:
+        """The least part of a range that is left to its stop: 0.5 in the middle, negative beyond."""
+        return min(min(place, 1.0 - place) for place in self.places(collective, cyclic_1c, cyclic_1s).values())
+
+
 @dataclass(frozen=True, repr=False)
 class Aircraft:
     """One aircraft, without arrays, so that it can be compared, hashed and sent to other processes."""
@@ -327,6 +356,8 @@ class Aircraft:
     """Assumptions made when the files were read, in sentences."""
     installed_power: float | None = None
     """What the engines give at sea level [W]; None where the file does not say."""
+    controls: ControlRange | None = None
+    """None where the file does not say."""
     doubt: tuple[tuple[str, float], ...] = ()
     """Sizes of uncertain inputs that the file states, by the names of `assets/doubt.toml`."""
     isolated: bool = False

@@ -19,6 +19,7 @@ from rotor.design.aircraft import (
     HUBS,
     SEA_LEVEL_DENSITY,
     Aircraft,
+    ControlRange,
     Fuselage,
     Hub,
     RotorFiles,
@@ -132,6 +133,7 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         fuselage=_fuselage(airframe) if airframe else Fuselage(0.0),
         mass=airframe.number("mass_kg", low=100.0, high=50_000.0, unit="kg") if airframe else _carried(rotor),
         installed_power=_installed_power(airframe),
+        controls=_controls(top.table("controls", None)),
         tail_rotor=_tail_rotor(tail) if tail else None,
         hub=hub,
         stated=stated,
@@ -178,6 +180,20 @@ def _installed_power(airframe: TomlTable | None) -> float | None:
     if not airframe or not airframe.has("installed_power_kw"):
         return None
     return 1e3 * airframe.number("installed_power_kw", low=1.0, high=50_000.0, unit="kW")
+
+
+def _controls(given: TomlTable | None) -> ControlRange | None:
+    if given is None:
+        return None
+    ends: list[tuple[float, float]] = []
+    for key in ("collective_deg", "lateral_deg", "longitudinal_deg"):
+        stops = given.numbers(key, low=-60.0, high=60.0)
+        if len(stops) != 2 or stops[0] >= stops[1]:
+            raise given.fail(key, f"{key} is {list(stops)}: write both stops, the lower first, for example [-8.0, 8.0]")
+        ends.append((math.radians(stops[0]), math.radians(stops[1])))
+    phase = math.radians(given.number("phase_deg", 0.0, low=-90.0, high=90.0, unit="°"))
+    given.finish()
+    return ControlRange(*ends, phase=phase)
 
 
 def _carried(rotor: Rotor) -> float:

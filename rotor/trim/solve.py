@@ -292,7 +292,9 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=tuple(caveats(problem, total, fields, stalled, moment, power, elastic)) if converged else (),
+        caveats=tuple(caveats(problem, total, fields, stalled, moment, power, elastic, elements.state))
+        if converged
+        else (),
         controls=elements.state,
         disk=fields,
         last_power=power,

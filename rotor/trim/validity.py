@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.elements import BladeElements, DiskSums
+from rotor.aero.elements import BladeElements, DiskSums, TrimState
 from rotor.aero.momentum import VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
@@ -59,6 +59,7 @@ class _Trim:
     moment: HubMoment
     power: PowerBudget
     elastic: ElasticTwist | None
+    state: TrimState
 
     @property
     def design(self) -> Design:
@@ -103,6 +104,20 @@ class _Trim:
     def reduced_frequency(self) -> float:
         """ωc/2V of that harmonic at 0.75 R."""
         return self.highest_wave * self.design.rotor.reference_chord / (1.5 * self.design.rotor.radius)
+
+    @property
+    def beyond_stops(self) -> list[str]:
+        """What each control that is beyond its stops needs, and what it has, in words."""
+        stops, state, words = self.design.aircraft.controls, self.state, list[str]()
+        if stops is None:
+            return words
+        ranges = {"collective": stops.collective, "lateral": stops.lateral, "longitudinal": stops.longitudinal}
+        for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
+            if not 0.0 <= place <= 1.0:
+                low, high = (math.degrees(end) for end in ranges[name])
+                what = name if name == "collective" else f"{name} cyclic"
+                words.append(f"{what} {low + place * (high - low):.1f}° of {low:.1f} to {high:.1f}°")
+        return words
 
     @property
     def control_power(self) -> float:
@@ -256,6 +271,11 @@ _RULES = (
         ),
     ),
     _Rule(
+        "controls",
+        lambda trim: not trim.on_stand and trim.beyond_stops,
+        lambda trim: f"The trim needs more than the controls give: {', '.join(trim.beyond_stops)}.",
+    ),
+    _Rule(
         "high-speed",
         lambda trim: trim.mu > HIGH_SPEED,
         lambda trim: (
@@ -340,11 +360,12 @@ def caveats(
     moment: HubMoment,
     power: PowerBudget,
     elastic: ElasticTwist | None,
+    state: TrimState,
 ) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
     for remark in problem.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    trim = _Trim(problem, total, fields, stalled, moment, power, elastic)
+    trim = _Trim(problem, total, fields, stalled, moment, power, elastic, state)
     for rule in _RULES:
         if rule.applies(trim):
             yield Caveat(rule.name, rule.sentence(trim))

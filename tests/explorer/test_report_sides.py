@@ -92,7 +92,8 @@ def test_failure_is_that_of_the_api(stop: float, mu: float):
     loads = [] if one is None else [one.force_n, one.moment_nm, 1e3 * one.track_m]
     of_api = [
         math.degrees(there.twist), 1e-3 * there.power, 1e-3 * point.cost, 1e-3 * point.power_left,
-        100.0 * there.stalled_area, math.degrees(there.collective), math.degrees(there.cyclic), *loads,
+        100.0 * there.stalled_area, math.degrees(there.collective), math.degrees(there.cyclic),
+        100.0 * (there.controls_left or 0.0), *loads,
     ]  # fmt: skip
     cells = [value(cell) for cell in rows()[f"failure-{stop:g}-{mu:g}"][1:] if re.search(r"\d", cell)]
     assert cells == pytest.approx(of_api, abs=0.51)

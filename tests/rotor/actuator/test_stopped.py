@@ -52,6 +52,21 @@ def test_frozen_twist_is_that_design():
     assert point.record()["stopped_power_w"] == point.stopped.power
 
 
+def test_a_twist_frozen_takes_the_pitch_at_the_root_from_the_controls():
+    """Built −10° and stopped at −16°, with 0.62 R from root to 0.75 R: 3.7° more at the root."""
+    design = rotor.make_design(**PLAIN)
+    (rigged,) = frozen([design], design.with_twist("linear:-16"), design.twist)
+    (own,) = frozen([design], design.with_twist("linear:-16"))
+    low, high = rotor.make_design().aircraft.controls.collective  # pyright: ignore[reportOptionalMemberAccess]
+    left = {"own": own.stopped.collective, "rigged": own.stopped.collective + math.radians(6.0 * (0.75 - 0.1304))}
+    for point, pitch in ((own, left["own"]), (rigged, left["rigged"])):
+        place = (pitch - low) / (high - low)
+        assert point.stopped.controls_left is not None
+        assert point.stopped.controls_left <= min(place, 1.0 - place) + 1e-12  # A cyclic may be nearer to its stop.
+    assert rigged.stopped.controls_left == pytest.approx((high - left["rigged"]) / (high - low))
+    assert rotor.make_design(rotor="r22").aircraft.controls is None
+
+
 def test_frozen_twist_at_n_per_rev_keeps_amplitude_and_phase():
     design = rotor.make_design(**PLAIN, twist_per_rev="2:1.5:200")
     (same,) = frozen([design], design)

@@ -41,6 +41,42 @@ def test_more_power_than_the_engines_give_is_a_caveat():
     assert f"take {1e-3 * fast.power.total:.0f} kW; the engines give 92 kW" in caveat.sentence
 
 
+def test_stops_of_the_uh60a_follow_from_its_mixer():
+    """Sticks from stop to stop through the gains of GenHel: linkage, mixer, swashplate; pitch at the root."""
+    travel = np.array([10.0, 10.0, 10.0, 5.38]) * [0.2062, 0.2172, 0.2025, 0.3780]  # Lateral, fore and aft, up, pedals.
+    mixer = np.array([[0.68, 0, 0.993, 0], [0, 1.202, 0.905, -0.4288], [0, -1.202, 1.299, 0.4288]])
+    plate = np.array([[11.3413, -5.6706, -5.6706], [0, -5.6706, 5.6706], [0, 3.5034, 3.5034]])
+
+    def pitch(**places: float) -> list[float]:
+        sticks = [places.get(name, 0.5) for name in ("lateral", "longitudinal", "collective", "pedals")]
+        a1, b1, root = plate @ (mixer @ (sticks * travel)) + [-7.9738, 9.7280, 10.1111]
+        return [-a1, -b1, root - 9.65]
+
+    stops = shipped_aircraft("uh60a").controls
+    assert stops is not None
+    for k, name in enumerate(("lateral", "longitudinal", "collective")):
+        ends = sorted(pitch(**{name: end})[k] for end in (0.0, 1.0))
+        assert_allclose(np.degrees(getattr(stops, name)), ends, atol=0.01)
+    # The same pitch around the disk, told by the swashplate and by the blade.
+    psi, (c, s) = np.linspace(0.0, 6.0, 7), np.radians([2.0, -5.0])
+    places = stops.places(0.1, c, s)
+    plate_c, plate_s = (
+        low + places[name] * (high - low)
+        for name, (low, high) in (("lateral", stops.lateral), ("longitudinal", stops.longitudinal))
+    )
+    turned = psi - math.radians(9.7)
+    assert_allclose(c * np.cos(psi) + s * np.sin(psi), plate_c * np.cos(turned) + plate_s * np.sin(turned))
+
+
+def test_pitch_beyond_the_stops_is_a_caveat():
+    within, beyond = (solve(make_design(mu=mu, inflow="drees")).require() for mu in (0.3, 0.4))
+    assert "controls" not in {one.name for one in within.caveats}
+    (caveat,) = [one for one in beyond.caveats if one.name == "controls"]
+    needed = math.degrees(beyond.controls.collective)
+    assert needed > 16.1
+    assert f"collective {needed:.1f}° of 0.5 to 16.1°" in caveat.sentence
+
+
 def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
     """ν² = 1 + 3e/2(1 − e) + K/(IΩ²) of a uniform blade, against 400 masses that swing in the centrifugal field."""
     radius, hinge, mass, spring, speed = 3.0, 0.45, 20.0, 9000.0, 40.0

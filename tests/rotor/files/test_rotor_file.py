@@ -98,6 +98,7 @@ BAD = [
     ("flap_hinge_m = 0.2", "flap_hinge_mm = 200.0", "line 13: unknown key 'flap_hinge_mm': did you mean flap_hinge_m?"),
     ("[airframe]", "[air_frame]", "my.toml, line 16: unknown key 'air_frame': did you mean airframe?"),
     ("mass_kg = 1500.0", "mass_kg = 1500.0\ncolour = 3", "my.toml, line 19: unknown key 'colour': the keys are"),
+    ("mass_kg = 1500.0", "mass_kg = 1500.0\n[controls]\ncollective_deg = [9, 1]", "is [9.0, 1.0]: write both"),
     ("mass_kg = 1500.0", "mass_kg = 1500.0\n[tail]\na = 1", "my.toml, line 19: unknown key 'tail'"),
 ]  # fmt: skip
 
