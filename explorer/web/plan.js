@@ -49,8 +49,8 @@
       marks.push(`M${ax.toFixed(1)} ${ay.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}`);
     }
     // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
-    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27;
-    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [x + radius, below, 'end', 'ADVANCING · 90° →'], [x - radius, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
+    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27, side = Math.min(Math.max(radius, 165), x - 8, layout.width - x - 8);
+    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [x + side, below, 'end', 'ADVANCING · 90° →'], [x - side, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
       .map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
     const [ax, ay] = xy(1.055, 32), [bx, by] = xy(1.055, 52), head = [[1.03, 52], [1.055, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi).map(v => v.toFixed(1)));
     words.push(`<path d="M${ax} ${ay}A${1.055 * radius} ${1.055 * radius} 0 0 0 ${bx} ${by}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/><polygon points="${head.join(' ')}" fill="var(--rx-dim)"/>`);
