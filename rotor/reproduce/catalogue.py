@@ -16,9 +16,11 @@ from rotor.reproduce import (
     today,
     twist_effect,
 )
-from rotor.reproduce.report import Report
+from rotor.reproduce.report import Report, thesis
 from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
 from rotor.validation.trust import TrustRow, TrustSet, description
+
+Searches = Callable[[], Sequence[Call]]
 
 
 @dataclass(frozen=True)
@@ -27,9 +29,13 @@ class CatalogueEntry:
 
     number: str
     make: Callable[[], Report]
-    chapter: str
-    needs: Callable[[], Sequence[Call]] | None = None
+    needs: Searches | None = None
     """The searches it needs."""
+
+    @property
+    def chapter(self) -> str:
+        """Of the thesis."""
+        return thesis()[self.number]["chapter"]
 
     @property
     def slow(self) -> bool:
@@ -37,75 +43,50 @@ class CatalogueEntry:
         return self.needs is not None
 
 
-_INTRODUCTION = "1.2 Active blade twist control"
-_SECTIONS = "2 Background"
-_MODEL = "3.1 Numerical model"
-_AIRCRAFT = "3.2 Verification and validation"
-_TWIST = "3.3 Effect of blade twist on main-rotor power"
-_OPTIMUM = "4 Results"
-_CONCEPT = "5 Concept"
-_TODAY = "What the thesis would have found"
-
-ENTRIES: tuple[CatalogueEntry, ...] = (
-    CatalogueEntry("literature", today.literature, _INTRODUCTION),
-    CatalogueEntry("2.7", disk_figures.figure_2_7, _SECTIONS),
-    CatalogueEntry("2.8", disk_figures.figure_2_8, _SECTIONS),
-    CatalogueEntry("3.3", partial(implementation.error_figure, "3.3"), _MODEL),
-    CatalogueEntry("3.4", partial(implementation.error_figure, "3.4"), _MODEL),
-    CatalogueEntry("3.5", partial(implementation.fit_figure, "3.5"), _MODEL),
-    CatalogueEntry("3.6", partial(implementation.fit_figure, "3.6"), _MODEL),
-    CatalogueEntry("3.7", partial(disk_figures.elements_figure, "3.7"), _MODEL),
-    CatalogueEntry("3.8", partial(disk_figures.elements_figure, "3.8"), _MODEL),
-    CatalogueEntry("3.9", disk_figures.figure_3_9, _MODEL),
-    CatalogueEntry("table 3.1", implementation.table_3_1, _AIRCRAFT),
-    CatalogueEntry("table 3.2", implementation.table_3_2, _AIRCRAFT),
-    CatalogueEntry("tail rotor", implementation.tail_rotor, _AIRCRAFT),
-    CatalogueEntry("3.10", implementation.figure_3_10, _AIRCRAFT),
-    CatalogueEntry("3.11", twist_effect.figure_3_11, _TWIST),
-    CatalogueEntry("3.12", twist_effect.figure_3_12, _TWIST),
-    CatalogueEntry("3.13", twist_effect.figure_3_13, _TWIST),
-    CatalogueEntry("3.14", twist_effect.figure_3_14, _TWIST),
-    CatalogueEntry("3.15", twist_effect.figure_3_15, _TWIST),
-    CatalogueEntry("readings", readings.readings, _TWIST, readings.needed),
-    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
-    *(
-        CatalogueEntry(number, partial(optimum_twist.optimum_figure, number), _OPTIMUM, partial(searches, (concept,)))
-        for number, (concept, *_) in optimum_twist.FIGURES.items()
-    ),
-    CatalogueEntry("4.11", optimum_twist.figure_4_11, _OPTIMUM),
-    CatalogueEntry(
-        "4.12", optimum_twist.figure_4_12, _OPTIMUM, lambda: [(optimum_twist.three_segment_rows, ("flight", None))]
-    ),
-    CatalogueEntry("4.13", optimum_twist.figure_4_13, _OPTIMUM, partial(searches, CONCEPTS)),
-    CatalogueEntry("table 4.1", optimum_twist.table_4_1, _OPTIMUM, partial(searches, CONCEPTS)),
-    CatalogueEntry("5.5", actuation.figure_5_5, _CONCEPT),
-    CatalogueEntry("5.7", actuation.figure_5_7, _CONCEPT),
-    CatalogueEntry("5.10", actuation.figure_5_10, _CONCEPT),
-    CatalogueEntry("table 5.1", actuation.table_5_1, _CONCEPT),
-    CatalogueEntry("table 5.2", actuation.table_5_2, _CONCEPT, lambda: [actuation.COMPARED]),
-    CatalogueEntry("today", today.today, _TODAY, today.needed),
-)
-
-DRAWINGS = {
-    "2.1": "stream tube in hover",
-    "2.2": "blade element",
-    "2.3": "forces around NACA 23015, XFOIL's picture",
-    "2.4": "pressure on NACA 23015, XFOIL's picture",
-    "2.5": "annulus of the disk and reverse flow",
-    "2.6": "velocity in hover, the same at every azimuth",
-    "2.9": "flapping hinge",
-    "3.1": "forces around SC1095, XFOIL's picture",
-    "3.2": "forces around SC1094 R8, XFOIL's picture",
-    "4.9": "planform of the UH-60A blade",
-    "5.1": "active twist",
-    "5.2": "deformed piezoelectric sheet",
-    "5.3": "continuous and interdigitated electrodes",
-    "5.4": "electric field of both kinds of electrodes",
-    "5.6": "macro fibre composite",
-    "5.8": "blade with its electronics",
-    "5.9": "airfoil with actuators",
+_OF_ALL = partial(searches, CONCEPTS)
+_SLOW: dict[str, tuple[Callable[[], Report], Searches]] = {
+    "readings": (readings.readings, readings.needed),
+    **{
+        number: (partial(optimum_twist.optimum_figure, number), partial(searches, (concept,)))
+        for number, (concept, _) in optimum_twist.FIGURES.items()
+    },
+    "4.12": (optimum_twist.figure_4_12, lambda: [(optimum_twist.three_segment_rows, ("flight", None))]),
+    "4.13": (optimum_twist.figure_4_13, _OF_ALL),
+    "table 4.1": (optimum_twist.table_4_1, _OF_ALL),
+    "table 5.2": (actuation.table_5_2, lambda: [actuation.COMPARED]),
+    "today": (today.today, today.needed),
 }
+_FAST: dict[str, Callable[[], Report]] = {
+    "literature": today.literature,
+    "2.7": disk_figures.figure_2_7,
+    "2.8": disk_figures.figure_2_8,
+    **{number: partial(implementation.error_figure, number) for number in ("3.3", "3.4")},
+    **{number: partial(implementation.fit_figure, number) for number in ("3.5", "3.6")},
+    **{number: partial(disk_figures.elements_figure, number) for number in ("3.7", "3.8")},
+    "3.9": disk_figures.figure_3_9,
+    "table 3.1": implementation.table_3_1,
+    "table 3.2": implementation.table_3_2,
+    "tail rotor": implementation.tail_rotor,
+    "3.10": implementation.figure_3_10,
+    "3.11": twist_effect.figure_3_11,
+    "3.12": twist_effect.figure_3_12,
+    "3.13": twist_effect.figure_3_13,
+    "3.14": twist_effect.figure_3_14,
+    "3.15": twist_effect.figure_3_15,
+    "keys 1987": twist_effect.keys_1987,
+    "4.11": optimum_twist.figure_4_11,
+    "5.5": actuation.figure_5_5,
+    "5.7": actuation.figure_5_7,
+    "5.10": actuation.figure_5_10,
+    "table 5.1": actuation.table_5_1,
+}
+DRAWINGS = thesis()["drawings"]
 """Figures of the thesis that show nothing of its model, and so are not rebuilt."""
+ENTRIES = tuple(
+    CatalogueEntry(number, *_SLOW[number]) if number in _SLOW else CatalogueEntry(number, _FAST[number])
+    for number in thesis()
+    if number != "drawings"
+)
 
 
 def find_entry(number: str) -> CatalogueEntry:

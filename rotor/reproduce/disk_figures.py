@@ -14,14 +14,7 @@ import numpy as np
 from rotor.aero.switches import with_switches
 from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import (
-    Agreement,
-    Report,
-    by_name,
-    curve,
-    judged,
-    table,
-)
+from rotor.reproduce.report import Report, curve, judged, report, table
 from rotor.reproduce.runs import FLIGHT_LINEAR, variant
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import solve
@@ -53,25 +46,14 @@ def figure_2_7() -> Report:
         inflow.append(curve(f"{preset}, {twist}", disk.r, disk.induced[:, 0], colour=k))
         thrust.append(curve(f"{preset}, {twist}", disk.r, lift, colour=k))
     good = all(numbers[f"{p}_share"] > 0.5 and numbers[f"{p}_tip_over_peak"] < 2 / 3 for p in ("thesis", "flight"))
-    return Report(
-        number="2.7",
-        caption="Induced velocity and thrust along the hovering blade.",
-        statement="“The higher part of the thrust is distributed between 50% and 90% of the blade length. Near the "
-        "tip the thrust decreases really fast due to the tip losses.” (p. 14)",
-        ours="; ".join(
-            f"{p}: {100 * numbers[f'{p}_share']:.0f} % of the thrust between 0.5 R and 0.9 R, the most at "
-            f"{numbers[f'{p}_peak']:.2f} R, the last element at {100 * numbers[f'{p}_tip_over_peak']:.0f} % of it"
-            for p in ("thesis", "flight")
-        )
-        + ".",
-        verdict=judged(good),
-        because="Prandtl's factor unloads the blade tip; the built-in twist of the UH-60A turns up again there and "
-        "keeps the load further outboard.",
-        tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
-        panels=(
+    return report(
+        "2.7",
+        judged(good),
+        tables=[table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows)],
+        panels=[
             Chart("Induced velocity / ΩR", Axis("r/R"), Axis("λ_i"), tuple(inflow)),
             Chart("Thrust, the whole rotor as if smeared", Axis("r/R"), Axis("dC_T/dr"), tuple(thrust)),
-        ),
+        ],
         numbers=numbers,
     )
 
@@ -87,38 +69,20 @@ def figure_2_8() -> Report:
     top, low = float(disk.u_t.max()), float(disk.u_t.min())
     # One cell is 1/40 of the blade by 1/120 of the turn: the border of the region cuts through about 60 of them.
     good = abs(ours - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
-    return Report(
-        number="2.8",
-        caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the thesis states none).",
-        statement="Near ψ = 90° the blade “has a velocity that is the sum of the rotational and forward speed”; in "
-        "reverse flow “the air flows from the trailing to the leading edge of the airfoil” (p. 14).",
-        ours=f"From {low:.3f} to {top:.3f} ΩR. Reverse flow over {100 * ours:.2f} % of the disk; the circle "
-        f"r = −µ sin ψ outside the root cut-out has {100 * expected:.2f} %.",
-        verdict=judged(good),
-        because="The region is the circle of diameter µ on the retreating side, counted in whole cells.",
-        tables=(
-            table(
-                "u_t",
-                ("r", "psi_deg", "u_t"),
-                [
-                    (disk.r[i], math.degrees(disk.psi[j]), disk.u_t[i, j])
-                    for i in range(len(disk.r))
-                    for j in range(0, len(disk.psi), 4)
-                ],
-            ),
-        ),
-        panels=(
-            Chart(
-                "",
-                Axis("r/R"),
-                Axis("U_T / ΩR"),
-                tuple(
-                    curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360])
-                    for degrees in (0, 90, 180, 270)
-                ),
-            ),
-        ),
-        numbers={"reverse_area": ours, "circle_area": expected, "largest": top},
+    rows = [
+        (r, math.degrees(psi), disk.u_t[i, 4 * j])
+        for i, r in enumerate(disk.r)
+        for j, psi in enumerate(disk.psi[::4])
+    ]  # fmt: skip
+    curves = tuple(
+        curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360]) for degrees in (0, 90, 180, 270)
+    )
+    return report(
+        "2.8",
+        judged(good),
+        tables=[table("u_t", ("r", "psi_deg", "u_t"), rows)],
+        panels=[Chart("", Axis("r/R"), Axis("U_T / ΩR"), curves)],
+        numbers={"reverse_area": ours, "circle_area": expected, "largest": top, "least": low},
     )
 
 
@@ -182,27 +146,14 @@ def figure_3_9() -> Report:
             ),
         }
     worst, needed = (max(numbers[f"{name}_{key}"] for name, _ in CASES) for key in ("error_at_100", "needed"))
-    from_on, orders = (
-        by_name({name: numbers[f"{name}_{key}"] for name, _ in CASES}, form)
-        for key, form in (("needed", "{:.0f}"), ("order", "{:.1f}"))
-    )
-    return Report(
-        number="3.9",
-        caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths, with linear inflow.",
-        statement="“at least the code needs the aerodynamic characteristics of 100 blades to represent the rotor power "
-        "consumption” (p. 22–23).",
-        ours=f"At 100 azimuths the power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS}; "
-        f"within 0.1 % from {from_on} on. From 100 to 360 azimuths the error falls with order "
-        f"{orders}.",
-        verdict=judged(worst < ENOUGH and needed >= 100),
-        because="100 is enough"
-        + ("" if needed >= 100 else ", but far fewer suffice for power")
-        + ": the uniform sum of a smooth periodic load converges faster than any power; only the kinks of stall, of "
-        "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance needs no more; "
-        "integration in time, as in the thesis, may.",
-        tables=(table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True)),),
+    return report(
+        "3.9",
+        judged(worst < ENOUGH and needed >= 100),
+        tables=[table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True))],
         panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
         numbers=numbers,
+        millionths=1e6 * worst,
+        fewer="" if needed >= 100 else ", but far fewer suffice for power",
     )
 
 
@@ -222,24 +173,9 @@ def elements_figure(number: str) -> Report:
             f"{name}_order": order, f"{name}_limit_kw": limit,
             f"{name}_error_at_40": errors[name][ELEMENTS.index(40)], f"{name}_needed": _needed(ELEMENTS, errors[name]),
         }  # fmt: skip
-    where = "hover" if mu == 0.0 else f"forward flight, µ {mu:.2f}"
-    return Report(
-        number=number,
-        caption=f"Main-rotor power in {where} against the number of blade elements.",
-        statement="“To understand the minimum number of blade elements two analysis in hovering and forward flight "
-        "conditions are considered.” (p. 22; the number is in the figure, which is not available)",
-        ours="; ".join(
-            f"{name}: observed order {numbers[f'{name}_order']:.1f}, limit {numbers[f'{name}_limit_kw']:.1f} kW, at 40 "
-            f"elements off by {100 * numbers[f'{name}_error_at_40']:.2f} %, within 0.1 % from "
-            f"{numbers[f'{name}_needed']:.0f} elements on"
-            for name, _ in CASES
-        )
-        + ".",
-        verdict=Agreement.NO_REFERENCE,
-        because="The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at the tip, and "
-        "the airfoils and twist table of the UH-60A have kinks, which makes the order irregular. In forward flight "
-        "λ_i/F has no bound at the tip: with it power has no order, and moves by hundredths of a per cent.",
-        tables=(table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True)),),
+    return report(
+        number,
+        tables=[table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True))],
         panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: ours"), "the limit"),
         numbers=numbers,
     )

@@ -5,7 +5,7 @@ figure 3.10, power over speed beside public UH-60A data.
 """
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from rotor.airfoil.polynomial import (
 from rotor.chart import Axis, Chart
 from rotor.files.make_design import uh60a_data
 from rotor.reproduce.ladder import built
-from rotor.reproduce.report import Agreement, Report, curve, judged, table
+from rotor.reproduce.report import Agreement, Report, curve, judged, report, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
 from rotor.validation.uh60a import SLOWEST, beside_hover_points, beside_model_curve, model_curve_errors
@@ -61,7 +61,6 @@ def error_figure(number: str) -> Report:
             f"next_step_{name}": errors[chosen] / errors[chosen + 2],
         }
     spread = _spread(which)
-    share = numbers["at_-10_15"] / spread
     knee = knee_of([(study.order, _rms(study, which)) for study in studies[RANGES[0]]])
     enough = next(study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD * spread)
     rows = [
@@ -81,23 +80,16 @@ def error_figure(number: str) -> Report:
             for words, order in (("thesis: order", chosen), ("our knee: order", knee))
         ),
     )
-    return Report(
-        number=number,
-        caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M "
-        f"{polar.mach:g}, Re {polar.reynolds / 1e6:.2f} million, transition at 5 % chord (the reading that holds most; "
-        "the thesis states range and flow nowhere).",
-        statement=f"Order {chosen}: “The two points chosen represent a good compromise between computational cost and "
-        "error.” (p. 18)",
-        ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
-        f"{symbol}; {numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…18° the step to it from order "
-        f"{chosen - 2} gains a factor {numbers['last_step_-10_18']:.2f}, the step to order {chosen + 2} another "
-        f"{numbers['next_step_-10_18']:.2f}.",
-        verdict=judged(knee == chosen),
-        because=f"Our knee over −10…15° is at order {knee}, and the error is below {100 * GOOD:.0f} % of the spread "
-        f"from order {enough} on. There is no plateau: a higher order always helps slightly, because stall is a kink.",
-        tables=(table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows),),
-        panels=(panel,),
-        numbers={**numbers, "share_of_spread": share, "knee": knee},
+    return report(
+        number,
+        judged(knee == chosen),
+        tables=[table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows)],
+        panels=[panel],
+        numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
+        mach=polar.mach,
+        reynolds=polar.reynolds / 1e6,
+        good=GOOD,
+        enough=enough,
     )
 
 
@@ -125,37 +117,29 @@ def fit_figure(number: str) -> Report:
     relative = fitted[attached] / data[attached] - 1.0 if which == "drag" else np.zeros(1)
     fine = np.linspace(low, high, 401)
     smooth = fit(np.deg2rad(fine))[which_one]
-    # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
-    unheld = float((fit.cl_series, fit.cd_series)[which_one](np.deg2rad(30.0)))
-    words = f"rms {rms:.5f} over {low:g}…{high:g}°."
-    if which == "drag":
-        words += f" In attached flow ({ATTACHED_DEG[0]:g}…{ATTACHED_DEG[1]:g}°) Cd is off by "
-        words += f"{100 * np.sqrt(np.mean(relative**2)):.1f} % rms, {100 * np.abs(relative).max():.1f} % at most."
-    words += f" Without holding the end values it would give {symbol} {unheld:.3g} at 30°."
-    return Report(
-        number=number,
-        caption=f"{'Lift' if which == 'lift' else 'Drag'} of SC1095 and its polynomial of order {order}.",
-        statement="“High order polynomial equation can also represent stall condition and drag bucket to really take "
-        "in account all the airfoil informations.” (p. 18)",
-        ours=words,
-        verdict=Agreement.NO_REFERENCE,
-        because="The statement has no number. Inside the range of the fit the rms error is "
-        f"{100 * rms / _spread(which):.2f} % of the spread; outside it the polynomial must be held at its end values, "
-        "which the thesis does not mention and a trim needs from µ 0.15.",
-        tables=(
+    return report(
+        number,
+        tables=[
             table(
                 "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, fitted, strict=True)
-            ),
-        ),
-        panels=(
+            )
+        ],
+        panels=[
             Chart(
                 "",
                 Axis("α [°]"),
                 Axis(symbol),
                 (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth)),
-            ),
-        ),
-        numbers={"attached_rms": float(np.sqrt(np.mean(relative**2))), "unheld_at_30": unheld},
+            )
+        ],
+        numbers={
+            "attached_rms": float(np.sqrt(np.mean(relative**2))),
+            # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
+            "unheld_at_30": float((fit.cl_series, fit.cd_series)[which_one](np.deg2rad(30.0))),
+        },
+        rms=rms,
+        rms_of_spread=rms / _spread(which),
+        attached_most=float(np.abs(relative).max()),
     )
 
 
@@ -186,40 +170,26 @@ DOCUMENT_3_2 = {
 
 def table_3_1() -> Report:
     """The tail rotor."""
-    loaded = {key: float(uh60a_data()["tail_rotor"][key]) for key in DOCUMENT_3_1}
-    return _as_loaded(
-        "3.1", "Input of the tail rotor, beside the thesis", DOCUMENT_3_1, loaded,
-        "Twist −18° and section SC1095 stand in the thesis too; the tail rotor is solved by an energy method that "
-        "needs neither.",
-    )  # fmt: skip
+    return _as_loaded("table 3.1", DOCUMENT_3_1, uh60a_data()["tail_rotor"])
 
 
 def table_3_2() -> Report:
     """The main rotor."""
     data = uh60a_data()
     main = data["main_rotor"]
-    sources = {**main, **main["document"], **data["airframe"]}
-    loaded = {key: float(sources[key]) for key in DOCUMENT_3_2}
-    return _as_loaded(
-        "3.2", "Input of main rotor and mass, beside the thesis", DOCUMENT_3_2, loaded,
-        "The thesis calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The flight preset uses "
-        "measured blade mass and flap inertia instead of 13.92 kg/m.",
-    )  # fmt: skip
+    return _as_loaded("table 3.2", DOCUMENT_3_2, {**main, **main["document"], **data["airframe"]})
 
 
-def _as_loaded(number: str, caption: str, document: dict[str, float], loaded: dict[str, float], because: str) -> Report:
-    rows = [(key, document[key], loaded[key]) for key in document]
+def _as_loaded(number: str, document: dict[str, float], data: dict[str, Any]) -> Report:
+    rows = [(key, value, float(data[key])) for key, value in document.items()]
     worst = max(abs(mine / theirs - 1.0) for _, theirs, mine in rows)
-    return Report(
-        number=number,
-        kind="table",
-        caption=f"{caption}.",
-        statement="The numbers of the thesis, p. 25.",
-        ours=f"{len(rows)} numbers loaded from assets/uh60a.toml; largest difference {100 * worst:.2g} %.",
-        verdict=Agreement.INPUT if worst == 0.0 else Agreement.DIFFERS,
-        because=because,
-        tables=(table("loaded", ("quantity", "document", "loaded"), rows, shown=True),),
+    return report(
+        number,
+        Agreement.INPUT if worst == 0.0 else Agreement.DIFFERS,
+        tables=[table("loaded", ("quantity", "document", "loaded"), rows, shown=True)],
         numbers={"largest_difference": worst},
+        count=len(rows),
+        largest_difference_percent=100.0 * worst,
     )
 
 
@@ -232,25 +202,20 @@ def tail_rotor() -> Report:
         shares.append(power.tail / power.main_rotor)
         rows.append((mu, power.main_rotor / 1e3, power.tail / 1e3, 100.0 * shares[-1]))
     low, high = min(shares), max(shares)
-    return Report(
-        number="Tail rotor",
-        kind="claim",
-        caption="Power of the tail rotor that balances the main rotor's torque, over main-rotor power.",
-        statement="“In all of these simulations the power consumption of the helicopter increased of 5%.” (p. 25)",
-        ours=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)) + ".",
-        verdict=judged(low >= 0.04 and high <= 0.06),
-        because=f"It is not constant over speed: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
-        "where induced power dominates, and falls with speed although torque rises again: flow through its disk "
-        "reduces the induced power. The mean is near the thesis' number.",
-        tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
-        panels=(
-            Chart("", Axis("advance ratio µ"), Axis("tail over main rotor [%]", range=(0.0, 12.0)), (
-                    curve("ours, solved", TAIL_SPEEDS, [100 * s for s in shares], "both"),
-                    curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
-                )),
-        ),
+    curves = (
+        curve("ours, solved", TAIL_SPEEDS, [100 * share for share in shares], "both"),
+        curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
+    )
+    return report(
+        "tail rotor",
+        judged(low >= 0.04 and high <= 0.06),
+        tables=[table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows)],
+        panels=[Chart("", Axis("advance ratio µ"), Axis("tail over main rotor [%]", range=(0.0, 12.0)), curves)],
         numbers={"mean": float(np.mean(shares))},
-    )  # fmt: skip
+        shares=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)),
+        low=100.0 * low,
+        high=100.0 * high,
+    )
 
 
 RAISED = 0.2
@@ -264,30 +229,15 @@ def figure_3_10() -> Report:
     ours = {name: beside_model_curve(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = beside_model_curve("flight")
     hover_ct, hover_cp, hover_ours = beside_hover_points()
-    count = sum(mu > SLOWEST for mu in rotor_speeds)
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
     plain, *raised = (solve(built(on, RAISED)).require().power.total for on in ((), ("table",), ("wake",)))
-    section, wake = (100.0 * (power / plain - 1.0) for power in raised)
+    section, wake = (power / plain - 1.0 for power in raised)
     hover_ratio = np.array(hover_ours) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
-    return Report(
-        number="3.10",
-        caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
-        "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
-        "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the flight-test "
-        "points of the thesis are not known.",
-        statement="“The predictions, using this simple model, are in good agreements with the flight test data” (p. "
-        "26).",
-        ours=f"Main rotor beside the public model curve at {count} speeds above µ {SLOWEST:g}: the preset thesis lies "
-        f"{100 * thesis_mean:+.1f} % off in the mean ({100 * thesis_error:.1f} % rms), flight {100 * mean:+.1f} % "
-        f"({100 * error:.1f} %). Hover: flight "
-        f"{100 * (hover_ratio.min() - 1):+.0f}…{100 * (hover_ratio.max() - 1):+.0f} % from ten digitised points. "
-        f"Least total power at µ {bucket['flight']:g} (flight), {bucket['thesis']:g} (thesis).",
-        verdict=Agreement.INDICATIVE,
-        because=f"At µ {RAISED:g} a section table in place of the polynomials raises the power of the preset thesis by "
-        f"{section:.0f} %, the lifting line in place of linear inflow by {wake:.0f} %. Agreement with flight test "
-        "cannot be judged without its points; with the public curve the preset thesis does not agree.",
+    return report(
+        "3.10",
+        Agreement.INDICATIVE,
         tables=(
             table("total_kw", ("mu", *TWISTS), zip(SPEEDS, *(total[name] for name in TWISTS), strict=True)),
             table(
@@ -316,7 +266,16 @@ def figure_3_10() -> Report:
         ),
         numbers={
             "rms_to_model_curve": error,
+            "mean_to_model_curve": mean,
             "hover_least": float(hover_ratio.min() - 1.0),
             "hover_largest": float(hover_ratio.max() - 1.0),
         },
+        count=sum(mu > SLOWEST for mu in rotor_speeds),
+        thesis_mean=thesis_mean,
+        thesis_rms=thesis_error,
+        hover_least_percent=100.0 * float(hover_ratio.min() - 1.0),
+        flight_bucket=bucket["flight"],
+        thesis_bucket=bucket["thesis"],
+        section=section,
+        wake=wake,
     )  # fmt: skip

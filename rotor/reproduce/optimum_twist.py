@@ -13,7 +13,7 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import POWERS, at_condition
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.ladder import RUNGS, moving_twist
-from rotor.reproduce.report import Report, by_name, card, curve, judged, table, with_gap
+from rotor.reproduce.report import Report, by_name, curve, judged, report, table, with_gap
 from rotor.reproduce.runs import (
     CONCEPTS,
     FULL,
@@ -40,75 +40,59 @@ NAMES = {
 BOUND_DEG = 30.0
 """Bound of every rate in the search [°/R]."""
 _TWO = ("inboard_rate_deg", "outboard_rate_deg")
-FIGURES: dict[str, tuple[str, tuple[str, ...], str]] = {
-    "4.1": ("linear", ("rate_deg",), ""),
-    "4.2": ("quadratic", ("curvature_deg",), ""),
-    "4.3": ("quadratic", ("difference_deg",), ""),
-    **{f"4.{k}": (f"two {10 * k}-{100 - 10 * k}", _TWO, "") for k in (4, 5, 6, 7)},
-    "4.8": (
-        "two airfoils", _TWO,
-        " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; that of the thesis is not known). "
-        "In the thesis preset decks at Mach 0.3 replace the polynomials and the annulus balance eq. (3.3), in the "
-        "baseline too: the R8 exists as a deck only, and (3.3) has one lift curve for a whole blade.",
-    ),
-    "4.10": (
-        "three", ("inboard_rate_deg", "middle_rate_deg", "outboard_rate_deg"),
-        " Breaks where the UH-60A changes its airfoils. The abstract says “with different airfoils”, p. 26 “only the "
-        "SC 1095 airfoil”: the thesis preset has SC1095 throughout, the flight preset the airfoils as built.",
-    ),
-}  # fmt: skip
-"""By number: the concept, the parameters shown, and a remark."""
+FIGURES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "4.1": ("linear", ("rate_deg",)),
+    "4.2": ("quadratic", ("curvature_deg",)),
+    "4.3": ("quadratic", ("difference_deg",)),
+    **{f"4.{k}": (f"two {10 * k}-{100 - 10 * k}", _TWO) for k in (4, 5, 6, 7)},
+    "4.8": ("two airfoils", _TWO),
+    "4.10": ("three", ("inboard_rate_deg", "middle_rate_deg", "outboard_rate_deg")),
+}
+"""By number: the concept, and the parameters shown."""
 
 
 def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
-    concept, shown, note = FIGURES[number]
+    concept, shown = FIGURES[number]
     optima = {name: [best(name, concept, mu, speeds) for mu in speeds] for name in VARIANTS}
     largest = {name: max(optimum.saving for optimum in row) for name, row in optima.items()}
     widths = [high - low for row in optima.values() for optimum in row for low, high in [_band(optimum, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
     settled = all(optimum.converged for row in optima.values() for optimum in row)
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
-    return card(
+    kinds = _by_kind(0.2) if number == "4.1" else {}
+    best_words = [
+        (f"{name}, {NAMES[key]}", *(f"{_value(optimum, key):.1f}" for optimum in row))
+        for name, row in optima.items()
+        for key in shown
+    ]
+    rows = [
+        (name, optimum.mu, *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
+         optimum.power_kw, 100.0 * optimum.saving)
+        for name, row in optima.items()
+        for optimum in row
+    ]  # fmt: skip
+    return report(
         number,
-        f"Twist of least total power over speed: {CONCEPTS[concept][0]}. Shaded: within 0.1 % of that power.",
-        f"Against a fixed linear −16° it saves at most {by_name(largest)}; up to {widest:.0f}° of twist cost 0.1 %.",
-        "The other parameters are re-optimised along the band." + note + (_induced(0.2) if number == "4.1" else "")
-        + _on_bound(optima, shown)
-        + ("" if settled else " Not every search converged."),
-        table(
-            "optimum",
-            ("variant", "mu", *columns, "total_kw", "saving_percent"),
-            [
-                (name, optimum.mu, *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
-                 optimum.power_kw, 100.0 * optimum.saving)
-                for name, row in optima.items()
-                for optimum in row
-            ],
-        ),
-        tuple(_panel(name, row, shown) for name, row in optima.items()),
-        summary=table(
-            "best",
-            ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)),
-            [
-                (f"{name}, {NAMES[key]}", *(f"{_value(optimum, key):.1f}" for optimum in row))
-                for name, row in optima.items()
-                for key in shown
-            ],
-        ),
-    )  # fmt: skip
-
-
-def _induced(mu: float) -> str:
-    """What the abstract minimises beside what chapter 4 shows."""
-    design = variant("flight", mu=mu)
-    linear = find_concept("linear")
-    searches = (run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS)
-    total, induced = (math.degrees(optimum.best.parameters[0]) for optimum in searches if optimum.best is not None)
-    return (
-        f" The abstract and the objectives minimise induced power, the captions of chapter 4 do not say: in the flight "
-        f"preset at µ {mu:g} the best twist is {induced:.1f}° for induced and {total:.1f}° for total power."
+        tables=[
+            table("best", ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)), best_words, shown=True),
+            table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows),
+        ],
+        panels=[_panel(name, row, shown) for name, row in optima.items()],
+        largest=by_name(largest),
+        widest=widest,
+        on_bound=_on_bound(optima, shown),
+        settled="" if settled else " Not every search converged.",
+        induced=kinds.get("induced", math.nan),
+        total=kinds.get("total", math.nan),
     )
+
+
+def _by_kind(mu: float) -> dict[str, float]:
+    """Best linear twist [°] of the flight preset for each power: the abstract minimises induced power."""
+    linear, design = find_concept("linear"), variant("flight", mu=mu)
+    optima = {kind: run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS}
+    return {kind: math.degrees(optimum.best.parameters[0]) for kind, optimum in optima.items() if optimum.best}
 
 
 def _on_bound(optima: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> str:
@@ -157,26 +141,17 @@ def figure_4_11() -> Report:
     angle = np.degrees(law(r))
     plain = float(np.polyfit(r, angle, 1)[0])
     weighted = float(np.polyfit(r, angle, 1, w=r)[0])  # polyfit squares its weights: r² here.
-    return Report(
-        number="4.11",
-        caption="Built-in twist of the UH-60A and its linear approximation.",
-        statement="“approximated by a linear blade twist of −16°” (p. 25).",
-        ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
-        "r².",
-        verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
-        because="In degrees per radius −16° is its linear equivalent; root to tip the same lines are "
-        f"{(1.0 - r[0]) * plain:.1f}° and {(1.0 - r[0]) * weighted:.1f}°. The often quoted −18° is a nominal value.",
-        tables=(
-            table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, -16.0 * (r - 0.75), strict=True)),
-        ),
-        panels=(
-            Chart(
-                "", Axis("r/R"), Axis("twist, zero at 0.75 R [°]"),
-                (curve("UH-60A", r, angle), curve("linear −16°", r, -16.0 * (r - 0.75), "dashed")),
-            ),
-        ),
+    line = -16.0 * (r - 0.75)
+    curves = curve("UH-60A", r, angle), curve("linear −16°", r, line, "dashed")
+    return report(
+        "4.11",
+        judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
+        tables=[table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, line, strict=True))],
+        panels=[Chart("", Axis("r/R"), Axis("twist, zero at 0.75 R [°]"), curves)],
         numbers={"unweighted": plain, "weighted": weighted},
-    )  # fmt: skip
+        unweighted_root_to_tip=(1.0 - r[0]) * plain,
+        weighted_root_to_tip=(1.0 - r[0]) * weighted,
+    )
 
 
 SpeedRow = tuple[float, float, float, float, str]
@@ -215,24 +190,15 @@ def figure_4_12(most: int | None = None) -> Report:
         *with_gap("three segments, variable", mu, moved, colour=1),
         *with_gap("public model curve (indicative)", mu, public, "points", colour=7),
     )
-    return card(
+    return report(
         "4.12",
-        "Main-rotor power of the flown twist and of the best three-segment blade at each speed (flight preset), beside "
-        "a public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
-        f"Relative to the built-in twist the best three segments save {100 * min(savings):.1f} to "
-        f"{100 * max(savings):.1f} % of main-rotor power.",
-        "The saving is smaller than the difference between model and data, so only differences between our own curves "
-        "are meaningful.",
-        table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
-        (Chart("", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), curves),),
-        {"least_saving": min(savings), "largest_saving": max(savings)},
+        tables=[
+            table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows)
+        ],
+        panels=[Chart("", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), curves)],
+        numbers={"least_saving": min(savings), "largest_saving": max(savings)},
+        least_saving_percent=100.0 * min(savings),
     )
-
-
-_SAME_BASELINE = (
-    "Two airfoils in the thesis preset: the gain of the second airfoil, found with decks, on top of the two segments "
-    "with polynomials; so every concept has the same baseline."
-)
 
 
 def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
@@ -251,26 +217,19 @@ def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
             Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis("saving of total power [%]"), tuple(curves))
         )
     gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in VARIANTS}
-    return card(
+    largest = [(name, *(f"{max(savings[name, concept]):.1f}" for concept in CONCEPTS)) for name in VARIANTS]
+    heads = ("variant", "concept", *(f"mu_{mu:g}" for mu in speeds))
+    return report(
         "4.13",
-        "Saving of total power by each concept at its optimum for each speed, against a fixed linear −16°.",
-        f"Three segments save more than one linear twist by at most {by_name(gain, '{:.2f} %')}.",
-        _SAME_BASELINE,
-        table(
-            "saving_percent",
-            ("variant", "concept", *(f"mu_{mu:g}" for mu in speeds)),
-            [(*key, *row) for key, row in savings.items()],
-        ),
-        tuple(panels),
-        {
+        tables=[
+            table("largest saving", ("[%]", *CONCEPTS), largest, shown=True),
+            table("saving_percent", heads, [(*key, *row) for key, row in savings.items()]),
+        ],
+        panels=panels,
+        numbers={
             **{f"{name}_{concept}_largest": max(row) / 100.0 for (name, concept), row in savings.items()},
             **{f"{name}_three_over_linear": float(value) for name, value in gain.items()},
         },
-        summary=table(
-            "largest saving",
-            ("[%]", *CONCEPTS),
-            [(name, *(f"{max(savings[name, concept]):.1f}" for concept in CONCEPTS)) for name in VARIANTS],
-        ),
     )
 
 
@@ -303,16 +262,8 @@ def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
         "quadratic": more["quadratic"],
         "airfoils": more["two airfoils"] - more["two 50-50"],
     }
-    beyond = by_name({name: numbers[f"{name}_moving"] for name in VARIANTS}, "{:.2f} %")
-    return card(
-        "4.1",
-        "Reduction of mean total power against a fixed linear −16° by each concept, equal time at each speed, and by "
-        "the best fixed linear blade [%].",
-        f"Beyond the best fixed linear blade a linear twist that moves saves {beyond}.",
-        _SAME_BASELINE,
-        table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows),
-        numbers=numbers,
-    )
+    saved = table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows, shown=True)
+    return report("table 4.1", tables=[saved], numbers=numbers)
 
 
 def _percent(name: str, concept: str, mu: float, speeds: tuple[float, ...]) -> float:

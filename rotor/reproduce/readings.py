@@ -16,7 +16,7 @@ from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import TOLERANCE, Agreement, Report, TableCell, table
+from rotor.reproduce.report import TOLERANCE, Agreement, Report, TableCell, report, table
 from rotor.reproduce.runs import FIVE_RATES, CachedFunction, Call
 from rotor.reproduce.twist_effect import DOCUMENT_HOVER, DOCUMENT_STRONG, HIGH, LOW, MEDIUM, by_parabola
 from rotor.trim.solve import solve
@@ -162,27 +162,9 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
         words = f"{described(reading.section)}; F on {reading.loss_on}; {reading.unit}; {reading.counted}"
         return words, f"{judgement.optimum_deg:.1f}", *cells, overtakes
 
-    return Report(
-        number="Readings",
-        kind="claim",
-        caption="How many of five statements of §3.3 each reading of the thesis gives. Down: section data (transition, "
-        "Mach number and range of the fit of order 10 and 12, or a table over Mach number). Across: Prandtl's F on the "
-        "lift or on the inflow, the unit of twist, and power as induced + profile + parasite (sum) or torque × Ω + "
-        "parasite. Below: the power by which each statement is missed; for −16° in hover, the power above the least.",
-        statement="XFOIL, order 10 and 12, without compressibility (p. 17–24); F on the inflow in hover (3.3), “induced"
-        " effects” averaged over azimuth (p. 24); power from torque (3.10), but “the code calculates the main rotor "
-        "induced power, main rotor profile power and fuselage parasitic power” (p. 25). Transition, Mach number, range "
-        "of the fit and unit of twist are not stated.",
-        ours=f"The most is {most} of 5, by {several} of {len(judgements)} readings. Of these {statements(best)[0]} "
-        f"misses least: by {100 * shortfall(judgements[best]):.2f} % of power. Read per radius it gives "
-        f"{held[per_radius]}; −8° then overtakes −12° at µ {judgements[per_radius].overtakes:.3f}. The preset's "
-        f"reading of before gives {held[before]}.",
-        verdict=Agreement.INDICATIVE,
-        because="The preset takes section data, F and power of the reading that holds most; twist stays per radius, as "
-        "in figure 4.11. F on the inflow is what (3.3) says, the sum of parts what p. 25 says. The section data are "
-        "chosen among ten for their answers, which is no evidence: the ripple of a polynomial of order 12, of the size "
-        "of the differences between the twists, decides. To see any row: --preset thesis --loss-on lift|inflow "
-        "--airfoils NAME, with the names in the CSV.",
+    return report(
+        "readings",
+        Agreement.INDICATIVE,
         tables=(
             table(
                 "held",
@@ -203,4 +185,6 @@ def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
             ),
         ),
         numbers={"most": float(most), **{" ".join(reading): float(count) for reading, count in held.items()}},
+        several=several, count=len(judgements), best=str(statements(best)[0]), shortfall=shortfall(judgements[best]),
+        per_radius=held[per_radius], overtakes=judgements[per_radius].overtakes, before=held[before],
     )  # fmt: skip

@@ -1,40 +1,25 @@
 """A rebuilt figure: caption, statement of the thesis, our numbers, verdict; and the data of its plots and tables."""
 
 import math
+import re
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
+from functools import cache
+from string import Formatter
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotor.assets import asset_path
 from rotor.chart import Band, Chart, Line, Points, Series
 
 CurveStyle = Literal["line", "points", "dashed", "both", "band"]
 TableCell = str | float | int
 TOLERANCE = 1e-3
 """Part of the power by which a twist that the thesis calls the best may exceed our least: the band of every optimum."""
-_CAPTIONS = {
-    "Figure 4.1": "Linear twist, only one section",
-    "Figure 4.2": "Parameter a, quadratic twist",
-    "Figure 4.3": "Root tip difference, quadratic twist",
-    "Figure 4.4": "Two sections with linear twist, 40 – 60",
-    "Figure 4.5": "Two sections with linear twist, 50 – 50",
-    "Figure 4.6": "Two sections with linear twist, 60 – 40",
-    "Figure 4.7": "Two sections with linear twist, 70 – 30",
-    "Figure 4.8": "Two sections, two airfoils and linear twist, 50 – 50",
-    "Figure 4.10": "Three sections with linear twist",
-    "Figure 4.12": "Comparison of flight test data and three linear segments",
-    "Figure 4.13": "Twist behaviours compared",
-    "Table 4.1": "Reduction of power between fixed linear twist and simulations",
-    "Figure 5.5": "Free strain compared",
-    "Figure 5.7": "Electric field compared",
-    "Figure 5.10": "Torsion angle of the thermal analysis",
-    "Table 5.1": "Actuator properties",
-    "Table 5.2": "Actuators and concepts compared",
-}
-"""What the lists of figures and tables of the thesis name, where its chapters are not available."""
 
 
 class Agreement(Enum):
@@ -72,11 +57,14 @@ class Report:
     caption: str
     """In our own words."""
     statement: str
+    """What the thesis says."""
     ours: str
     """Our numbers, one or two sentences."""
     verdict: Agreement
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
+    caption_only: bool = False
+    """Whether the caption of the thesis is all that is known of it."""
     tables: tuple[ReportTable, ...]
     panels: tuple[Chart, ...] = ()
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
@@ -91,11 +79,6 @@ class Report:
     def checkable(self) -> bool:
         """Whether anything of the thesis was compared or loaded."""
         return self.verdict is not Agreement.NO_REFERENCE
-
-    @property
-    def caption_only(self) -> bool:
-        """Whether the caption is all that is known of it."""
-        return self.title in _CAPTIONS
 
     @property
     def stem(self) -> str:
@@ -149,28 +132,43 @@ def table(
     return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows), shown)
 
 
-def card(
-    number: str,
-    caption: str,
-    ours: str,
-    because: str,
-    data: ReportTable,
-    panels: tuple[Chart, ...] = (),
-    numbers: Mapping[str, float] | None = None,
-    summary: ReportTable | None = None,
-) -> Report:
-    """A figure, or with no panels a table, of which only the caption is known.
+@cache
+def thesis() -> dict[str, dict[str, str]]:
+    """What the thesis says, and what is said of ours, by number: `assets/thesis.toml`; last `drawings`."""
+    return tomllib.loads(asset_path("thesis.toml").read_text(encoding="utf-8"))
 
-    A picture, a sentence and a small table, `summary`, or the whole one; the rest folds.
+
+def report(
+    number: str,
+    verdict: Agreement = Agreement.NO_REFERENCE,
+    *,
+    tables: Sequence[ReportTable],
+    panels: Sequence[Chart] = (),
+    numbers: Mapping[str, float] | None = None,
+    **words: str | float,
+) -> Report:
+    """What was computed, with the words of `thesis` filled from `numbers` and `words`.
+
+    number: as the catalogue has it, for example `3.11`, `table 4.1`, `tail rotor`.
     """
-    kind = "figure" if panels else "table"
-    tables = (data,) if summary is None else (replace(summary, shown=True), data)
+    entry, numbers = thesis()[number], numbers or {}
+    caption, ours, because = (_filled(entry[key], {**numbers, **words}) for key in ("caption", "ours", "because"))
+    title = entry.get("title")
+    known = f"{title}. Only this caption is known; the numbers of the thesis are not." if title else entry["statement"]
     return Report(
-        number=number, kind=kind, caption=caption, ours=ours, because=because, panels=panels, numbers=numbers or {},
-        statement=f"{_CAPTIONS[f'{kind.capitalize()} {number}']}. Only this caption is known; the numbers of the "
-        "thesis are not.",
-        verdict=Agreement.NO_REFERENCE, tables=tables if panels else (replace(data, shown=True),),
+        number=number.removeprefix("table ").capitalize(),
+        kind="table" if number.startswith("table ") else "figure" if number[0].isdigit() else "claim",
+        caption=caption, statement=known, ours=ours, verdict=verdict, because=because, caption_only=title is not None,
+        tables=tuple(tables), panels=tuple(panels), numbers=numbers,
     )  # fmt: skip
+
+
+def _filled(text: str, values: Mapping[str, str | float]) -> str:
+    """A text with its fields filled; a number and its per cent sign stand apart."""
+    return "".join(
+        before + ("" if field is None else re.sub(r"%$", " %", format(values[field], form or "")))
+        for before, field, form, _ in Formatter().parse(text)
+    )
 
 
 def by_name(values: Mapping[str, float], form: str = "{:.1f} %") -> str:

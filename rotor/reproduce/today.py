@@ -25,7 +25,7 @@ from rotor.reproduce.ladder import (
     climb,
 )
 from rotor.reproduce.optimum_twist import table_4_1
-from rotor.reproduce.report import Agreement, Report, TableCell, curve, table
+from rotor.reproduce.report import Agreement, Report, TableCell, curve, report, table
 from rotor.reproduce.runs import CONCEPTS, Call, searches
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.trim.solution import Solution
@@ -43,10 +43,6 @@ MOVED = {
 """Steps of the ladder, in words."""
 SHOWN = (0.0, 0.2, 0.35)
 """µ in the picture: hover, near least power, fast."""
-SOURCES = (
-    "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, MSc thesis, IST Lisbon 2016. "
-    "Keys et al. 1987: its reference 42, as it quotes it. All other numbers: python -m rotor ladder."
-)
 
 
 def needed() -> list[Call]:
@@ -134,18 +130,8 @@ def today() -> Report:
             f"the usual propulsive force of a tunnel test; {_signed(keys[0])} in hover.",
         ),
     )
-    return Report(
-        number="Today",
-        kind="claim",
-        caption="Best linear twist, as the assumptions of the thesis are changed one after another to today's. "
-        "UH-60A, 8322.4 kg, sea level; degrees per radius, as built; shaded: within 0.1 % of the power.",
-        statement="Twist should fall from hover to fast flight (§3.3), and a blade that moves it saves power.",
-        ours=f"The best twist falls from {ladder.at(last.name, slow).rate_deg:.1f}° in hover to "
-        f"{ladder.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}; one that moves saves {_saves(last.moving.gain)} "
-        f"beyond the best fixed blade ({_saves(first.moving.gain)} with the thesis' assumptions), less than the "
-        "difference between two twists is known to.",
-        verdict=Agreement.NO_REFERENCE,
-        because=SOURCES,
+    return report(
+        "today",
         tables=(
             table("answer", ("", ""), rows, shown=True),
             table(
@@ -170,6 +156,7 @@ def today() -> Report:
         ),
         numbers={
             "thesis_hover": ladder.at("thesis", slow).rate_deg,
+            "flight_hover": ladder.at(last.name, slow).rate_deg,
             "flight_fast": ladder.at(last.name, fast).rate_deg,
             "thesis_beyond_fixed": first.moving.gain,
             "flight_beyond_fixed": last.moving.gain,
@@ -325,16 +312,14 @@ def literature() -> Report:
             "blade",
         ),
     )
-    return Report(
-        number="Literature",
-        kind="claim",
-        caption="Numbers of other works that the thesis quotes, beside ours. They are other rotors, other actuators "
-        "and other speeds: only sign and size can be compared.",
-        statement="Active twist reaches 0.5° of 2° wanted; 1–2 % less power measured, 3.3 % computed with 4° (p. 3).",
-        ours=f"2/rev at µ {SPEED:g}: {100 * small:.1f} % less power with 1.5°, {100 * large:.1f} % with 4°. Twist "
-        f"within reach ±{lo:.1f}…±{hi:.1f}°.",
-        verdict=Agreement.INDICATIVE,
-        because=f"Ours is a steady section model on a torsionally elastic blade, where the gain does not grow with "
-        f"amplitude throughout: {100 * small:.1f} % at 1.5°, {100 * middle:.1f} % at 2.5°, {100 * large:.1f} % at 4°.",
-        tables=(table("quoted_and_ours", ("source", "quoted", "ours", "how ours is made"), rows, shown=True),),
+    return report(
+        "literature",
+        Agreement.INDICATIVE,
+        tables=[table("quoted_and_ours", ("source", "quoted", "ours", "how ours is made"), rows, shown=True)],
+        mu=SPEED,
+        small=small,
+        middle=middle,
+        large=large,
+        low=lo,
+        high=hi,
     )

@@ -35,6 +35,7 @@ from rotor.reproduce.report import (
     by_name,
     curve,
     judged,
+    report,
     table,
 )
 from rotor.reproduce.runs import (
@@ -75,7 +76,6 @@ def figure_3_11() -> Report:
     tables: list[ReportTable] = []
     panels: list[Chart] = []
     numbers: dict[str, float] = {}
-    words: list[str] = []
     for name in ("thesis", "flight"):
         sigma = make_design(preset=name).rotor.solidity
         powers = {rate: [solved(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES}
@@ -97,43 +97,24 @@ def figure_3_11() -> Report:
         ]
         tables.append(table(f"{name}_kw", ("mass_kg", "ct_over_sigma", *(f"linear_{r}" for r in FIVE_RATES)), rows))
         best, low, high, least = hover_optimum(name)
-        at_document = main_rotor_kw(name, DOCUMENT_HOVER, 0.0) / least - 1.0
         numbers |= {
-            f"{name}_optimum": best, f"{name}_cost_of_13_5": at_document,
+            f"{name}_optimum": best, f"{name}_low": low, f"{name}_high": high,
+            f"{name}_cost_of_13_5": main_rotor_kw(name, DOCUMENT_HOVER, 0.0) / least - 1.0,
             f"{name}_cost_of_16": main_rotor_kw(name, -16, 0.0) / least - 1.0,
             f"{name}_cost_of_0": main_rotor_kw(name, 0, 0.0) / least - 1.0,
         }  # fmt: skip
-        words.append(
-            f"{name}: optimum {best:.1f}° (within 0.1 % from {low:.1f} to {high:.1f}°); −13.5° costs "
-            f"{100 * at_document:.2f} %, −16° {100 * numbers[f'{name}_cost_of_16']:.2f} %, no twist "
-            f"{100 * numbers[f'{name}_cost_of_0']:.1f} %"
-        )
     span = 1.0 - make_design(preset="thesis").rotor.blade.root_cutout
     best, _, _, least = hover_optimum("thesis")
     tip, tip_strong = (
         main_rotor_kw("thesis", twist / span, 0.0) / least - 1.0 for twist in (DOCUMENT_HOVER, DOCUMENT_STRONG)
     )
-    per_radius, strong = (numbers[f"thesis_cost_of_{twist}"] for twist in ("13_5", "16"))
-    numbers |= {"root_to_tip_optimum": best * span, "cost_of_13_5_root_to_tip": tip}
-    sought = solved("thesis", "linear:-16", 0.0).require()
-    largest_alpha, stalled = float(np.degrees(sought.disk.alpha.max())), 100.0 * sought.stalled_area
-    return Report(
-        number="3.11",
-        caption="Power in hover against thrust for five linear twists.",
-        statement="“the optimized solution is −13.5°. So a solution with −16° presents higher twist slope than the "
-        "optimal one”; at −16° “the inner part of the blade has an angle of attack higher than the angle of attack "
-        "in stall condition” (p. 27). The unit of twist is not stated.",
-        ours="; ".join(words) + ".",
-        verdict=judged(per_radius <= TOLERANCE < strong),
-        because=f"Read as degrees per radius, which figure 4.11 needs, −13.5° costs {100 * per_radius:.2f} % and −16° "
-        f"{100 * strong:.2f} %. Read as root to tip, as the thesis captions figure 4.3, our optimum "
-        f"{best:.1f}° per radius is {best * span:.1f}°: −13.5° costs {100 * tip:.2f} %, −16° {100 * tip_strong:.2f} %. "
-        "The cause that the thesis gives is not reproduced: at −16° nothing stalls "
-        f"(largest angle of attack {largest_alpha:.1f}°, stalled area {stalled:.1f} %).",
-        tables=tuple(tables),
-        panels=tuple(panels),
-        numbers=numbers,
-    )
+    strong = solved("thesis", "linear:-16", 0.0).require()
+    numbers |= {
+        "root_to_tip_optimum": best * span, "cost_of_13_5_root_to_tip": tip, "cost_of_16_root_to_tip": tip_strong,
+        "largest_alpha_deg": float(np.degrees(strong.disk.alpha.max())), "stalled_area": strong.stalled_area,
+    }  # fmt: skip
+    agrees = numbers["thesis_cost_of_13_5"] <= TOLERANCE < numbers["thesis_cost_of_16"]
+    return report("3.11", judged(agrees), tables=tables, panels=panels, numbers=numbers)
 
 
 FIVE_NAMES = ("thesis", THESIS_WAKE, "flight")
@@ -151,19 +132,14 @@ def figure_3_12() -> Report:
     saves = {name: main_rotor_kw(name, 0, LOW[0]) / main_rotor_kw(name, -16, LOW[0]) - 1.0 for name in FIVE_NAMES}
     costs = [mu for mu in LOW if main_rotor_kw("thesis", -16, mu) > (1 + TOLERANCE) * main_rotor_kw("thesis", 0, mu)]
     return _speeds(
-        "3.12", "low", LOW,
-        "“early helicopters were limited to 130km/h, in low speed forward flight highly twist blades are able to "
-        "reduce "
-        "the coefficient of power” (p. 28).",
+        "3.12",
+        LOW,
         judged(not costs),
-        f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:.1f} % in the thesis preset"
-        + (f", and from µ {costs[0]:g} on it costs power" if costs else "")
-        + f"; the best goes from {slow}° to {fast}° at 130 km/h. Its linear inflow responds to twist only at the ends "
-        "of the blade, where F is. "
-        f"With a wake that responds to loading, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, "
-        f"{100 * saves['flight']:.1f} % in the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
-    )  # fmt: skip
+        costs=f", and from µ {costs[0]:g} on it costs power" if costs else "",
+        slow=slow,
+        fast=fast,
+    )
 
 
 def figure_3_13() -> Report:
@@ -171,18 +147,10 @@ def figure_3_13() -> Report:
     beyond = [mu for mu in MEDIUM if mu > 0.18]
     after = {name: [best_of_five(name, mu) for mu in beyond] for name in FIVE_NAMES}
     cost = {name: max(_cost(name, -8, mu) for mu in beyond) for name in FIVE_NAMES}
-    return _speeds(
-        "3.13", "medium", MEDIUM,
-        "“after µ = 0.18 the linear twist distribution with −8° of slope becomes the solution that requires less "
-        "power” (p. 28).",
-        judged(cost["thesis"] <= TOLERANCE),
-        f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {by_name(cost, '{:.2f} %')}. "
-        "Where F acts, the unit of twist and the section data decide, on a flat curve: see the readings.",
-        {
-            **{f"{name}_cost_of_8": value for name, value in cost.items()},
-            **{f"{name}_always_8": float(set(rates) == {-8}) for name, rates in after.items()},
-        },
-    )  # fmt: skip
+    numbers = {f"{name}_cost_of_8": value for name, value in cost.items()}
+    numbers |= {f"{name}_always_8": float(set(rates) == {-8}) for name, rates in after.items()}
+    agreement = judged(cost["thesis"] <= TOLERANCE)
+    return _speeds("3.13", MEDIUM, agreement, numbers, best=_best_words(after), cost=by_name(cost, "{:.2f} %"))
 
 
 def figure_3_14() -> Report:
@@ -193,20 +161,20 @@ def figure_3_14() -> Report:
     trim, section = (least(on, last, None).rate_deg for on in (TRIM, ("table", "mach")))
     anywhere = max(_cost("thesis", -4, mu) for mu in HIGH)
     return _speeds(
-        "3.14", "high", HIGH,
-        "“in high speed forward flight a linear twist behaviour of −4° presents better results” (p. 28).",
+        "3.14",
+        HIGH,
         judged(anywhere <= TOLERANCE),
-        f"At µ {last:g} the best of the five is {_best_words(best)}; −4° costs {by_name(cost, '{:.2f} %')}, and in "
-        f"the thesis preset nowhere from µ {HIGH[0]:g} on more than {100 * anywhere:.2f} %. In that preset the best "
-        f"twist at µ {last:g} is {least((), last, None).rate_deg:.1f}°; trim by cyclic with µ sin α in U_P alone "
-        f"takes it to {trim:.1f}°, a section table with Mach number alone to {section:.1f}°.",
         {
             **{f"{name}_best": float(rates[0]) for name, rates in best.items()},
             **{f"{name}_cost_of_4": value for name, value in cost.items()},
             "with_trim": trim,
             "with_section": section,
         },
-    )  # fmt: skip
+        best=_best_words(best),
+        cost=by_name(cost, "{:.2f} %"),
+        anywhere=anywhere,
+        thesis_optimum=least((), last, None).rate_deg,
+    )
 
 
 SLOWER = 90.0
@@ -233,32 +201,26 @@ def figure_3_15() -> Report:
             for mu, rate, saving in zip(flown, slow, best, strict=False)}  # fmt: skip
     beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
-    return Report(
-        number="3.15",
-        caption="Main-rotor power of five linear twists from hover to fast flight, flight preset, at two rotor speeds "
-        "and equal airspeeds. The figure of the thesis is that of Han et al. 2015, and not available.",
-        statement="“The result is presented in Figure 3.15” (p. 29): the text has no number.",
-        ours=f"Best of five {_path(best, FULL)}. The worst costs {spread[0]:.1f} % in hover, "
-        f"{min(spread[1:]):.1f} to {max(spread[1:]):.1f} % in flight. At {SLOWER:.0f} % rotor speed "
-        f"{_path(slow, flown)};{beyond} "
-        f"power changes by {-100 * gain[0.2]:+.1f} % at µ 0.2 and {-100 * gain[flown[-1]]:+.1f} % at µ {flown[-1]:g}.",
-        verdict=Agreement.NO_REFERENCE,
-        because="Beside the best, the next weaker and the next stronger cost "
-        + ", ".join(f"{_neighbours(mu)} % at µ {mu:g}" for mu in (0.2, 0.35)) + ".",
-        tables=(
+    return report(
+        "3.15",
+        tables=[
             table("flight_kw", ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
                   [(mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
                    for mu, saving in zip(FULL, best, strict=True)]),
-        ),
-        panels=tuple(
+        ],
+        panels=[
             Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))
             for title, label, kw in (
                 ("100 % rotor speed", "main-rotor power [kW]", partial(main_rotor_kw, "flight")),
                 (f"{SLOWER:.0f} % rotor speed", "main-rotor power [kW]", slower_kw),
                 ("100 % rotor speed", "relative to the best of the five [%]", partial(_percent, "flight")),
             )
-        ),
+        ],
         numbers={"hover_best": float(best[0]), "fast_best": float(best[-1]), "slower_saves": gain[0.2]},
+        best=_path(best, FULL), slow=_path(slow, flown), beyond=beyond, fastest=flown[-1],
+        hover_spread=spread[0], least_spread=min(spread[1:]), largest_spread=max(spread[1:]),
+        slow_changes=-gain[0.2], fast_changes=-gain[flown[-1]],
+        neighbours=", ".join(f"{_neighbours(mu)} % at µ {mu:g}" for mu in (0.2, 0.35)),
     )  # fmt: skip
 
 
@@ -310,8 +272,7 @@ def crossings(name: str, first: int, second: int, speeds: tuple[float, ...]) -> 
 
 
 def _speeds(
-    number: str, word: str, speeds: tuple[float, ...], statement: str, verdict: Agreement, because: str,
-    numbers: dict[str, float],
+    number: str, speeds: tuple[float, ...], verdict: Agreement, numbers: dict[str, float], **words: str | float
 ) -> Report:  # fmt: skip
     panels = tuple(
         Chart(
@@ -321,7 +282,7 @@ def _speeds(
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
         for name in FIVE_NAMES
     )  # fmt: skip
-    words = "; ".join(
+    paths = "; ".join(
         f"{name}: best of five " + _path([best_of_five(name, mu) for mu in speeds], speeds) for name in FIVE_NAMES
     )
     crossed: list[tuple[str | float, ...]] = []
@@ -329,30 +290,17 @@ def _speeds(
         for first, second in pairwise(FIVE_RATES):
             crossed += [(name, first, second, mu) for mu in crossings(name, first, second, speeds)]
     met = [f"{first}° and {second}° at µ {mu:.3f}" for name, first, second, mu in crossed if name == "thesis"]
-    return Report(
-        number=number,
-        caption=f"Main-rotor power of five linear twists at {word} speed.",
-        statement=statement,
-        ours=words + ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis)."),
-        verdict=verdict,
-        because=because,
-        tables=(
-            *(
-                table(
-                    f"{name}_kw",
-                    ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-                    [
-                        (mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu))
-                        for mu in speeds
-                    ],
-                )
-                for name in FIVE_NAMES
-            ),
-            table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed),
-        ),
-        panels=panels,
-        numbers=numbers,
-    )
+    kw = [
+        table(
+            f"{name}_kw",
+            ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
+            [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds],
+        )
+        for name in FIVE_NAMES
+    ]
+    tables = [*kw, table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed)]
+    paths += ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis).")
+    return report(number, verdict, tables=tables, panels=panels, numbers=numbers, paths=paths, **words)
 
 
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
@@ -419,24 +367,9 @@ def keys_1987() -> Report:
     lowest, highest = (np.array([f(column) for column in zip(*ratio.values(), strict=True)]) for f in (min, max))
     usual, low, high = (float(np.interp(USUAL_FORCE, force, row)) for row in (ratio["flight"], lowest, highest))
     slower = float(np.interp(USUAL_FORCE, force, [point[1] for point in over["flight"]]))
-    return Report(
-        number="Keys 1987",
-        kind="claim",
-        caption="Main-rotor power of linear twist −17.3° over that of −11.5°, read per radius, beside the wind-tunnel "
-        "result that the thesis quotes: four-bladed Mach-scaled composite blades of another rotor. Band: over models.",
-        statement="“The solution with high twisted blade presented a measured power increment of 5% at 330km/h”; “the "
-        "performance penalty due to twist was approximately 7.5km/h”; “in hovering condition, showed a reduction of "
-        "2.4% on power required” (p. 26, 28).",
-        ours=f"Flight preset with the drag area of the UH-60A: {fast:+.1f} % at {FAST_KMH:.0f} km/h ({lowest[-1]:+.1f} "
-        f"to {highest[-1]:+.1f} over {len(over)} models), {hover:+.1f} % in hover. At the usual propulsive force of a "
-        f"tunnel test, X/qd²σ {USUAL_FORCE:g}: {usual:+.1f} % ({low:+.1f} to {high:+.1f}), which costs "
-        f"{slower:.1f} km/h.",
-        verdict=judged(all(near)),
-        because=f"With the drag area of the UH-60A {'both ends are' if all(near) else 'not both ends are'} within half "
-        "of the measured effect. Section, loading "
-        "and propulsive force of that rotor are not in the thesis, and the force decides: "
-        f"{ratio['flight'][0]:+.1f} % without any, {ratio['flight'][-1]:+.1f} % with the drag of the UH-60A, X/qd²σ "
-        f"{force[-1]:.2f}, because it tilts the disk and sends air through it.",
+    return report(
+        "keys 1987",
+        judged(all(near)),
         tables=(
             table("over_propulsive_force", ("X_over_qd2sigma", *(f"{words} [%]" for words in over), "slower [km/h]"),
                   [(x, *(row[k] for row in ratio.values()), over["flight"][k][1]) for k, x in enumerate(force)]),
@@ -459,4 +392,7 @@ def keys_1987() -> Report:
                for end, at in (("hover", 0), ("fast", -1))},
             "usual_force": usual / 100.0, "usual_low": low / 100.0, "usual_high": high / 100.0, "slower_kmh": slower,
         },
+        lowest=lowest[-1], highest=highest[-1], models=len(over), usual_low_percent=low, usual_high_percent=high,
+        ends="both ends are" if all(near) else "not both ends are", without_force=ratio["flight"][0],
+        with_drag=ratio["flight"][-1], force=force[-1],
     )  # fmt: skip

@@ -112,7 +112,7 @@ class SetDescription:
     """`file::function` below tests/ of the rows that name no other."""
     kind: Kind = "validation"
     against: str = ""
-    """Of its rows; empty: the source."""
+    """What the rows are compared with; empty: the source."""
     text: tuple[str, ...] = ()
     notes: Mapping[str, str] = field(default_factory=dict[str, str])
     """Remarks on rows, by a word for the row."""
