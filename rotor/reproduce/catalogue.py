@@ -34,7 +34,7 @@ class CatalogueEntry:
 
     @property
     def chapter(self) -> str:
-        """Of the thesis."""
+        """Chapter of the thesis."""
         return thesis()[self.number]["chapter"]
 
     @property

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
 from string import Formatter
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -133,7 +133,7 @@ def table(
 
 
 @cache
-def thesis() -> dict[str, dict[str, str]]:
+def thesis() -> dict[str, dict[str, Any]]:
     """What the thesis says, and what is said of ours, by number: `assets/thesis.toml`; last `drawings`."""
     return tomllib.loads(asset_path("thesis.toml").read_text(encoding="utf-8"))
 
@@ -161,6 +161,11 @@ def report(
         caption=caption, statement=known, ours=ours, verdict=verdict, because=because, caption_only=title is not None,
         tables=tuple(tables), panels=tuple(panels), numbers=numbers,
     )  # fmt: skip
+
+
+def filled_rows(number: str, **values: str | float) -> list[list[str]]:
+    """The rows of texts that `thesis` has of a report, filled."""
+    return [[_filled(cell, values) for cell in row] for row in thesis()[number]["rows"]]
 
 
 def _filled(text: str, values: Mapping[str, str | float]) -> str:

@@ -13,11 +13,7 @@ from rotor.chart import Axis, Chart, Series
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.files.make_design import make_design
 from rotor.reproduce.actuation import BLADES, COMPARED, compared, fitted_blade, table_5_2
-from rotor.reproduce.actuation import SPEEDS as ACTUATED
 from rotor.reproduce.ladder import (
-    FAST,
-    FAST_KMH,
-    HOVER,
     RUNGS,
     STRONG,
     WEAK,
@@ -25,7 +21,7 @@ from rotor.reproduce.ladder import (
     climb,
 )
 from rotor.reproduce.optimum_twist import table_4_1
-from rotor.reproduce.report import Agreement, Report, TableCell, curve, report, table
+from rotor.reproduce.report import Agreement, Report, curve, filled_rows, report, table
 from rotor.reproduce.runs import CONCEPTS, Call, searches
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.trim.solution import Solution
@@ -43,6 +39,7 @@ MOVED = {
 """Steps of the ladder, in words."""
 SHOWN = (0.0, 0.2, 0.35)
 """µ in the picture: hover, near least power, fast."""
+ENDS = ("hover", "middle", "fast")
 
 
 def needed() -> list[Call]:
@@ -53,7 +50,6 @@ def needed() -> list[Call]:
 def today() -> Report:
     """One picture, five sentences and their numbers."""
     ladder = climb()
-    slow, middle, fast = SHOWN
     first, last = (ladder.step(name) for name in ("thesis", tuple(RUNGS)[-1]))
     places = range(len(ladder.steps))
     curves: list[Series] = []
@@ -65,71 +61,26 @@ def today() -> Report:
             curve("hover" if mu == 0.0 else f"µ {mu:g}", [least.rate_deg for least in row], places, "both", colour=k),
         ]
     gains = [row.moving.gain for row in ladder.inflows]
-    keys, tested = last.strong_over_weak, keys_1987().numbers
+    keys, tested, others = last.strong_over_weak, keys_1987().numbers, [row.best[-1].rate_deg for row in ladder.inflows]
     concepts, actuators, pair = table_4_1().numbers, table_5_2().numbers, compared("flight").rows[0]
-    others = [row.best[-1].rate_deg for row in ladder.inflows]
-
-    def best(name: str) -> str:
-        there = [ladder.at(name, mu).rate_deg for mu in SHOWN]
-        return f"{there[0]:.1f}° in hover, {there[1]:.1f}° at µ {middle:g}, {there[2]:.1f}° at µ {fast:g}"
 
     def moves(mu: float) -> str:
-        rows = {words: ladder.moves(name, mu) for name, words in MOVED.items()}
-        ordered = sorted(rows.items(), key=lambda row: -abs(row[1].in_ladder))
-        return ", ".join(f"{words} {ways.in_ladder:+.1f}°" for words, ways in ordered)
+        ways = {words: ladder.moves(name, mu).in_ladder for name, words in MOVED.items()}
+        return ", ".join(f"{words} {ways[words]:+.1f}°" for words in sorted(ways, key=lambda words: -abs(ways[words])))
 
-    rows = (
-        (
-            "How should twist change with speed?",
-            f"It should weaken from hover, {ladder.at(last.name, slow).rate_deg:.1f}° per radius, to "
-            f"{ladder.at(last.name, middle).rate_deg:.1f}° at µ {middle:g} and hardly change beyond: "
-            f"{ladder.at(last.name, fast).rate_deg:.1f}° at µ {fast:g}, {min(others):.1f} to {max(others):.1f}° "
-            f"over {len(gains)} inflow models, {ladder.without_drag_deg:.1f}° without fuselage drag. A blade that "
-            "follows "
-            f"saves {_saves(last.moving.gain)} beyond the best fixed one, {last.moving.fixed_deg:.1f}° "
-            f"({100 * min(gains):.1f} to {_saves(max(gains))} over the models): the models differ by as much as it is "
-            "worth. What uncertain inputs leave of it: python -m rotor schedule.",
-        ),
-        (
-            "Which concept has advantages?",
-            "None that can be told. Against one linear twist that moves, two segments save "
-            f"{_saves(concepts['two'])} more, three {_saves(concepts['three'])}, a quadratic twist "
-            f"{_saves(concepts['quadratic'])}: mean power over speed, each at its best at every speed. SC1094 R8 "
-            "inboard "
-            f"and SC1095 outboard save {_saves(concepts['airfoils'])} against the airfoils as built, with section drag "
-            "uncertain by 10 %. Differences are known to a few tenths of a per cent. One good fixed twist in place of "
-            f"−16° saves {_saves(concepts['flight_fixed'])}.",
-        ),
-        (
-            "Which actuator?",
-            f"None of {actuators['actuators']:.0f} on the blade as it is: between hover and µ {ACTUATED[1]:g} the "
-            "best of "
-            f"{actuators['rows']:.0f} pairs of actuator and concept, {pair[0].partition(',')[0]} with a {pair[1]} "
-            "twist, "
-            f"costs {-actuators['best_kw']:.0f} kW on balance. Macro fibre composite (MFC P1, 2 plies) reaches "
-            f"{actuators['reach']:.1f}° of the {actuators['needed']:.1f}° wanted. The gain with unlimited twist, "
-            f"{actuators['ideal_kw']:.0f} kW, is far below the cost of mass. No measured gain of a moving twist in "
-            "flight is known to us.",
-        ),
-        (
-            "The thesis says",
-            "“the optimized solution is −13.5°” in hover; “after µ = 0.18 the linear twist distribution with −8° of "
-            "slope becomes the solution that requires less power”; “a linear twist behaviour of −4° presents better "
-            "results” in fast flight (p. 27, 28).",
-        ),
-        (
-            "Its assumptions give",
-            f"{best('thesis')}; a twist that moves saves {_saves(first.moving.gain)}.",
-        ),
-        *((f"What moves it at µ {mu:g}", f"One after another: {moves(mu)}.") for mu in ladder.named),
-        (
-            "Measured",
-            f"Another rotor (Keys et al.), −17.3° over −11.5°: {100 * FAST:+.0f} % power at {FAST_KMH:.0f} km/h, "
-            f"{100 * HOVER:+.1f} % in hover. Ours: {_signed(keys[1])} with the drag of the UH-60A, "
-            f"{_signed(tested['usual_force'])} ({_signed(tested['usual_low'])} to {_signed(tested['usual_high'])}) at "
-            f"the usual propulsive force of a tunnel test; {_signed(keys[0])} in hover.",
-        ),
-    )
+    numbers = {
+        **{f"thesis_{end}": ladder.at("thesis", mu).rate_deg for end, mu in zip(ENDS, SHOWN, strict=True)},
+        **{f"flight_{end}": ladder.at(last.name, mu).rate_deg for end, mu in zip(ENDS, SHOWN, strict=True)},
+        "thesis_beyond_fixed": first.moving.gain,
+        "flight_beyond_fixed": last.moving.gain,
+    }
+    rows = filled_rows(
+        "today", **{**concepts, **actuators, **tested, **numbers},
+        weakest=min(others), strongest=max(others), models=len(gains), without_drag=ladder.without_drag_deg,
+        fixed=last.moving.fixed_deg, least_gain=100.0 * min(gains), largest_gain=max(gains),
+        actuator=pair[0].partition(",")[0], concept=pair[1], costs=-actuators["best_kw"],
+        moves_middle=moves(SHOWN[1]), moves_fast=moves(SHOWN[2]), keys_hover=keys[0], keys_fast=keys[1],
+    )  # fmt: skip
     return report(
         "today",
         tables=(
@@ -154,22 +105,8 @@ def today() -> Report:
                 tuple(curves),
             ),
         ),
-        numbers={
-            "thesis_hover": ladder.at("thesis", slow).rate_deg,
-            "flight_hover": ladder.at(last.name, slow).rate_deg,
-            "flight_fast": ladder.at(last.name, fast).rate_deg,
-            "thesis_beyond_fixed": first.moving.gain,
-            "flight_beyond_fixed": last.moving.gain,
-        },
+        numbers=numbers,
     )  # fmt: skip
-
-
-def _saves(part: float) -> str:
-    return f"{100 * part:.1f} %"
-
-
-def _signed(part: float) -> str:
-    return f"{100 * part:+.1f} %"
 
 
 SPEED = 0.3
@@ -262,64 +199,25 @@ def shear_tube() -> tuple[float, float]:
 
 def literature() -> Report:
     """The quoted numbers beside ours."""
-    attained = {name: math.degrees(fitted_blade(*BLADES[name]).attainable) / 2.0 for name in BLADES}
+    attained = [math.degrees(fitted_blade(*BLADES[name]).attainable) / 2.0 for name in BLADES]
     small, phase_small, _ = gain_of_2_per_rev(1.5)
     middle, *_ = gain_of_2_per_rev(2.5)
     large, phase_large, lift_over_drag = gain_of_2_per_rev(4.0)
-    heavier_load, of_gain = download_of_twist()
+    download, of_gain = download_of_twist()
     free, held = shear_tube()
-    mass = make_design().condition.mass
     heavier = mass_for_equal_power()
-    lo, hi = (f(attained.values()) for f in (min, max))
-    rows: tuple[tuple[TableCell, ...], ...] = (
-        (
-            "Chen and Chopra, 1990s: twist of a model blade with embedded plies (p. 3)",
-            "±0.5°; wanted ±2°",
-            f"±{lo:.1f}° (flown blade, 1 ply) to ±{hi:.1f}° (new blade)",
-            "macro fibre composite on a full-scale blade, half its voltage range",
-        ),
-        (
-            "Cheng and Celi, Sikorsky: higher-harmonic twist in the wind tunnel (p. 3)",
-            "1…2 % less power",
-            f"{100 * small:.1f} % less",
-            f"2/rev of 1.5° at µ {SPEED:g}, best phase {phase_small:.0f}°, flight preset",
-        ),
-        (
-            "Chopra: UH-60A, fluid and structure coupled, 4° (p. 3)",
-            "3.3 % less power, L/D +7.3 %",
-            f"{100 * large:.1f} % less, L/D {100 * lift_over_drag:+.1f} %",
-            f"2/rev of 4° at µ {SPEED:g}, best phase {phase_large:.0f}°, flight preset",
-        ),
-        (
-            "Keys et al.: useful load at equal power (p. 26)",
-            "+5 % of useful load",
-            f"+{100 * heavier:.1f} % of mass, {heavier * mass:.0f} kg",
-            "the thesis gives no useful load; ours is a part of the whole mass",
-        ),
-        (
-            "Keys et al.: download on the fuselage (p. 26)",
-            "+6 %; takes 15 % of the gain",
-            f"{100 * heavier_load:+.1f} %; takes {100 * of_gain:.0f} % of the gain",
-            f"induced velocity squared over a fuselage {FUSELAGE_WIDTH:g} m wide; in the trims of this program "
-            "download "
-            "is a fixed part of thrust, so our gain of twist in hover is too large by that",
-        ),
-        (
-            "Shear-mode plies and circular, rotary actuators (p. 3)",
-            "provide rotation and torque",
-            f"{free:.1f}° free, {held:.2f}° in the blade",
-            "tube of 20 mm radius of PZT-5H segments in shear, root to tip, beside the torsional stiffness of the "
-            "blade",
-        ),
-    )
-    return report(
-        "literature",
-        Agreement.INDICATIVE,
-        tables=[table("quoted_and_ours", ("source", "quoted", "ours", "how ours is made"), rows, shown=True)],
-        mu=SPEED,
-        small=small,
-        middle=middle,
-        large=large,
-        low=lo,
-        high=hi,
-    )
+    values = {
+        "mu": SPEED,
+        "small": small,
+        "middle": middle,
+        "large": large,
+        "low": min(attained),
+        "high": max(attained),
+    }
+    rows = filled_rows(
+        "literature", **values, phase_small=phase_small, phase_large=phase_large, lift_over_drag=lift_over_drag,
+        heavier=heavier, heavier_kg=heavier * make_design().condition.mass, download=download, of_gain=of_gain,
+        width=FUSELAGE_WIDTH, free=free, held=held,
+    )  # fmt: skip
+    quoted = table("quoted_and_ours", ("source", "quoted", "ours", "how ours is made"), rows, shown=True)
+    return report("literature", Agreement.INDICATIVE, tables=[quoted], numbers=values)
