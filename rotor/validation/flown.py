@@ -208,13 +208,13 @@ def tail_pitch(solution: Solution) -> float:
 def flown_set() -> TrustSet:
     """For the trust page."""
     words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
-    own = 100.0 * _by_own_means(powers, "bo105")
+    by_own_means = 100.0 * _by_own_means(powers, "bo105")
     shapes = (f"{name} {100 * shape_errors(*_trimmed(powers, rotor))[0]:.1f} %" for rotor, name in TITLES.items())
     return words.page(
         ", ".join(shapes),
         (*_power_rows(powers), *_gazelle_rows(powers), *map(_angle_row, angles)),
         (*(_power_chart(powers, rotor) for rotor in ("bo105", "gazelle")), _angle_chart(angles)),
-        text=(paragraph.format(by_own_means=own) for paragraph in words.text),
+        text=(paragraph.format(by_own_means=by_own_means) for paragraph in words.text),
         points=_points(powers, angles),
     )
 

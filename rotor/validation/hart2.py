@@ -97,11 +97,11 @@ def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterato
         )  # fmt: skip
     for name in solutions:
         size = agreements[name, "cm_m2"].correlation
-        yield row(f"{name}: C_m M² at 0.87 R, correlation", f"{size:.2f}", size, 0.03, test="test_moments")
+        yield row(f"{name}: C_m M² at 0.87 R, correlation", f"{size:.2f}", size, 0.03)
     moved, base = agreements["MN", "tip_twist_deg"], agreements["BL", "tip_twist_deg"]
     size, late = moved.ratio(3), moved.late_deg(3)
     yield row(
-        "MN: twist of the tip at 3/rev", f"{100 * size:+.0f} %, {late:+.0f}°", size, 0.03, test="test_twist",
+        "MN: twist of the tip at 3/rev", f"{100 * size:+.0f} %, {late:+.0f}°", size, 0.03,
         target=f"{100 * TORSION_3:g} % and {TORSION_3_DEG:g}°",
         met=abs(size) <= TORSION_3 and abs(late) <= TORSION_3_DEG,
     )  # fmt: skip
@@ -109,23 +109,21 @@ def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterato
         size, met = base.ratio(n), abs(base.ratio(n)) <= TORSION_LOW
         yield row(
             f"BL: twist of the tip at {n}/rev", f"{100 * size:+.0f} %, {base.late_deg(n):+.0f}°", size, 0.03,
-            test="test_twist", note="" if met else "twist", target=f"{100 * TORSION_LOW:g} % of amplitude", met=met,
+            note="" if met else "twist", target=f"{100 * TORSION_LOW:g} % of amplitude", met=met,
         )  # fmt: skip
     for curve in (base, moved):
         error = curve.mean - curve.measured_mean
         what = f"{curve.case.name}: mean twist of the tip"
-        yield row(what, f"{error:+.2f}°", error, 0.03, test="test_twist", note="mean twist")
+        yield row(what, f"{error:+.2f}°", error, 0.03, note="mean twist")
     for name in solutions:
         curve = agreements[name, "tip_flap"]
         shown = f"mean {curve.mean - curve.measured_mean:+.4f} R, rms {curve.rms:.4f} R"
         what = f"{name}: flap deflection of the tip"
-        yield row(what, shown, curve.rms, 3e-4, test="test_flapping", note="flapping")
+        yield row(what, shown, curve.rms, 3e-4, note="flapping")
     for name, solution in solutions.items():
         size, mean, points = vortex_errors(solution, name)
-        yield row(
-            f"{name}: height of tip vortices, {points} points", f"rms {size:.3f} R, mean {mean:+.3f} R", size, 2e-3,
-            test="test_tip_vortices", note="vortices",
-        )  # fmt: skip
+        what = f"{name}: height of tip vortices, {points} points"
+        yield row(what, f"rms {size:.3f} R, mean {mean:+.3f} R", size, 2e-3, note="vortices")
 
 
 def vortex_errors(solution: Solution, case: str) -> tuple[float, float, int]:

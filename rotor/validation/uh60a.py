@@ -181,7 +181,7 @@ def constants() -> TrustSet:
             words.share(
                 f"Lift slope of {name.upper()} over 0–8°, Mach 0.3", slope / published - 1.0, 3e-3, note="slope",
                 against="flight-simulation deck of NASA CR-166309",
-                test="rotor/validation/test_trust.py::test_lift_slope_compared_with_the_public_deck",
+                test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
             )
         )  # fmt: skip
     rotor = uh60a_rotor("flight")
@@ -256,7 +256,7 @@ def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
         late = [load.beside.late_deg(n) for load in loads]
         mean = float(np.mean([load.beside.ratio(n) for load in loads]))
         shown = f"{100 * mean:+.0f} %, phase {min(late):+.0f} to {max(late):+.0f}°"
-        yield words.row(f"{n}/rev, mean of six speeds", shown, mean, 0.02, test="test_harmonics")
+        yield words.row(f"{n}/rev, mean of six speeds", shown, mean, 0.02)
 
 
 def _peak_chart(loads: Sequence[PitchLinkLoad]) -> Chart:

@@ -10,13 +10,7 @@ from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 from rotor.validation.airloads import PITCH_LINK, PITCH_LINK_SPEEDS, measured_curves, our_curve
 from rotor.validation.trust import description
-from rotor.validation.uh60a import PitchLinkLoad, pitch_link_loads
 from tests.tools.pitch_link_causes import found_with
-
-
-@pytest.fixture(scope="module")
-def loads() -> list[PitchLinkLoad]:
-    return list(pitch_link_loads())
 
 
 def test_measured_loads_are_those_of_the_figure():
@@ -61,26 +55,6 @@ def test_load_is_that_of_the_moment_nose_up_on_the_blade():
     assert np.ptp(ours) > 1000.0
     assert_allclose(ours, by_hand, atol=0.12 * np.ptp(ours))  # The bearing's share in two modes only.
     assert np.corrcoef(ours, by_hand)[0, 1] > 0.98
-
-
-def test_half_peak_to_peak(loads: list[PitchLinkLoad]):
-    """Within 25 % from µ 0.3 with bending, half of the measured one at µ 0.15; without bending half everywhere.
-
-    From µ 0.3 dynamic stall sets in by itself: with steady sections they are 1, 12 and 13 % low.
-    """
-    error = np.array([ours / measured - 1.0 for measured, ours, _ in (one.half_peaks for one in loads)])
-    assert_allclose(error, [-0.58, -0.40, -0.18, -0.07, -0.23, -0.24], atol=0.03)
-    rigid = [torsion / measured for measured, _, torsion in (one.half_peaks for one in loads)]
-    assert 0.4 < min(rigid) < max(rigid) < 0.7
-
-
-def test_harmonics(loads: list[PitchLinkLoad]):
-    """2/rev has about half of its size and its phase within 40°; 1/rev lags by 50° and more."""
-    second = np.array([(one.beside.ratio(2), one.beside.late_deg(2)) for one in loads])
-    assert_allclose(second[:, 0].mean(), -0.5, atol=0.05)
-    assert np.abs(second[:, 1]).max() < 60.0
-    first = [one.beside.late_deg(1) for one in loads]
-    assert max(first) < -40.0
 
 
 @pytest.mark.parametrize(

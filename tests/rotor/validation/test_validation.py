@@ -146,7 +146,15 @@ def test_a_set_that_is_not_known(capsys: pytest.CaptureFixture[str]):
 
 @pytest.mark.parametrize(
     "name",
-    ["knight-hefner-3", "castles-gray-twist-effect", "xv15-forward-15deg", *FIELDS[1:]],
+    [
+        "knight-hefner-3",
+        "castles-gray-twist-effect",
+        "xv15-forward-15deg",
+        *FIELDS[1:],
+        "glasgow-loops",
+        "uh60a-constants",
+        "theory",
+    ],
 )
 def test_rows_of_the_trust_page(name: str):
     """Quick sets, recomputed; the others are in the slow test of all rows."""
