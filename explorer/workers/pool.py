@@ -140,7 +140,7 @@ class Pool:
     ) -> JobEnded | JobFailed | None:
         """Waits for the end of a task; None when superseded first: it leaves the queue, or runs on to its end.
 
-        `found` is called with the result, also of a task that ran on. Not to be called on a thread that pages need.
+        `tell` is called with the result, also of a task that ran on. Not to be called on a thread that pages need.
         """
         over, ends = threading.Event(), list[JobEnded | JobFailed]()
 

@@ -194,14 +194,9 @@ def _run(args: argparse.Namespace, store: Store) -> int:
     message, ended = "", ChunkRun()
     if missing:
         with interruptible() as stop, closing(_Progress(study.count, done)) as progress:
-
-            def keep(chunk: FinishedChunk) -> None:
-                store.keep(chunk.chunk, chunk.content)
-                progress.add(chunk)
-
             try:
                 with _executor(args, study) as executor:
-                    ended = run_chunks(executor, study, missing, store.provenance, keep, stop)
+                    ended = run_chunks(executor, store, missing, progress.add, stop)
             except (ExecutorLost, StoreError) as error:
                 message = str(error)
         if progress.points:

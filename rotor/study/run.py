@@ -112,16 +112,15 @@ def run_study(
         missing, total = store.missing(), store.study.count
         done = total - store.study.points_of(missing)
 
-        def keep(chunk: FinishedChunk) -> None:
+        def heard(chunk: FinishedChunk) -> None:
             nonlocal done
-            store.keep(chunk.chunk, chunk.content)
             done += chunk.rows
             if notify is not None:
                 notify(done, total)
 
         if missing:
             with nullcontext(executor) if executor is not None else processes_here(file.study, workers) as pool:
-                ended = run_chunks(pool, file.study, missing, store.provenance, keep)
+                ended = run_chunks(pool, store, missing, heard)
             if ended.lost:
                 raise RuntimeError(ended.sentence)
         return read_results(store.folder)
@@ -174,13 +173,12 @@ def dask_client(address: str) -> Generator[Any]:
 
 def run_chunks(
     executor: Executor,
-    study: Study,
+    store: Store,
     chunks: Sequence[int],
-    provenance: StudyProvenance,
-    keep: Callable[[FinishedChunk], None],
+    notify: Callable[[FinishedChunk], None],
     stop: Callable[[], bool] = lambda: False,
 ) -> ChunkRun:
-    """Compute chunks in any order; `keep` is called with each finished one, in this thread.
+    """Compute chunks in any order and store them; `notify` is called with each, in this thread.
 
     A chunk whose worker was lost is computed again. `stop` is called several times a second; True ends the run. Raises
     ExecutorLost where the executor takes no more work, VersionMismatch where a worker has another version.
@@ -192,7 +190,7 @@ def run_chunks(
     def submit(chunk: int) -> None:
         tries[chunk] += 1
         try:
-            future = executor.submit(evaluate_chunk, study, chunk, provenance)
+            future = executor.submit(evaluate_chunk, store.study, chunk, store.provenance)
         except RuntimeError as error:  # BrokenExecutor, or an executor that was shut down.
             raise ExecutorLost(error) from None
         under_way[future] = chunk
@@ -214,7 +212,9 @@ def run_chunks(
                 raise ExecutorLost("they were cancelled")
             match future.exception():
                 case None:
-                    keep(future.result())
+                    done = future.result()
+                    store.keep(done.chunk, done.content)
+                    notify(done)
                 case BrokenExecutor() if tries[chunk] < _TRIES:
                     submit(chunk)
                 case BrokenExecutor():
