@@ -104,7 +104,7 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context)
             self._actuator_inputs = self.actuator.inputs()
-            self.dial = TwistDial(context, self._grabbed)
+            self.dial = TwistDial(context, self._grabbed, self.actuator.top)
         self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
@@ -229,7 +229,7 @@ class Page:
         self._landscape.show(state, self._tasks.now, reading.sliders)
         self.results.show(state, self._pause)
         self.vibration.show(state)
-        self.dial.show(state, self.vibration.words, self.vibration.index)
+        self.dial.show(state, self.actuator.fitted)
         self._curve.show(state)
         self._show_hand(state)
         self.context.bridge.set(beside_labels=beside_labels(state))

@@ -111,6 +111,15 @@ def _row(*checks: Check) -> Check:
     return check
 
 
+def _some(check: Check, most: int) -> Check:
+    def each(value: Any) -> list[Any]:
+        if not isinstance(value, list) or not 0 < len(value) <= most:
+            raise ValueError(f"not 1 to {most} values")
+        return [check(part) for part in value]
+
+    return each
+
+
 def _either(*checks: Check) -> Check:
     def check(value: Any) -> Any:
         reasons: list[str] = []
@@ -132,7 +141,7 @@ def _none(value: Any) -> None:
 _radius, _hand = _number(0.0, 1.0), _word("start", "end")
 PRESSES: dict[str, Check] = {
     **dict.fromkeys(
-        ("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "dial_bend", "apply", "discard",
+        ("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard",
          "halt", "land", "nearest"),
         _nothing,
     ),
@@ -153,7 +162,7 @@ PRESSES: dict[str, Check] = {
     "lecture": _word("back", "next", "end"),
     "idle": _row(_count, _flag),
     "knot": _row(_text, _either(_hand, _row(_either(_none, _number(-2.0, 2.0)), _number(-360.0, 360.0)))),
-    "dial": _row(_count, _either(_hand, _row(_number(0.0, 90.0), _number(-3600.0, 3600.0)))),
+    "dial": _either(_hand, _some(_row(_count, _number(0.0, 90.0), _number(-3600.0, 3600.0)), 9)),
 }  # fmt: skip
 """Every press of the page's scripts, and what its value must be."""
 

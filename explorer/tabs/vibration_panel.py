@@ -108,15 +108,6 @@ class VibrationPanel:
         loads = None if self._state is None else self._loads.get(self._state.solution)
         return None if loads is None else loads.index
 
-    @property
-    def words(self) -> str:
-        """The index in a line, for those who move pitch or twist at n/rev; empty without bending."""
-        card = None if self._state is None else self._card(self._state)
-        if card is None:
-            return ""
-        change = f", {card['change']}" if card["change"] else ""
-        return card["sentence"] or f"Vibration index {card['index']} {card['unit']}{change}."
-
     def _solve_loads(self, solution: Solution, band: bool, superseded: Callable[[], bool]) -> None:
         known = self._loads.get(solution)
         if not solution.converged or (known is not None and (known.band is not None or not band)):

@@ -14,8 +14,10 @@ from explorer.model.units import BLANK, SI, Units, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import Verdict
+from rotor.actuator.installation import MassBreakdown
 from rotor.markup import Content, Markup, group, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
+from rotor.trim.doubt import sureness
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 _ON_A_STAND = {"induced": "Induced", "profile": "Profile", "parasite": "Propulsive"}
@@ -347,6 +349,24 @@ def balance(verdict: Verdict) -> list[tuple[str, float]]:
     """Name and saving [W] of each part, and of what is left."""
     parts = [(name if not k else f"− {name}", power) for k, (name, power) in enumerate(verdict.savings)]
     return [*parts, ("= net", verdict.net_saving)]
+
+
+def needs(verdict: Verdict, units: Units) -> str:
+    """The power that an actuator needs over its flight, or saves, and how sure that is."""
+    net, unit, band = verdict.net_saving, units.power[0], verdict.net_band
+    digits = 0 if abs(unit.of(net)) >= 10.0 else 1  # Models do not agree to a tenth.
+    size = unit.text(abs(net), digits)
+    words = f"saves {size}" if net > 0.0 else f"needs {size} more"
+    sure = "" if band is None else f" (± {unit.text(band, digits)}: {sureness(net, band)})"
+    return words + sure + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
+
+
+def mass_words(masses: MassBreakdown) -> str:
+    """What an actuator adds to the aircraft, part by part."""
+    parts = {"actuator": masses.actuator, "wiring": masses.wiring, "nose weight": masses.balance}
+    each = " + ".join(f"{name} {number(mass, 1)}" for name, mass in parts.items() if mass)
+    electronics = f" + electronics {number(masses.electronics, 1)} kg" if masses.electronics else ""
+    return f"{masses.blades} blades × {number(masses.blade, 1)} kg ({each or 'nothing added'}){electronics}"
 
 
 def fuel_used(verdict: Verdict) -> float | None:

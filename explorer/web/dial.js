@@ -4,29 +4,68 @@
   const {signed} = Charts;
   let chosen = 3, held = null, pressed = null, sent = 0, waiting = null, frame = 0;
 
-  // Power and index [%] from those without n/rev twist, of cosines and sines [°].
-  function foresee(matrix, x) {
-    const values = matrix.base.map((base, k) => base + x.reduce((sum, a, i) => {
+  // Loads at N_b/rev and power with cosines and sines [°] of n/rev twist, and power and index against the other blade [%].
+  function values(matrix, x) {
+    return matrix.base.map((base, k) => base + x.reduce((sum, a, i) => {
       if (!a) return sum;
       const second = matrix.second[k][i];
       return sum + a * (matrix.slopes[k][i] + .5 * second.reduce((bent, h, j) => bent + h * x[j], 0));
     }, 0));
+  }
+  function foresee(matrix, x) {
+    const all = values(matrix, x);
     let forces = 0, moments = 0;
     for (let k = 0; k < 5; k++) {
-      const size = matrix.gains[k] ** 2 * (values[2 * k] ** 2 + values[2 * k + 1] ** 2);
+      const size = matrix.gains[k] ** 2 * (all[2 * k] ** 2 + all[2 * k + 1] ** 2);
       if (k < 3) forces += size; else moments += size;
     }
-    return [100 * (values[10] / matrix.power - 1), 100 * ((Math.sqrt(forces) + Math.sqrt(moments)) / matrix.index - 1)];
+    return [100 * (all[10] / matrix.power - 1), 100 * ((Math.sqrt(forces) + Math.sqrt(moments)) / matrix.index - 1)];
   }
   RX.foresee = foresee;
   // Amplitude and phase [°] of a harmonic: as the hand has it, or as the sliders do.
   function wave(n) {
-    if (held?.n === n) return [held.amplitude, held.phase];
-    if (pressed?.n === n && performance.now() - pressed.at < 900) return [pressed.amplitude, pressed.phase];
+    const ours = held?.waves ?? (pressed && performance.now() - pressed.at < 900 ? pressed.waves : null);
+    if (ours?.[n]) return ours[n];
     const one = RX.state.dial.now.find(([order]) => order === n);
     return one ? [one[1], one[2]] : [0, 0];
   }
-  const vector = () => RX.state.dial.harmonics.flatMap(n => { const [a, p] = wave(n); return [a * Math.cos(p * DEGREE), a * Math.sin(p * DEGREE)]; });
+  const parts = ([a, p]) => [a * Math.cos(p * DEGREE), a * Math.sin(p * DEGREE)];
+  const vector = () => RX.state.dial.harmonics.flatMap(n => parts(wave(n)));
+  // Largest twist of some harmonics together over a turn [°].
+  function peak(orders) {
+    let most = 0;
+    for (let psi = 0; psi < 360; psi += 5) most = Math.max(most, Math.abs(orders.reduce((sum, n) => { const [a, p] = wave(n); return sum + a * Math.cos((n * psi - p) * DEGREE); }, 0)));
+    return most;
+  }
+
+  // What flies against the other blade, with every inflow model, the design's own first: foreseen in the hand, else trimmed.
+  function change() {
+    const {dial, dial_matrix: matrix} = RX.state;
+    if (!dial) return null;
+    if (!held && !pressed && dial.settled) return dial.settled;
+    if (!matrix) return null;
+    const x = vector(), all = [matrix, ...matrix.inflows].map(one => [one, foresee(one, x)]);
+    return {power: all.map(([one, [power]]) => power / 100 * one.power * dial.per_watt), index: all.map(([, [, index]]) => index)};
+  }
+  const ends = list => [Math.min(...list), Math.max(...list)];
+  const round = value => Charts.fixed(value, Math.abs(value) < 10 ? 1 : 0);
+  const needs = power => Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${round(power)} ${RX.state.dial.unit} more` : `saves ${round(-power)} ${RX.state.dial.unit}`;
+  // Power, vibration and voltage in one sentence, and whether it is good, bad or both.
+  function verdict() {
+    const {dial} = RX.state, now = change();
+    if (!now) return [dial?.problem || dial?.words || 'Computing what it changes here …', ''];
+    const {power: [power], index} = now, clauses = [needs(power)], share = dial.whole ? 100 * (1 - dial.room + peak(dial.harmonics) / dial.whole) : 0;
+    let calmer = false;
+    if (index.length) {
+      const [low, high] = ends(index), size = (v, w) => `${Charts.fixed(v, 0)}…${Charts.fixed(w, 0)} %`;
+      calmer = high < 0;
+      clauses.push(high < 0 ? `takes ${Charts.fixed(-index[0], 0)} % (${size(-high, -low)}) of the vibration` : low > 0 ? `adds ${Charts.fixed(index[0], 0)} % (${size(low, high)}) to the vibration`
+        : `vibration ${signed(index[0], 0)} % (${signed(low, 0)}…${signed(high, 0)} %: inflow models disagree)`);
+    } else clauses.push('vibration is told from µ 0.2 on');
+    const at = !dial.whole ? peak(dial.harmonics) ? ', more than this actuator can follow' : '' : share > 100.5 ? `, with ${Charts.fixed(share, 0)} % of its voltage: out of reach` : share > .5 ? ` at ${Charts.fixed(share, 0)} % of its voltage` : '';
+    return [`${clauses.join('; ')}${at}`, power > .05 ? calmer ? '' : 'loss' : 'gain'];
+  }
+  RX.verdict = verdict;
 
   // Values over the chosen dial on a grid, the other harmonics as they are.
   const GRID = 49;
@@ -110,10 +149,12 @@
       + rings.filter((_, k) => k % 2 === 1).map(([r, word]) => `<text x="${(middle + scale * r * .707 + 2).toFixed(1)}" y="${(middle + scale * r * .707 + (r > dial.reach - 1e-6 ? 13 : 4)).toFixed(1)}" class="rxd-level">${word}°</text>`).join('')
       + [0, 45, 90, 135].map(angle => { const [x, y] = at(dial.reach, angle), [u, v] = at(dial.reach, angle + 180); return `<path d="M${x.toFixed(1)} ${y.toFixed(1)}L${u.toFixed(1)} ${v.toFixed(1)}" stroke="var(--rx-ink)" stroke-opacity=".13"/>`; }).join('')
       + [[0, 'start', 3, 4], [90, 'middle', 0, -5], [180, 'end', -3, 4], [270, 'middle', 0, 14]].map(([angle, anchor, dx, dy]) => { const [x, y] = at(dial.reach, angle); return `<text x="${x + dx}" y="${y + dy}" text-anchor="${anchor}">${angle}°</text>`; }).join('');
+    const room = dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen));
+    const ring = dial.whole ? `<circle cx="${middle}" cy="${middle}" r="${(scale * Math.min(Math.max(room, 0), dial.reach)).toFixed(1)}" class="rxd-ring"><title>Reach of the actuator: ${Math.max(room, 0).toFixed(2)}° at ${chosen}/rev with the voltage that is left</title></circle>` : '';
     const [x, y] = at(a, p), label = `${chosen}/rev: ${a.toFixed(2)}° at phase ${p.toFixed(0)}°`;
-    return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group" aria-label="Twist at ${chosen}/rev, amplitude by phase">${grid}${inside}
+    return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group" aria-label="Twist at ${chosen}/rev, amplitude by phase">${grid}${inside}${ring}
       <path d="M${middle} ${middle}L${x.toFixed(1)} ${y.toFixed(1)}" stroke="var(--rx-blade)" stroke-width="2"/><circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
-      <circle data-dot cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="9" tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev" aria-valuemin="0" aria-valuemax="${dial.reach}" aria-valuenow="${a}" aria-valuetext="${label}"><title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
+      <circle data-dot ${dial.whole && a > room + .005 ? 'data-beyond' : ''} cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="9" tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev" aria-valuemin="0" aria-valuemax="${dial.reach}" aria-valuenow="${a}" aria-valuetext="${label}"><title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
   }
   // Less vibration green, more red.
   function shade(canvas, size) {
@@ -139,23 +180,45 @@
     if (!chart) return;
     const now = seen ? [{kind: 'points', label: 'this twist', x: [seen[0]], y: [seen[1]], colour: 'var(--rx-blade)', size: 6.5}] : [];
     const series = chart.series.map(one => width < 360 && one.beside === 'below' ? {...one, names: []} : one);  // They would lie on each other.
-    Charts.fill(place, {...chart, value: chart.words.length > 40 ? '' : chart.words, series: [...series, ...now]}, {width, height});
+    Charts.fill(place, {...chart, series: [...series, ...now]}, {width, height});
+  }
+  // The twist of the front nearest to a pixel of its chart, between two of its points by a straight line.
+  function along(place, px, py) {
+    const {front: all} = RX.state.dial, {X, Y} = place.drawn.place;
+    let best = null;
+    for (let k = 0; k + 1 < all.length; k++) {
+      const [[p0, v0, u0], [p1, v1, u1]] = [all[k], all[k + 1]], [x0, y0, x1, y1] = [X(p0), Y(v0), X(p1), Y(v1)];
+      const t = Charts.clamp(((px - x0) * (x1 - x0) + (py - y0) * (y1 - y0)) / Math.max((x1 - x0) ** 2 + (y1 - y0) ** 2, 1e-9), 0, 1);
+      const far = Math.hypot(x0 + t * (x1 - x0) - px, y0 + t * (y1 - y0) - py);
+      if (!best || far < best.far) best = {far, x: u0.map((u, j) => (1 - t) * u + t * u1[j])};
+    }
+    return best && Object.fromEntries(RX.state.dial.harmonics.map((n, k) => {
+      const [a, b] = [best.x[2 * k] ?? 0, best.x[2 * k + 1] ?? 0];
+      return [n, [Math.round(100 * Math.hypot(a, b)) / 100, (Math.round(Math.atan2(b, a) / DEGREE) + 360) % 360]];
+    }));
   }
 
+  // Two meters: the bar is the band over inflow models, the mark the design's own, the line the other blade.
+  function meter(name, values, low, high, zero, said, kind) {
+    const at = v => 100 * Charts.clamp((v - low) / (high - low), 0, 1), [a, b] = ends(values).map(at);
+    return `<div class="rxd-meter" role="img" aria-label="${name}: ${said}"><span>${name}</span><div><i style="left:${a}%;width:${b - a}%"></i><s style="left:${at(zero)}%"></s><b data-kind="${kind}" style="left:${at(values[0])}%"></b></div><em class="rxf-num" data-kind="${kind}">${said}</em></div>`;
+  }
   function readout() {
-    const {dial, dial_matrix: matrix} = RX.state, [a, p] = wave(chosen), head = `<b>${chosen}/rev</b> ${a.toFixed(2)}° <span class="rxf-dim">at phase ${p.toFixed(0)}°</span>`;
-    if (!matrix) return `<p class="rxf-num">${head}</p><p class="rxf-dim">${dial.computing ? 'Response to n/rev twist: computing …' : ''}</p>`;
-    const row = (name, [power, index]) => {
-      const kind = (v, least) => Math.abs(v) < least ? '' : v < 0 ? 'rxf-good' : 'rxf-bad';
-      return `<p class="rxf-num"><span class="rxf-dim">${name}</span> power <b class="${kind(power, .05)}">${signed(power, 1)} %</b> · vibration <b class="${kind(index, .5)}">${signed(index, 0)} %</b></p>`;
-    };
-    return `<p class="rxf-num">${head}</p>${row('foreseen', foresee(matrix, vector()))}${held || !dial.settled ? '<p class="rxf-dim">trimmed …</p>' : row('trimmed', dial.settled)}`;
+    const {dial, dial_matrix: matrix} = RX.state, [a, p] = wave(chosen), now = change(), head = `<p class="rxf-num"><b>${chosen}/rev</b> ${a.toFixed(2)}° <span class="rxf-dim">at phase ${p.toFixed(0)}°</span></p>`;
+    const wait = dial.computing || !now ? `<p class="rxf-dim">${text(dial.words || 'Response to n/rev twist: computing …')}</p>` : '';
+    if (!now) return head + wait;
+    const [power] = now.power, whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power)), [index] = now.index;
+    const kind = (v, least) => Math.abs(v) < least ? '' : v > 0 ? 'loss' : 'gain';
+    const shaking = held && matrix && !still.matches ? `<p class="rxf-dim">Shaking of the cabin drawn × ${dial.exaggerated}, slowed</p>` : '';
+    return `${head}${meter('Power', now.power, -whole, whole, 0, `${signed(power, 1)} ${dial.unit}`, kind(power, .05))}
+      ${now.index.length ? meter('Vibration', now.index, -100, 100, 0, `${signed(index, 0)} %`, kind(index, .5)) : ''}
+      <p class="rxf-dim">${RX.state.earns ? '' : `${text(verdict()[0])}, `}against ${text(dial.against)}, ${text(dial.where)}${held || !dial.settled ? ', foreseen' : ''}</p>${wait}${shaking}`;
   }
 
   function fill(place) {
     const {dial, dial_matrix: matrix} = RX.state, large = place.hasAttribute('data-large'), width = place.clientWidth - (large ? 44 : 28);
     if (!dial || width < 120) return;
-    const stamp = JSON.stringify([dial, RX.state.dial_front, chosen, width, place.clientHeight, held && [held.amplitude, held.phase], pressed && wave(chosen), page.dataset.mantineColorScheme]);
+    const stamp = JSON.stringify([dial, RX.state.dial_front, chosen, width, place.clientHeight, held, pressed && wave(chosen), page.dataset.mantineColorScheme]);
     if (place.stamp === stamp && place.matrix === matrix && place.childElementCount) return;
     place.stamp = stamp;
     place.matrix = matrix;
@@ -164,68 +227,77 @@
     if (!place.firstElementChild || place.dataset.size !== `${size} ${wide}`) {
       place.dataset.size = `${size} ${wide}`;
       place.shaded = null;  // Its canvas is another.
-      place.innerHTML = `<div class="rxd-side"><div class="rxd-row"></div><div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div><div class="rxd-read" data-explorer="dial-read"></div></div>
-        <div class="rxd-side"><div class="rxd-why"></div><div class="rxd-front"></div>${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
+      place.innerHTML = `<div class="rxd-side"><div class="rxd-row"></div><div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div><p class="rxf-dim rxd-key"></p><div class="rxd-read" data-explorer="dial-read"></div></div>
+        <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
     }
     place.querySelector('.rxd-row').innerHTML = dial.harmonics.map(small).join('');
     const canvas = place.querySelector('canvas');
     canvas.hidden = !matrix;
     if (matrix && (place.shaded !== fieldOf() || place.scheme !== page.dataset.mantineColorScheme)) { shade(canvas, size); place.shaded = fieldOf(); place.scheme = page.dataset.mantineColorScheme; }
     place.querySelector('.rxd-round > div').innerHTML = dialSvg(size);
+    place.querySelector('.rxd-key').textContent = matrix ? `P least power · V least vibration${dial.whole ? ' · ring: reach' : ''}` : '';
     place.querySelector('.rxd-read').innerHTML = readout();
-    place.querySelector('.rxd-why').innerHTML = dial.words ? `<p>${text(dial.words)}</p>${dial.action ? `<button data-do="dial_bend">${text(dial.action)}</button>` : ''}` : '';
     front(place.querySelector('.rxd-front'), wide, high);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
   function draw() {
-    frame ||= requestAnimationFrame(() => { frame = 0; for (const place of document.querySelectorAll('[data-dial]')) fill(place); });
+    frame ||= requestAnimationFrame(() => { frame = 0; RX.told?.(); for (const place of document.querySelectorAll('[data-dial]')) fill(place); });
   }
   // What was pressed holds until the sliders have it; from then on they tell, or an undo would not be seen.
   RX.paint('dial', now => {
-    const [, a, p] = now && pressed ? now.now.find(([order]) => order === pressed.n) ?? [0, 0, 0] : [];
-    if (pressed && Math.abs(a - pressed.amplitude) < .006 && (!a || Math.abs(p - pressed.phase) < .6)) pressed = null;
+    if (now && pressed && Object.entries(pressed.waves).every(([n, [size, phase]]) => {
+      const [, a, p] = now.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
+      return Math.abs(a - size) < .021 && (a < .03 || Math.abs(p - phase) < .6);
+    })) pressed = null;
     draw();
   });
   for (const name of ['dial_matrix', 'dial_front']) RX.paint(name, draw);
   new ResizeObserver(draw).observe(document.querySelector('.rxf-stage'));
   new MutationObserver(() => { for (const place of document.querySelectorAll('[data-dial]')) if (!place.childElementCount) draw(); }).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 
-  // The hand. The dot goes where the pointer is; its place is sent at most every 50 ms.
-  const tell = (n, change) => {
-    waiting = [n, change];
+  // The hand, on a dial or along the front. The dot goes where the pointer is; its place is sent at most every 50 ms.
+  const tell = waves => {
+    waiting = Object.entries(waves).map(([n, [a, p]]) => [Number(n), a, p]);
     setTimeout(() => { if (waiting) { sent = performance.now(); RX.send('dial', waiting); waiting = null; } }, Math.max(0, 50 - (performance.now() - sent)));
   };
+  const press = waves => {
+    pressed = {waves, at: performance.now()};  // Until the sliders have come.
+    setTimeout(() => { if (pressed && performance.now() - pressed.at > 900) pressed = null; draw(); }, 950);
+    draw();
+  };
   function follow(event) {
-    const box = held.round.getBoundingClientRect(), radius = box.width / 2 - 22, x = (event.clientX - box.left - box.width / 2) / radius, y = (box.top + box.height / 2 - event.clientY) / radius;
-    held.amplitude = Math.round(100 * RX.state.dial.reach * Math.min(Math.hypot(x, y), 1)) / 100;
-    if (held.amplitude < .04) held.amplitude = 0;  // The middle means none.
-    held.phase = (Math.round(Math.atan2(y, x) / DEGREE) + 360) % 360;
-    tell(held.n, [held.amplitude, held.phase]);
+    const box = held.place.getBoundingClientRect();
+    if (held.front) held.waves = along(held.place, event.clientX - box.left, event.clientY - box.top - held.above) ?? held.waves;
+    else {
+      const radius = box.width / 2 - 22, x = (event.clientX - box.left - box.width / 2) / radius, y = (box.top + box.height / 2 - event.clientY) / radius;
+      const size = Math.round(100 * RX.state.dial.reach * Math.min(Math.hypot(x, y), 1)) / 100;
+      held.waves = {[chosen]: [size < .04 ? 0 : size, (Math.round(Math.atan2(y, x) / DEGREE) + 360) % 360]};  // The middle means none.
+    }
+    tell(held.waves);
     draw();
   }
   document.addEventListener('pointerdown', event => {
-    const round = event.target instanceof Element && event.isPrimary && event.button === 0 && event.target.closest('.rxd-round');
-    if (!round || RX.state.dial?.held) return;
-    const box = round.getBoundingClientRect(), far = Math.hypot(event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2);
-    if (far > box.width / 2 - 8) return;
+    const near = event.target instanceof Element && event.isPrimary && event.button === 0 && event.target, round = near && near.closest('.rxd-round'), chart = near && near.closest('.rxd-front');
+    if (!(round || (chart && near.closest('svg') && RX.state.dial?.front.length > 1)) || RX.state.dial?.held) return;
+    const box = (round || chart).getBoundingClientRect();
+    if (round && Math.hypot(event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2) > box.width / 2 - 8) return;
     event.preventDefault();
-    held = {n: chosen, round};
-    round.querySelector('[data-dot]')?.focus({preventScroll: true});
-    RX.send('dial', [chosen, 'start']);
+    held = {place: round || chart, front: !round, waves: {}, above: round ? 0 : near.closest('svg').getBoundingClientRect().top - box.top};
+    round?.querySelector('[data-dot]')?.focus({preventScroll: true});
+    RX.send('dial', 'start');
     follow(event);
+    shake();
   });
   addEventListener('pointermove', event => { if (held && event.isPrimary) follow(event); });
   for (const end of ['pointerup', 'pointercancel'])
     addEventListener(end, event => {
       if (!held || !event.isPrimary) return;
-      const {n, amplitude, phase} = held;
+      const {waves} = held;
       waiting = null;
-      RX.send('dial', [n, [amplitude, phase]]);
-      RX.send('dial', [n, 'end']);
-      pressed = {n, amplitude, phase, at: performance.now()};  // Until the sliders have come.
+      RX.send('dial', Object.entries(waves).map(([n, [a, p]]) => [Number(n), a, p]));
+      RX.send('dial', 'end');
       held = null;
-      setTimeout(draw, 950);
-      draw();
+      press(waves);
     });
   document.addEventListener('keydown', event => {
     const near = event.target instanceof Element && event.target;
@@ -235,12 +307,31 @@
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();
-    const [a, p] = wave(chosen);
-    pressed = {n: chosen, amplitude: Charts.clamp(Math.round(100 * (a + many * step[0])) / 100, 0, RX.state.dial.reach), phase: (p + many * step[1] + 360) % 360, at: performance.now()};
-    tell(chosen, [pressed.amplitude, pressed.phase]);
-    setTimeout(draw, 950);
-    draw();
+    const [a, p] = wave(chosen), waves = {[chosen]: [Charts.clamp(Math.round(100 * (a + many * step[0])) / 100, 0, RX.state.dial.reach), (p + many * step[1] + 360) % 360]};
+    tell(waves);
+    press(waves);
   }, true);
+
+  // While the hand is on the dial, and some seconds longer, the cabin moves as a rigid body under the foreseen loads at
+  // N_b/rev, A cos(N_b ψ − φ)/(m (N_b Ω)²): exaggerated and slowed, and not for those who asked for less motion.
+  const still = matchMedia('(prefers-reduced-motion: reduce)'), NODE = '/airframe', SHAKES = 2.5, LONGER = 4000;
+  let shaken = 0, rest = null, last = null;
+  function shake() {
+    if (still.matches || shaken) return;
+    const pose = () => window.__viserMutable?.nodePoseData?.[NODE], begun = performance.now();
+    let until = Infinity;
+    const put = position => { const now = pose(); if (now) { last = position; Object.assign(now, {position, poseUpdateState: 'needsUpdate'}); window.__viserMutable.requestRender?.(); } };
+    const step = now => {
+      const {dial, dial_matrix: matrix} = RX.state, at = pose();
+      if (held) until = now + LONGER;
+      if (!dial || !matrix || !at || now > until) { if (rest) put(rest); shaken = 0; rest = last = null; return; }
+      if (at.position !== last) rest = [...at.position];
+      const loads = values(matrix, vector()), turn = 2 * Math.PI * SHAKES * (now - begun) / 1000;
+      put(rest.map((v, k) => v + dial.shake * (loads[2 * k] * Math.cos(turn) + loads[2 * k + 1] * Math.sin(turn))));
+      shaken = requestAnimationFrame(step);
+    };
+    shaken = requestAnimationFrame(step);
+  }
   document.addEventListener('click', event => {
     const near = event.target instanceof Element && event.target.closest('[data-harmonic], [data-dial-large]');
     if (!near) return;

@@ -102,13 +102,13 @@
     if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
     slider.style.setProperty('--at', `${100 * at / last()}%`);
     const {X, Y, height} = scale, x = X(at), near = now.legs[Math.round(at)];
-    card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', k === Math.round(at)));
+    card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', Math.abs(k - at) < .02));
     let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
-    if (now.net) {
-      const [wanted, reached] = ['wanted', 'reached'].map(name => between(now.chart.series.find(one => one.label === name).y, at)), net = between(now.net, at);
+    if (now.chart.series.length) {
+      const [wanted, reached] = ['wanted', 'reached'].map(name => between(now.chart.series.find(one => one.label === name).y, at));
       inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(reached)}" r="6.5" class="rxf-fly-dot"/>`;
-      said = degrees(reached);
-      words = `of ${degrees(wanted)} wanted${now.kind === 'ready' ? ` · net ${Charts.signed(net)} ${now.unit} here` : ' · computing…'}`;
+      said = now.flown ? degrees(reached) : now.tip;
+      words = `${now.flown ? `of ${degrees(wanted)} wanted` : `now; reaches ${degrees(reached)} of ${degrees(wanted)} wanted`}${now.kind === 'ready' ? '' : ' · computing…'}`;
       slider.ariaValueText = `${near[0]}: ${said} ${words}`;
     } else slider.ariaValueText = near[0];
     const group = card.querySelector('[data-marker]');
@@ -124,8 +124,8 @@
     RX.again('power');
     if (!now) { earns.innerHTML = ''; return; }
     earns.toggleAttribute('data-faded', now.kind !== 'ready');
-    earns.innerHTML = `<div class="rxf-head"><b>What it earns</b><span class="rxf-dim">${text(now.unit)}, against</span><button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button></div><svg role="img"></svg>
-      <div class="rxf-earns-foot"><span class="rxf-dim">${text(now.where)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
+    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span></div><svg role="img"></svg>
+      <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(now.mass_note)}">${text(now.mass)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
     if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
     let sum = 0;
@@ -144,11 +144,21 @@
     svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
     svg.innerHTML = inside;
   });
-  // The card of power tells the same verdict in the place of the change since a grab.
+  // The card of power tells the one verdict, here and over the flight, against one blade.
+  const told = () => {
+    const now = RX.state.earns, place = now && part('power').querySelector('[data-explorer=verdict]');
+    if (!place) return;
+    const [words, kind] = now.problem ? [now.problem, ''] : RX.verdict();
+    place.textContent = words;
+    place.dataset.tone = kind;
+  };
+  RX.told = told;
+  RX.also('dial', told);
   RX.also('power', () => {
     const now = RX.state.earns, change = part('power').querySelector('.rxf-change');
     if (!now || !change) return;
-    change.innerHTML = `<div class="rxf-since rxf-num" data-explorer="since"><span data-kind="${now.kind === 'ready' ? now.net_kind : ''}">${text(now.net)}</span> <small>${text(now.net_words)}</small></div><div class="rxf-why">${text(now.sentence)}</div>`;
+    change.innerHTML = `<div class="rxf-why">Against <button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button></div><div class="rxf-since rxf-num" data-explorer="verdict" data-kind="${now.kind}" title="This actuator on board, in this flight. Bands: over inflow models"></div><div class="rxf-why" data-explorer="mission">${text(now.mission)}</div>`;
+    told();
     const under = part('power').querySelector('.rxf-sub');
     if (under) under.textContent = 'at this twist, without its mass';
   });

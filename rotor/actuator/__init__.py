@@ -18,8 +18,8 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.harmonic import DynamicTwist, phase_sweep
-from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.harmonic import DynamicTwist, Effect, dynamic_twist, effect, phase_sweep, steady_room
+from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
@@ -34,6 +34,7 @@ __all__ = (
     "BreakEven",
     "ConditionPair",
     "DynamicTwist",
+    "Effect",
     "Engines",
     "ExtensionTwist",
     "Failure",
@@ -51,6 +52,8 @@ __all__ = (
     "actuators",
     "break_even",
     "default_placement",
+    "dynamic_twist",
+    "effect",
     "engines_of",
     "failure",
     "find_actuator",
@@ -62,8 +65,10 @@ __all__ = (
     "phase_sweep",
     "programmes",
     "standard_flight",
+    "steady_room",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",
     "what_would_pay",
+    "with_actuator_mass",
 )

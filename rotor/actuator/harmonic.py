@@ -21,6 +21,8 @@ from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.dynamics.torsion import twist_under_moment
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import in_flow_of, solve_alike
 
@@ -84,6 +86,51 @@ def dynamic_twist(
         rest_shape=_over_the_tip(stations, installed.r, still),
         installed=installed,
     )
+
+
+def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
+    """Part of half the voltage range that steady voltages leave for n/rev, 0…1; none given: 1, about the middle."""
+    actuator = installed.actuator
+    if not isinstance(actuator, PiezoPly):
+        return 0.0
+    low, high = actuator.voltage_range
+    room = [2.0 * min(high - v, v - low) / (high - low) for v in volts] if any(volts) else [1.0]
+    return max(min(room), 0.0)
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What an actuator changes in one flight, against another blade there.
+
+    By inflow model that trims: the design's own first, then those of `hub_loads.BAND`.
+    """
+
+    power: tuple[float, ...]
+    """[W]"""
+    index: tuple[float, ...]
+    """Of the vibration index [%]; empty where there are no hub loads."""
+
+
+def effect(design: Design, reference: Design) -> Effect:
+    """Change of power and of vibration from `reference` to `design`, both in its flight and with its models.
+
+    `design`: with the actuator's mass and stiffness on board (`with_actuator_mass`). RuntimeError where it does not
+    trim with its own inflow model.
+    """
+    power, index = list[float](), list[float]()
+    shaken = why_no_hub_loads(design) is None
+    for inflow in dict.fromkeys((design.models.inflow, *BAND)):
+        flown = replace(design, models=replace(design.models, inflow=inflow))
+        still = in_flow_of(flown, replace(reference, models=flown.models))
+        one, other = (solve_alike(each, None, like=still) for each in (flown, still))
+        if inflow == design.models.inflow:
+            one.require()
+            other.require()
+        if one.converged and other.converged:
+            power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
+            if shaken:
+                index.append(100.0 * (hub_index(Adjoint(one)) / hub_index(Adjoint(other)) - 1.0))
+    return Effect(tuple(power), tuple(index))
 
 
 def _over_the_tip(stations: Array, r: Array, twist: Array) -> tuple[float, ...]:

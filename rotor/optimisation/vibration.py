@@ -252,7 +252,7 @@ def vibration_front(
         return _static_front(design, concept, points)
     matrix = t_matrix(design, harmonics)
     start, front, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
-    for x in _active_twists(matrix, math.radians(reach_deg), points):
+    for x in front_twists(matrix, math.radians(reach_deg), points):
         solution = solve_alike(with_harmonics(design, matrix.twist(x)), matrix.solution)
         power, index = matrix.power_and_index(x)[0].tolist()
         front += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
@@ -296,8 +296,8 @@ def _ends(values: Sequence[float]) -> tuple[float, float] | None:
     return (min(known), max(known)) if known else None
 
 
-def _active_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
-    """Cosines and sines [rad] of least power for limits of the index, by the T-matrix."""
+def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
+    """Cosines and sines [rad] of least power for limits of the index, by the T-matrix; `reach` [rad] of each."""
     size, start = 2 * len(matrix.harmonics), matrix.power_and_index(np.zeros(2 * len(matrix.harmonics)))[0]
     scale = np.array([0.01 * start[0], start[1]])
 

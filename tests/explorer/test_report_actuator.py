@@ -12,7 +12,7 @@ from explorer.export.figures import actuator_section
 from explorer.export.report import report_html
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
-from explorer.tabs.actuator.actuator_words import verdict_panel
+from explorer.tabs.actuator.actuator_words import details_panel
 from explorer.tabs.actuator.flight_bar import earns_state
 from rotor.actuator.verdict import Against, Verdict, try_actuator
 from rotor.command import actuator as command
@@ -44,7 +44,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     sentence = re.findall(r'data-report="verdict">([^<]*)<', page)
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert sentence == [rail["sentence"]] == [printed.splitlines()[0]]
-    assert f"<b>{sentence[0]}</b>" in verdict_panel(one, None)
+    assert f"<b>{sentence[0]}</b>" in details_panel(one)
     assert numbers(page) == [bar["text"] for bar in rail["bars"]]
     assert f"<b>{rail['fuel']}</b>" in page
     of_command = re.findall(r"^  (?:gross|stiffness|mass|drive|net)[^-\d]*(-?[\d.]+) kW", printed, re.MULTILINE)

@@ -42,11 +42,11 @@ from rotor.optimisation import find_concept
 def table_panel(outcomes: Mapping[str, Outcome], question: Question) -> Markup:
     """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
     rows = [_row(id, outcomes.get(id), id == question.actuator) for id in actuators()]
-    titles = ("Actuator", ("avail.", tag("br"), "°"), "kg", ("net", tag("br"), "kW"), "verdict")
+    titles = ("Actuator", ("range", tag("br"), "°"), ("kg in", tag("br"), "all"), ("needs", tag("br"), "kW"), "verdict")
     head = tag("tr", [tag("th", title) for title in titles])
     first, second = question.pair.advance_ratios
     note = (
-        f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. "
+        f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. Range: twist from end to end. "
         "▲: some data not verified. Hover over a verdict for the full text."
     )
     table = tag("table.rxa-table", head, rows)
@@ -64,7 +64,7 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
         numbers = (
             number(math.degrees(outcome.attainable), 1),
             number(outcome.installed.masses.aircraft),
-            number(1e-3 * outcome.net_saving, 1, sign=True),
+            number(-1e-3 * outcome.net_saving, 1, sign=True),
         )
         verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
         cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
@@ -75,11 +75,11 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
 def short_verdict(verdict: Verdict) -> tuple[str, str]:
     """A few words, and the class that colours them."""
     if verdict.pays:
-        return "net benefit", "rx-less"
+        return "pays", "rx-less"
     if not verdict.feasible:
         return "too weak", "rxa-bad"
     if verdict.net_saving <= 0.0:
-        return "net cost", "rxa-bad"
+        return "costs more", "rxa-bad"
     return "cannot be built", "rxa-bad"
 
 
@@ -155,6 +155,7 @@ class ActuatorControls:
             form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
             form.menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
+            self.details = gui.add_html("")
             self.numbers = gui.add_html("")
             self.chart = PanelChart(gui)
             self.segments = gui.add_html("")

@@ -210,7 +210,7 @@ def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
         FlightLeg(
             f"{a.name} to {b.name}",
             0.5 * (a.advance_ratio + b.advance_ratio),
-            0.5 * (a.climb_speed + b.climb_speed),
+            0.0 if a.climb_speed else 0.5 * b.climb_speed,  # A climb ends half way to the next leg.
         )
         for a, b in pairwise(legs)
     ]

@@ -1,8 +1,11 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
+import math
+
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
+    AGAINST,
     ActuatorInputs,
     Outcome,
     Question,
@@ -13,6 +16,7 @@ from explorer.tabs.actuator.actuator_inputs import (
 from explorer.tabs.actuator.flight_bar import FlightBar
 from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture
 from explorer.tabs.actuator.pay_panel import PayPanel
+from explorer.tabs.actuator.per_rev import Fitted
 from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.workers import solver
@@ -49,11 +53,14 @@ class ActuatorPanel:
         self._flights = PoolAnswers(context.pool, 4, context.wake)
         self._modes = PoolAnswers(context.pool, 6, context.wake)
         """Modes of the blade with the actuator and without, worked out behind all else."""
+        self.fitted: Fitted | None = None
+        """The actuator on the blade for the dial of n/rev; None where it cannot be built."""
         self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
         self._flight_bar = FlightBar(context, self._controls)
         context.bridge.on("against", lambda _: self._controls.other_baseline())
         self._pay = PayPanel(context)
         self.inputs = self._controls.inputs
+        self.top = self._controls.now.order
 
     def stop(self) -> None:
         """The browser has left."""
@@ -102,7 +109,7 @@ class ActuatorPanel:
             question = question_of(inputs, design)
         except ValueError as error:
             self._blade.release(self._radius)
-            self._drawn = None
+            self._drawn = self.fitted = None
             self.show_problem(str(error))
             self._pay.refresh(None, None)
             return
@@ -115,11 +122,16 @@ class ActuatorPanel:
         tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
         self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
-        self._pay.refresh(question.pair, self._show_verdict(inputs, installed, question, design))
+        verdict = self._show_verdict(inputs, installed, question, design)
+        self._pay.refresh(question.pair, verdict)
+        fixed = None if verdict is None else verdict.baseline.fixed_twist
+        twist = design.twist if inputs.against == "as-built" else fixed
+        against = f"the {AGAINST[inputs.against][0].lower()}{AGAINST[inputs.against][1:]}"
+        self.fitted = Fitted(installed, inputs.volts(installed), twist, against)
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
-        self._controls.verdict.content = words.verdict_panel(problem)
+        self._controls.verdict.content = words.problem_panel(problem)
 
     def reset(self) -> None:
         """Nothing driven."""
@@ -132,7 +144,8 @@ class ActuatorPanel:
         outcome = outcomes[question.actuator]
         verdict = outcome if isinstance(outcome, Verdict) else None
         places = self._controls
-        places.verdict.content = words.verdict_panel(outcome, self._verdict)
+        places.verdict.content = words.problem_panel(outcome)
+        places.details.content = words.details_panel(verdict)
         places.numbers.content = words.fit_panel(installed, verdict)
         places.segments.content = words.segments_panel(installed, verdict)
         places.limits.content = words.limits_panel(verdict)
@@ -143,7 +156,9 @@ class ActuatorPanel:
         task = None if verdict is None else Call(flight_of, (verdict,))
         self._flights.ask(() if task is None else (task,), 0.0)
         if self.lifted:
-            self._flight_bar.show(self._context.inputs(), design, installed, outcome, self._flights.answer(task))
+            tip = math.degrees(inputs.tip(installed, design))
+            answer = self._flights.answer(task)
+            self._flight_bar.show(self._context.inputs(), design, installed, outcome, answer, tip)
         root = design.rotor.blade.root_cutout
         places.chart.show(reach_chart(inputs, installed, verdict, root, places.chart.y_range))
         self._verdict = verdict or self._verdict

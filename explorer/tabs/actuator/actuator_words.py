@@ -11,6 +11,7 @@ from explorer.colours import css
 from explorer.model.units import number
 from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, Outcome
 from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
+from explorer.text.readout import mass_words
 from rotor import Solution
 from rotor.actuator import (
     Actuator,
@@ -24,7 +25,7 @@ from rotor.actuator import (
 )
 from rotor.actuator.limits import Limit
 from rotor.actuator.pictures import Part, section_picture
-from rotor.markup import Attribute, Content, Markup, group, tag
+from rotor.markup import Attribute, Markup, group, tag
 from rotor.trim.stability import DampedMode
 from rotor.units import typographic
 
@@ -68,34 +69,40 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
     masses = installed.masses
     entries = [
-        ("Required Δtwist", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
+        ("Twist required", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
         ("Added mass", f"{number(masses.aircraft)} kg"),
-        ("Available", f"{number(math.degrees(installed.attainable), 2)}°"),
-        ("on each blade", f"{number(masses.blade, 1)} kg"),
+        (_range_words(installed.actuator), f"{number(math.degrees(installed.attainable), 2)}°"),
+        ("On each blade", f"{number(masses.blade, 1)} kg"),
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]
-    return tag("div.rx.rx-grid", named_lines(entries), data_explorer="actuator-numbers")
+    built = tag("div.rx-dim.rx-small", f"{mass_words(masses)}.")
+    return tag("div.rx", tag("div.rx-grid", named_lines(entries)), built, data_explorer="actuator-numbers")
 
 
-def verdict_panel(outcome: Outcome | None, before: Verdict | None = None) -> Markup:
-    """The verdict in one line, and what it rests on folded; on its way, the one before; or why there is none."""
-    if isinstance(outcome, str):
-        return _box("wrong", "problem", outcome)
-    shown = outcome or before
-    if shown is None:
-        return _box("wait", "computing", tag("b", "Computing what the actuator saves and what it costs…"))
-    title = tag("summary", f"{shown.installed.actuator.name}: reach and limits")
-    words = tag("b", verdict_sentence(shown)) + tag("details", title, verdict_details(shown))
-    if outcome is None:
-        return _box("wait", "computing", tag("div.rx-faded", words), tag("small", "computing…"))
-    return _box("yes" if shown.pays else "no", "ready", words)
+def _range_words(actuator: Actuator) -> str:
+    """What the twist of the whole range is called."""
+    if not isinstance(actuator, PiezoPly):
+        return "Whole range"
+    low, high = actuator.voltage_range
+    return f"{number(low)} to {number(high, sign=True)} V"
 
 
-def _box(look: str, kind: str, *content: Content) -> Markup:
-    return tag(f"div.rxa-box.rxa-{look}", *content, data_explorer="verdict", data_kind=kind)
+def problem_panel(outcome: Outcome | None) -> Markup:
+    """Why there is no verdict; nothing where there is one or it is on its way."""
+    if not isinstance(outcome, str):
+        return Markup()
+    return tag("div.rxa-box.rxa-wrong", outcome, data_explorer="no-verdict")
+
+
+def details_panel(verdict: Verdict | None) -> Markup:
+    """The verdict over the flight in words, and what it rests on."""
+    if verdict is None:
+        return Markup()
+    words = tag("b", verdict_sentence(verdict)), " ", verdict_details(verdict)
+    return tag("div.rx.rx-small", *words, data_explorer="verdict-details")
 
 
 def segments_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:

@@ -17,9 +17,9 @@ from explorer.tabs.actuator.actuator_inputs import flight_legs
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
-from explorer.text.readout import balance, fuel_used, fuel_words, pair_words, signed
+from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
 from rotor import Design
-from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict, verdict_sentence
+from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict
 from rotor.actuator.verdict import reference
 from rotor.arrays import Array
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
@@ -30,8 +30,7 @@ _LEAST = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
 _SHORT = 0.15
 """What is wanted beyond reach [°] and not worth a word."""
-_WHOLE = 10.0
-"""A net power from here on, in its unit, is shown without decimals: models do not agree to a tenth."""
+_COMPUTING = "Computing what the actuator saves and what it costs…"
 _GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
 
 
@@ -56,22 +55,24 @@ def flight_state(
     tip_speed: float,
     units: Units,
     problem: str = "",
+    *,
+    tip: float = 0.0,
+    flown: bool = False,
 ) -> dict[str, Any]:
-    """What the page draws the tip twist from: a chart of degrees over the legs, powers in the main unit.
+    """What the page draws the tip twist from: a chart of degrees over the legs.
 
-    `known`: the flight is that of the present question, else one before.
+    `known`: the flight is that of the present question, else one before. `tip`: twist by the actuator now [°];
+    `flown`: its voltages follow the flight.
     """
-    unit = units.power[0]
     state: dict[str, Any] = {
         "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in legs[::HALVES]],
         "at": round(place_of(legs, advance_ratio), 3),
         "kind": "ready" if known and flight else "problem" if problem else "computing",
         "words": problem or ("computing…" if not known else ""),
-        "unit": unit.symbol,
+        "flown": flown,
+        "tip": f"{number(tip, 2, sign=True)}°",
         "chart": as_json(flight_chart(flight, (len(legs) - 1) / HALVES)),
     }
-    if flight is not None:
-        state["net"] = [round(unit.of(float(net)), 2) for net in flight.net_saving]
     return state
 
 
@@ -123,34 +124,37 @@ def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
 
 
 def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> dict[str, Any]:
-    """What the page draws the balance from. `known`: the verdict is that of the present question, else one before."""
+    """What the page draws the balance from, as power that the actuator needs.
+
+    `known`: the verdict is that of the present question, else one before.
+    """
     unit = units.power[0]
     state: dict[str, Any] = {
         "kind": "ready" if known and verdict else "problem" if problem else "computing",
-        "unit": unit.symbol, "where": "", "bars": [], "against": "best fixed blade",
-        "fuel": "", "fuel_kind": "", "fuel_note": "", "net": "–", "net_kind": "", "net_words": "net",
-        "sentence": problem or "Computing what the actuator saves and what it costs…",
+        "unit": unit.symbol, "where": "", "bars": [], "against": "best fixed blade", "fuel": "", "fuel_kind": "",
+        "fuel_note": "", "mass": "", "mass_note": "", "problem": problem, "mission": "" if problem else _COMPUTING,
     }  # fmt: skip
     if verdict is None:
         return state
-    net, used = verdict.net_saving, fuel_used(verdict)
+    used, masses = fuel_used(verdict), verdict.installed.masses
+    parts = [("its twist" if name == "gross" else name, -power) for name, power in verdict.savings]
+    where = pair_words(verdict)
     return state | {
-        "where": pair_words(verdict),
-        "bars": [_bar(name, power, units, name == "= net") for name, power in balance(verdict)],
+        "where": where,
+        "bars": [*(_bar(*part, units) for part in parts), _bar("in all", -verdict.net_saving, units, total=True)],
         "against": reference(verdict).removeprefix("the "),
         "fuel": fuel_words(verdict),
         "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         "fuel_note": " ".join(text for text in verdict.caveats if "uel" in text),
-        "net": unit.text(abs(net), 0 if abs(unit.of(net)) >= _WHOLE else 1),
-        "net_words": "more power needed" if net < 0.0 else "less power needed",
-        "net_kind": "loss" if net < 0.0 else "gain",
-        "sentence": verdict_sentence(verdict),
+        "mass": f"{number(masses.aircraft)} kg on board",
+        "mass_note": mass_words(masses),
+        "mission": f"{where[:1].upper()}{where[1:]}: {needs(verdict, units)}.",
     }
 
 
-def _bar(name: str, power: float, units: Units, total: bool) -> dict[str, Any]:
+def _bar(name: str, power: float, units: Units, total: bool = False) -> dict[str, Any]:
     text = signed(power, units)
-    kind = {"−": "loss", "+": "gain"}.get(text[0], "")
+    kind = {"+": "loss", "−": "gain"}.get(text[0], "")
     return {"name": name, "value": round(units.power[0].of(power), 3), "text": text, "kind": kind, "total": total}
 
 
@@ -178,8 +182,12 @@ class FlightBar:
         installed: InstalledActuator,
         verdict: Verdict | str | None,
         flight: ActuatorFlight | str | None,
+        tip: float,
     ) -> None:
-        """Follow the session. Verdict and flight: the sentence that says why there is none, or None on their way."""
+        """Follow the session. Verdict and flight: the sentence that says why there is none, or None on their way.
+
+        `tip`: twist by the actuator now [°].
+        """
         self._legs, self._installed = flight_legs(design), installed
         known = isinstance(flight, ActuatorFlight)
         if isinstance(flight, ActuatorFlight) and flight is not self._flight:
@@ -193,7 +201,15 @@ class FlightBar:
         wrong = verdict if isinstance(verdict, str) else ""
         self._context.bridge.set(
             flight=flight_state(
-                self._legs, None if problem else self._flight, known, inputs.advance_ratio, speed, units, problem
+                self._legs,
+                None if problem else self._flight,
+                known,
+                inputs.advance_ratio,
+                speed,
+                units,
+                problem,
+                tip=tip,
+                flown=self._flown is not None,
             ),
             earns=earns_state(None if wrong else self._verdict, isinstance(verdict, Verdict), units, wrong),
         )

@@ -223,11 +223,11 @@ def _labels(
 
 def _what(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
     """The actuator where it sits, in words."""
-    placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg a blade"
+    placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg in each blade"
     where = "{:.2f}–{:.2f} R".format(*placement.span)
     if isinstance(installed.actuator, PiezoPly):
         plies, angle = "ply" if placement.plies == 1 else "plies", "−45" if inputs.crossed else "45"
-        return f"{placement.plies} {plies} a side at {angle}°, {where}, {mass}"
+        return f"{placement.plies} {plies} a side at {angle}°, {where}: {mass.replace(' in', ' of plies in')}"
     if isinstance(installed.actuator, TorqueTube):
         return f"{installed.actuator.name}, {where}, {mass}"
     return installed.actuator.name
