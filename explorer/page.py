@@ -18,7 +18,7 @@ from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionSta
 from explorer.model.sliders import nearest_trim
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
-from explorer.scene.overlays import Strip, ghost_of
+from explorer.scene.overlays import ghost_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
@@ -40,7 +40,6 @@ from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
 from explorer.tabs.results import ResultsPanel, beside_labels
-from explorer.tabs.sensitivity_panel import SensitivityPanel
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
@@ -110,8 +109,6 @@ class Page:
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(context)
             envelope = EnvelopePanel(context)
-        with layout.in_drawer("twist"):
-            self._sensitivity = SensitivityPanel(context, Strip(client.scene))
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
             self.vibration = VibrationPanel(context, self.scene, self.results.strip)
@@ -130,7 +127,7 @@ class Page:
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.tabs: tuple[Tab, ...] = (
-            self.top, self.probe, self._sensitivity, self.waterfall, envelope, settings, self.history, self.file,
+            self.top, self.probe, self.waterfall, envelope, settings, self.history, self.file,
             export, self.lecture, self._presence,
         )  # fmt: skip
         """Everything that only follows."""
@@ -219,7 +216,6 @@ class Page:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
         self.vibration.turn(state)
-        self._sensitivity.show(state)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState) -> None:

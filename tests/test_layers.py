@@ -34,7 +34,7 @@ ORDER = {
     "explorer/tabs": (
         "layout", "display", "form", "stand_controls", "controls", "context", "background", "design_files",
         "history_panel", "waterfall", "live_charts", "envelope_panel", "results", "twist_curve", "export_panel",
-        "sensitivity_panel", "element",
+        "element",
         "probe_measured", "probe_drawing", "probe_panel", "vibration_panel", "actuator", "views", "optimise", "lecture",
     ),
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""What lies on and about the rotor: the ghost of another blade, tip vortices, inflow arrows, painted points.
+"""What lies on and about the rotor: the ghost of another blade, tip vortices, inflow arrows.
 
 Handles are made once, then moved.
 """
@@ -161,28 +161,6 @@ class HubLoadLines:
         for handle in self._lines.values():
             if handle.visible:
                 handle.visible = False
-
-
-class Strip:
-    """Coloured points along the reference blade."""
-
-    def __init__(self, api: viser.SceneApi) -> None:
-        self._points = api.add_point_cloud(
-            f"{_BLADE}/strip",
-            np.zeros((1, 3), dtype=np.float32),
-            np.zeros((1, 3), dtype=np.uint8),
-            point_size=0.075,
-            point_shape="square",
-            visible=False,
-        )
-
-    def show(self, points: NDArray[np.float32], colours_of: NDArray[np.uint8]) -> None:
-        self._points.points = points
-        self._points.colors = colours_of
-        self._points.visible = True
-
-    def hide(self) -> None:
-        self._points.visible = False
 
 
 def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSegmentsHandle:

@@ -21,7 +21,6 @@ DRAWERS = {
     "share": "Share and export",
     "details": "Power and trim",
     "probe": "Blade element",
-    "twist": "Power sensitivity to local pitch",
     "trust": "How far to trust this",
     "lecture": "Lecture",
     "settings": "Settings",

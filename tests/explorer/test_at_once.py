@@ -32,7 +32,7 @@ def query(k: int) -> str:
 
 
 async def work(visitor: Visitor, app: App, k: int) -> None:
-    """Drag, and meanwhile search, or open the chart of the gradient."""
+    """Drag, and meanwhile search, or open what the doubt consists of, which needs the gradient."""
     await visitor.open(app.address)
     await visitor.until(lambda: visitor.text("status") == "converged", 200.0)
     if k % 4 == 0:
@@ -40,7 +40,7 @@ async def work(visitor: Visitor, app: App, k: int) -> None:
         await send(visitor, "halt")
         await send(visitor, "discard")
     elif k % 4 == 1:
-        await send(visitor, "drawer", "twist")
+        await send(visitor, "drawer", "trust")
     for step in range(EDITS):
         await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
         await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))

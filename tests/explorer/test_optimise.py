@@ -11,9 +11,7 @@ import pytest
 from explorer.charts.strip import LOOKS
 from explorer.model.inputs import baseline_of
 from explorer.model.units import SI
-from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.landscape import refined
-from explorer.tabs import sensitivity_panel as sensitivity
 from explorer.tabs.optimise import map_panel as power_map
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
@@ -150,29 +148,6 @@ class TestCharts:
         assert run.best is not None
         assert min(line.y[-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
         assert len({line.colour for line in starts}) == 3
-
-    def test_sensitivity_to_turning_the_whole_blade_is_zero(self):
-        solution = solve(make_design(mu=0.2))
-        chart, beside = (sensitivity.sensitivity_chart(solution, None, a) for a in (None, solution))
-        assert [one.label for one in chart.series] == ["induced", "total"]
-        assert [one.label for one in beside.series] == ["induced", "A", "B"]
-        assert curves(beside)[1].y == pytest.approx(curves(beside)[2].y)
-        r, total = np.array(curves(chart)[-1].x), np.array(curves(chart)[-1].y)
-        assert abs(total @ solution.disk.dr) < 1e-6 * np.abs(total).max()
-        assert r[np.argmin(total)] != r[np.argmax(total)]
-
-    def test_strip_lies_on_the_blade_and_is_blue_where_pitch_saves(self):
-        solution = solve(make_design(mu=0.2))
-        chart = sensitivity.sensitivity_chart(solution, None)
-        shape = blade_shape(solution.design.rotor)
-        points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, chart)
-        assert points.shape == colours.shape
-        vertices = blade_vertices(shape, solution.design.twist)
-        assert np.all(points[:, 0] <= vertices[:, 0].max() + 1e-6)
-        outward = points[:, 0] / solution.design.rotor.radius
-        saves = np.interp(outward, np.array(curves(chart)[-1].x) - shape.r[0], curves(chart)[-1].y) < -5.0
-        red, blue = colours[:, 0].astype(int), colours[:, 2].astype(int)
-        assert np.all(blue[saves] > red[saves])
 
 
 class TestWords:
