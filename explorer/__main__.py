@@ -20,7 +20,7 @@ import webbrowser
 from collections.abc import Sequence
 from importlib import import_module
 
-from explorer.hosting.limits import SESSIONS
+from explorer.hosting.gate import SESSIONS
 from explorer.hosting.request_filter import host_name, is_loopback, warning
 from rotor import __version__
 from rotor.compiled import compiling
@@ -65,7 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.hosting.limits import ServerLimits, few_pools, limit_log
+    from explorer.hosting.gate import ServerLimits, few_pools, limit_log
     from explorer.model.inputs import OPENING, inputs_of
     from rotor import load_design
     from rotor.blas_threads import keep_one_blas_thread

@@ -13,10 +13,10 @@ from typing import Any
 import viser
 
 from explorer import web
-from explorer.hosting import limits as memory
+from explorer.hosting import gate as memory
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import PageFacts, page_facts
-from explorer.hosting.limits import ServerLimits
+from explorer.hosting.gate import ServerLimits
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, UNITS

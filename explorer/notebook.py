@@ -6,7 +6,7 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.limits import ServerLimits
+from explorer.hosting.gate import ServerLimits
 from explorer.hosting.request_filter import host_name
 from explorer.model.inputs import inputs_of
 from rotor import Design

@@ -32,7 +32,7 @@ ORDER = {
         "export", "story", "tabs", "page", "session", "app", "notebook",
     ),
     "explorer/tabs": (
-        "layout", "display", "form", "stand_controls", "controls", "context", "background", "design_files",
+        "layout", "display", "form", "controls", "context", "background", "design_files",
         "history_panel", "waterfall", "live_charts", "envelope_panel", "results", "twist_curve", "export_panel",
         "element",
         "probe_measured", "probe_drawing", "probe_panel", "vibration_panel", "actuator", "views", "optimise", "lecture",

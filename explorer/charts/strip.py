@@ -33,13 +33,6 @@ _LEAST_SWEPT = 4
 """Trims of a sweep, at least, of which speeds are told."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
-_LEAST_SWEPT = 4
-"""Trims of a sweep, at least, of which speeds are told."""
-INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
-
-_SHOWN_QUANTILE = 0.93
-"""Share of the stations whose sensitivity fits the axis: the tip's spike would flatten all others."""
-
 
 def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool = False) -> Line:
     """A line as its role looks."""
@@ -189,7 +182,7 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
             k = int(np.argmin(cost))
             if 0 < k < len(fine) - 1:
                 marks.append((float(fine[k]), word))
-    drawn = np.array(next(one.y for one in chart.series if isinstance(one, Line) and one.colour == SAVING))[known]
+    drawn = np.array(next(line.y for line in chart.series if isinstance(line, Line) and line.colour == SAVING))[known]
     pressed = [
         Points("", (mu,), (float(np.interp(mu, x, drawn)),), SAVING, "ring", action="speed", press=(f"{mu:.3f}",),
                words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",), names=(word,), size=3.5,

@@ -179,25 +179,25 @@ def _fails(report: ActuatorReport) -> Markup:
     if isinstance(report.failures, str):
         return tag("section", title, tag("p.note", report.failures))
     rows: list[Markup] = []
-    for found in report.failures:
-        for point in found.points:
-            there, one = point.stopped, point.one_blade
+    for case in report.failures:
+        for point in case.points:
+            all_blades, single = point.stopped, point.one_blade
             cells = (
-                _flight(found.stops_at),
+                _flight(case.stops_at),
                 _flight(point.mu) + (f", {number(point.speed / KNOT)} kt" if point.speed else ""),
-                number(math.degrees(there.twist), 2),
-                BLANK if there.power is None else _kw(there.power, 0),
+                number(math.degrees(all_blades.twist), 2),
+                BLANK if all_blades.power is None else _kw(all_blades.power, 0),
                 BLANK if point.cost is None else _kw(point.cost, 1, sign=True),
                 BLANK if point.power_left is None else _kw(point.power_left, 0),
-                number(100.0 * there.stalled_area, 1),
-                number(math.degrees(there.collective), 1),
-                number(math.degrees(there.cyclic), 1),
-                number(None if there.controls_left is None else 100.0 * there.controls_left),
-                number(None if one is None else one.force_n),
-                number(None if one is None else one.moment_nm),
-                number(None if one is None else 1e3 * one.track_m),
+                number(100.0 * all_blades.stalled_area, 1),
+                number(math.degrees(all_blades.collective), 1),
+                number(math.degrees(all_blades.cyclic), 1),
+                number(None if all_blades.controls_left is None else 100.0 * all_blades.controls_left),
+                number(None if single is None else single.force_n),
+                number(None if single is None else single.moment_nm),
+                number(None if single is None else 1e3 * single.track_m),
             )
-            rows.append(_cells(cells, "failure", f"failure-{found.stops_at:g}-{point.mu:g}"))
+            rows.append(_cells(cells, "failure", f"failure-{case.stops_at:g}-{point.mu:g}"))
     heads = ("stops in", "flown in", "twist °", "power kW", "cost kW", "engines left kW", "stalled %", "collective °",
              "cyclic °", "controls left %", "1/rev N", "1/rev N·m", "track mm")  # fmt: skip
     note = (

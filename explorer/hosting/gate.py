@@ -1,15 +1,23 @@
-"""The gate for everything that a page says: what is not known, finite, in range and short is dropped.
+"""What a page may say, and how much: presses, values, uploads, messages, sessions; and what goes to the log and the
+system.
 
 `message_fault` looks at each message of viser's, `checked_press` at what our scripts send through the bridge: a table
 says which names there are, and what comes with each. What is dropped is told in the log, a few times a minute with the
-number of those left out (`limits.RepeatFilter`).
+number of those left out (`RepeatFilter`).
 """
 
+import contextlib
+import ctypes
+import gc
 import json
 import logging
 import math
 import re
-from collections.abc import Callable, Mapping
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from rotor.user_input import brief
@@ -179,3 +187,203 @@ def checked_press(text: Any) -> tuple[str, Any] | None:
     except (ValueError, TypeError, RecursionError) as error:
         dropped(f"press {brief(repr(text)[:80])}: {error}")
         return None
+
+
+_PAUSE = 5.0
+"""[s] after a page has gone, so that pages that leave together are collected once."""
+_M_ARENA_MAX = -8
+"""Option of `mallopt`, from glibc's malloc.h."""
+_lock = threading.Lock()
+_due: threading.Timer | None = None
+
+
+def exclude_from_collection() -> None:
+    """Exclude what is loaded by now from garbage collection: each pass over it took 90 ms, without a frame."""
+    gc.collect()
+    gc.freeze()
+
+
+def few_pools() -> None:
+    """Let all threads of this process take memory from two pools (glibc only); called before they begin.
+
+    glibc makes up to eight for each processor, and each keeps what its threads have freed: with twenty pages a fifth of
+    the memory, and it went on growing.
+    """
+    with contextlib.suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).mallopt(_M_ARENA_MAX, 2)
+
+
+def give_back_soon(pause: float = _PAUSE) -> None:
+    """Call `give_back` after `pause` [s], once for all calls until then."""
+    global _due
+    with _lock:
+        if _due is None:
+            _due = threading.Timer(pause, give_back)
+            _due.name, _due.daemon = "give-back", True
+            _due.start()
+
+
+def give_back() -> None:
+    """Collect the reference cycles of pages that have gone, and return free memory to the system."""
+    global _due
+    with _lock:
+        _due = None
+    gc.collect()
+    # glibc keeps freed memory in one pool per thread; other systems return it by themselves.
+    with contextlib.suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).malloc_trim(0)
+
+
+SESSIONS = 24
+"""Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
+_SPARE = 40
+"""Connections beyond the pages at work: pages that wait, or have only just connected."""
+
+
+@dataclass(frozen=True)
+class ServerLimits:
+    sessions: int = SESSIONS
+    """Pages at work at once."""
+    allow_hosts: tuple[str, ...] = ()
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
+
+    @property
+    def connections(self) -> int:
+        """WebSockets at once."""
+        return 2 * self.sessions + _SPARE
+
+
+@dataclass(frozen=True)
+class RateLimit:
+    """A token bucket: it holds `burst` and fills by `rate` per second."""
+
+    rate: float
+    burst: float
+
+
+MESSAGES = RateLimit(rate=200.0, burst=2000.0)
+"""A dragged slider sends 20 a second, a turned camera 50; a tab that slept may send more at once."""
+FRAMES = RateLimit(rate=1000.0, burst=10_000.0)
+"""Frames of the connection: a message may come in parts, without end where nobody counts them."""
+BYTES = RateLimit(rate=2e6, burst=48e6)
+"""A file too large by mistake is refused with a sentence (`refuse_upload`) before this limit ends its connection."""
+LARGEST_MESSAGE = 16 * 2**20
+"""[bytes]; the largest honest message is a picture of the scene drawn by the browser."""
+
+
+class RateLimiter:
+    """The token buckets of one connection."""
+
+    def __init__(self, now: float, messages: RateLimit = MESSAGES, size: RateLimit = BYTES) -> None:
+        self._buckets = [[messages, messages.burst], [size, size.burst]]
+        self._then = now
+
+    def allows(self, size: int, now: float) -> bool:
+        """Count a message of `size` bytes that came at `now` [s]; False when that is more than is allowed."""
+        since, self._then = max(now - self._then, 0.0), now
+        within = True
+        for bucket, cost in zip(self._buckets, (1.0, float(size)), strict=True):
+            limit, left = bucket
+            bucket[1] = min(left + since * limit.rate, limit.burst) - cost
+            within = within and bucket[1] >= 0.0
+        return within
+
+
+LARGEST_FILE = 4 * 2**20
+"""[bytes]; ten times the largest published table of section data."""
+_PARTS = 64
+"""The page sends parts of half a megabyte. A million small parts would take a hundred times their size in memory."""
+UPLOADS_AT_ONCE = 2
+"""Files on their way from one page."""
+
+
+def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str) -> str | None:
+    """Why a file is refused, in one sentence; None where it is accepted. `accepts`: as in HTML, ".json,.toml" or "*/*".
+
+    The page's server keeps every part in memory until the last has come, and accepts whatever size is claimed.
+    """
+    shown = repr(name if len(name) <= 60 else name[:57] + "…")
+    if size > LARGEST_FILE:
+        return f"{shown} has {size / 2**20:.1f} MB: {LARGEST_FILE // 2**20} MB are allowed."
+    if not _is_accepted(name, accepts):
+        return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
+    if under_way >= UPLOADS_AT_ONCE:
+        return f"{shown} must wait until the files before it have arrived: press again then."
+    if size < 0 or not 0 <= parts <= _PARTS:
+        return f"{shown} comes in {parts} parts: {_PARTS} are allowed."
+    return None
+
+
+def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None) -> Any:
+    """What a widget takes of a value that its page sent; ValueError with one sentence for what no page of ours sends.
+
+    `current`: its present value, which has the type of every other. A number is brought between `low` and `high`,
+    which may have changed while it was on its way.
+    """
+    if isinstance(current, bool) or current is None:
+        fits = isinstance(value, bool)
+    elif isinstance(current, str):
+        fits = isinstance(value, str) and len(value) <= LONGEST_TEXT and (not choices or value in choices)
+    elif isinstance(current, (int, float)):
+        fits = is_number(value)
+        if fits and low is not None and high is not None:
+            value = min(max(value, low), high)
+    else:  # Numbers; an upload button's value is a file, which comes in another way.
+        pairs = isinstance(value, (list, tuple)) and isinstance(current, (list, tuple)) and len(value) == len(current)
+        fits = pairs and all(map(is_number, value))
+    if not fits:
+        raise ValueError(f"A field of this page cannot hold {brief(repr(value))[:LONGEST_SHOWN]}: it stays as it was.")
+    return value
+
+
+LONGEST_SHOWN = 60
+"""Characters of a refused value that its sentence repeats."""
+
+
+def _is_accepted(name: str, accepts: str) -> bool:
+    """Whether the ending is one of those listed; types without a dot say nothing about names."""
+    endings = [item.strip().lower() for item in accepts.split(",")]
+    return any(not item.startswith(".") or name.lower().endswith(item) for item in endings)
+
+
+_MOST, _WINDOW = 3, 60.0
+"""Records of one kind, within so many seconds."""
+_KINDS = 200
+"""Kinds that are counted at once."""
+
+
+class RepeatFilter(logging.Filter):
+    """Lets few records of a kind pass within a minute; the next one that passes says how many did not."""
+
+    def __init__(self, most: int = _MOST, window: float = _WINDOW) -> None:
+        super().__init__()
+        self._most, self._window = most, window
+        self._lock = threading.Lock()
+        self._seen: OrderedDict[tuple[str, int, str], tuple[float, int]] = OrderedDict()
+        """Begin of the window and number of records by kind: logger, line of code, type of the error."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether the record passes."""
+        error = record.exc_info[0] if record.exc_info else None
+        kind = (record.name, record.lineno, error.__name__ if error else "")
+        now = time.monotonic()
+        with self._lock:
+            begun, count = self._seen.pop(kind, (now, 0))
+            skipped = 0
+            if now - begun > self._window:
+                skipped, begun, count = max(count - self._most, 0), now, 0
+            self._seen[kind] = (begun, count + 1)
+            if len(self._seen) > _KINDS:
+                self._seen.popitem(last=False)
+        if skipped:
+            record.msg = f"{record.msg} ({skipped} more like this were not written)"
+        return count < self._most
+
+
+def limit_log() -> None:
+    """Limit what this process writes to its log."""
+    handlers = logging.getLogger().handlers or ([logging.lastResort] if logging.lastResort else [])
+    for handler in handlers:
+        if not any(isinstance(known, RepeatFilter) for known in handler.filters):
+            handler.addFilter(RepeatFilter())

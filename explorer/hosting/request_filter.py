@@ -24,7 +24,7 @@ from websockets.http11 import Request, Response
 from websockets.protocol import Event
 
 from explorer import web
-from explorer.hosting.limits import FRAMES, LARGEST_MESSAGE, RateLimiter
+from explorer.hosting.gate import FRAMES, LARGEST_MESSAGE, RateLimiter
 from rotor.compiled import compiling
 from rotor.markup import end_of, start_of, with_title
 

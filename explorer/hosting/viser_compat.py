@@ -37,8 +37,7 @@ from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from explorer.hosting.gate import dropped, message_fault
-from explorer.hosting.limits import accepted_value, refuse_upload
+from explorer.hosting.gate import accepted_value, dropped, message_fault, refuse_upload
 from explorer.hosting.request_filter import LONGEST_HEAD, RequestFilter
 from rotor.arrays import Array
 
@@ -163,7 +162,7 @@ def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
 
 
 def log_failed_callbacks() -> None:
-    """Log callbacks that fail, which viser prints: a log can be limited, see `log_limit`."""
+    """Log callbacks that fail, which viser prints: a log can be limited, see `gate.limit_log`."""
     for module in (_gui_api, _viser):
         setattr(module, "print_threadpool_errors", _log_failure)  # noqa: B010 - not of the module's type
 
@@ -190,7 +189,7 @@ def remove_share_tunnel(server: viser.ViserServer) -> None:
 
 
 def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
-    """Accept only uploads within `limits`; `tell` is called with the sentence when one is refused."""
+    """Accept only what `gate.refuse_upload` lets pass; `tell` is called with the sentence when one is refused."""
     gui, connection = client.gui, client._websock_connection
     begin, more = gui._handle_file_transfer_start, gui._handle_file_transfer_part
     under_way = gui._current_file_upload_states

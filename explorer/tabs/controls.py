@@ -27,8 +27,7 @@ from explorer.model.sliders import limits, slider
 from explorer.model.stand import condition_of
 from explorer.model.undo import Pauses, PowerTracker
 from explorer.model.units import SI, Units
-from explorer.tabs.form import Form
-from explorer.tabs.stand_controls import StandControls
+from explorer.tabs.form import Form, StandControls
 from explorer.text import readout
 from explorer.text.glossary import hint
 from rotor.aero.inflow import INFLOW_MODELS

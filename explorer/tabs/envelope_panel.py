@@ -126,8 +126,8 @@ class EnvelopePanel(BackgroundWork, Tab):
                 self._points = (*self._points, point)
                 further = [speed for speed in SPEEDS if speed > point.mu]
                 self.line = f"Looking for the limits at µ {further[0]:g} …" if further else "Top speed and ceiling …"
-            case JobEnded(Envelope() as found):
-                self._whole, self.line = found, ""
+            case JobEnded(Envelope() as whole):
+                self._whole, self.line = whole, ""
             case _:
                 self._ended_without(news)
         self._draw()

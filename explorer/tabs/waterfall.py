@@ -25,18 +25,14 @@ _THINNEST = 1.6
 
 
 def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup:
-    """Rows from everything off to everything on; as far as the steps are known. Empty without steps."""
+    """Rows from everything off to everything on; "Computing …" without steps."""
     if not steps:
         return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
     top = 1.04 * max((_length(step) for step in steps if step.power is not None), default=1.0)
-    rows: list[Markup] = []
-    for k, step in enumerate(steps):
-        y = 2.0 + k * _ROW
-        last = k == len(SWITCHES)
-        rows.append(_row(step, y, top, units))
-        if last and step.power is not None:
-            rows.append(_whole("All switched on", step, y + _ROW, top, units))
-    height = (len(steps) + (len(steps) > len(SWITCHES))) * _ROW - 8.0
+    rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
+    if steps[-1].power is not None:
+        rows.append(_whole("All switched on", steps[-1], 2.0 + len(steps) * _ROW, top, units))
+    height = (len(steps) + 1) * _ROW - 8.0
     box = f"0 0 {WIDTH} {height:.0f}"
     drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
     key = _key(steps[0], units)

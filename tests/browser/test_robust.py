@@ -16,7 +16,7 @@ from watched import OPEN, WAIT, Watched
 
 from explorer import web
 from explorer.app import App
-from explorer.hosting.limits import ServerLimits
+from explorer.hosting.gate import ServerLimits
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from explorer.app import App
-from explorer.hosting.limits import ServerLimits
+from explorer.hosting.gate import ServerLimits
 from explorer.session import Session
 from explorer.sharing.presentation import PRESENT, follow_name
 from tests.tools.soak.visitor import BRIDGE, Visitor, ran

@@ -78,16 +78,6 @@ def test_one_sided_at_the_edge_of_the_permitted_altitude():
     assert_allclose(found["altitude_m"].slope, (total(inputs) - lower) / 10.0, rtol=1e-3)
 
 
-def test_texts():
-    division = SliderSensitivity("two_division", -26_000.0)
-    assert (division.value_text(), division.unit_text()) == ("−2.6", "kW/0.1 R")
-    assert [SliderSensitivity("two_inner", watts).saving_direction for watts in (300.0, 3.0, -300.0)] == [-1, 0, 1]
-    heavy = SliderSensitivity("mass_t", 90e3)
-    assert heavy.unit_text(AVIATION) == "hp/200 lb"
-    assert_allclose(heavy.watts(AVIATION), 90e3 * slider("mass_t", AVIATION).natural)
-    assert_allclose(slider("mass_t", AVIATION).natural, 0.0907, atol=1e-4)
-
-
 def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     inputs = Inputs(law="builtin")
     solution = solve(inputs.design()).require()

@@ -59,24 +59,10 @@ class TestDrawing:
         drag = next(step for step in found.steps if step.switch and step.switch.name == "fuselage")
         assert ends[-1] - ends[-2] == pytest.approx((drag.added or 0.0) * scale, abs=0.15)
 
-    def test_half_known_is_drawn_as_far_as_it_goes(self, found: Waterfall):
-        assert 'data-steps="3"' in waterfall_chart(found.steps[:3])
-        assert "All switched on" not in waterfall_chart(found.steps[:3])
-        assert "Computing" in waterfall_chart(())
-        assert alone_table(()) == ""
-
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)
         assert "hover is the same at every azimuth" in alone_table(steps.alone)
-
-    def test_a_long_note_ends_at_the_right_edge(self, found: Waterfall):
-        """From the bars on it would leave the drawer, which then scrolls sideways."""
-        short, long = "no drag in hover", "no blade element is in reverse flow at this speed"
-        steps = (found.steps[0], *(replace(found.steps[1], note=note) for note in (short, long)))
-        drawn = waterfall_chart(steps)
-        assert re.search(rf'<text class="rx-w rx-w-note" x="98" [^>]*>{short}', drawn)
-        assert re.search(rf'<text class="rx-w rx-w-note rx-w-number" x="312" [^>]*>{long}', drawn)
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from explorer.hosting import limits as memory
-from explorer.hosting.limits import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
-from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback, warning
+from explorer.hosting import gate as memory
+from explorer.hosting.gate import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
+from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"
@@ -67,11 +67,6 @@ class TestAllowedHosts:
     def test_loopback_addresses_are_known(self):
         assert all(map(is_loopback, ("127.0.0.1", "127.1.2.3", "::1", "localhost")))
         assert not any(map(is_loopback, ("0.0.0.0", "::", "192.168.1.5", "rotor.example", "")))
-
-    def test_the_warning_has_two_lines_and_the_remedy(self):
-        assert warning("0.0.0.0").count("\n") == 1
-        assert "--allow-host" in warning("0.0.0.0")
-        assert "docs/deploy.md" in warning("0.0.0.0")
 
 
 class TestRateLimiter:
@@ -143,7 +138,7 @@ class TestMemory:
 
 _POOLS = """
 import ctypes, sys, threading
-from explorer.hosting.limits import few_pools
+from explorer.hosting.gate import few_pools
 
 if sys.argv[1] == "few":
     few_pools()
@@ -214,7 +209,7 @@ def test_a_thousand_equal_failures_write_three_tracebacks(kept: Kept):
 
 def test_later_the_number_left_out_is_told(kept: Kept, monkeypatch: pytest.MonkeyPatch):
     now = [0.0]
-    monkeypatch.setattr("explorer.hosting.limits.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("explorer.hosting.gate.time.monotonic", lambda: now[0])
     kept.addFilter(RepeatFilter(most=2, window=10.0))
     for now[0] in (0.0, 1.0, 2.0, 3.0, 20.0):
         fail(1)
