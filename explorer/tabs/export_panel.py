@@ -14,6 +14,7 @@ from PIL import Image
 from explorer.charts.plots import PowerCurves
 from explorer.charts.svg import disk_svg
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
+from explorer.export.card import card_png
 from explorer.export.contents import ReportEntry, judged_actuator, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
@@ -105,7 +106,7 @@ class ExportPanel(Tab):
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
         shapes = {"Jig STL": jig_file, "Flown STL": flown_file, "Rotor GLB": _rotor}
         tables = {"Disk": _disk_table, "Blade": _blade_table, "Power": self._power_table}
-        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
+        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture, "To share": self._card}
         gui = context.gui
         with gui.add_folder("Export"):
             for label, makers, name in (
@@ -155,6 +156,15 @@ class ExportPanel(Tab):
         png = io.BytesIO()
         Image.fromarray(pixels).save(png, "PNG")
         return _file(state.solution.design, "png", png.getvalue(), "view", f"{_WIDTH}x{height}")
+
+    def _card(self, state: SessionState) -> File:
+        """Blade, disk, power, change and title in one picture, to be shared with the link."""
+        view, solution = state.view, state.solution
+        pinned = state.pinned if state.pinned is not None and state.pinned.converged else None
+        against, name = (state.baseline, baseline_title(solution.design)) if pinned is None else (pinned, "A")
+        field = FIELDS[view.field]
+        picture = card_png(solution, against, name, field, self._scene.held_range(field), UNITS[view.units])
+        return _file(solution.design, "png", picture, "card")
 
     def _scene_page(self, state: SessionState) -> File:
         """The rotor in trim as one HTML page to be turned with the mouse, without a server."""

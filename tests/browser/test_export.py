@@ -110,6 +110,11 @@ def test_the_view_is_a_picture_of_the_scene(watched: Watched, tmp_path: Path):
         assert picture.width / picture.height == pytest.approx(size["width"] / size["height"], rel=0.02)
 
 
+def test_a_picture_to_share_has_the_size_of_link_cards(watched: Watched, tmp_path: Path):
+    with Image.open(saved(watched, "To share", tmp_path)) as picture:
+        assert picture.size == (1200, 630)
+
+
 def asks_nobody(text: str) -> bool:
     """Whether the policy that forbids requests stands before the first script."""
     return 0 < text.find("default-src 'none'") < text.index("<script")

@@ -1,0 +1,96 @@
+"""One picture of a design to be shared, of the size that pages show beside a link: blade, disk, two numbers, title."""
+
+import io
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from explorer.colours import colour_map
+from explorer.model.units import Units
+from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.fields import Field
+from explorer.picture.picture import disk_png
+from explorer.picture.polar import ALL_MARKS
+from explorer.text.design_words import flight_words, title_words
+from explorer.text.readout import fineness
+from rotor import Solution
+from rotor.arrays import Array
+from rotor.chart import bar_ticks
+from rotor.design import TwistLaw
+
+SIZE = 1200, 630
+_TIMES = 4.0
+"""Times its twist relative to that at 0.75 R that the blade is drawn with."""
+_WIDER = 2.0
+"""Times its chord that it is drawn with, so that the twist is seen."""
+_FINER = 2
+"""Pixels drawn for one that is kept, each way."""
+_INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
+_BLADE, _GOOD, _BAD = (220, 63, 38), (6, 112, 79), (188, 64, 11)
+
+
+def card_png(
+    solution: Solution, against: Solution, name: str, field: Field, colour_range: tuple[float, float], units: Units
+) -> bytes:
+    """The picture as a PNG. `against`: the design compared with, its name `name`; its blade is drawn grey."""
+    picture = Image.new("RGB", (_FINER * SIZE[0], _FINER * SIZE[1]), "white")
+    draw = ImageDraw.Draw(picture)
+
+    def write(x: float, y: float, words: str, height: float, ink: tuple[int, int, int] = _INK, anchor: str = "ls"):
+        font = ImageFont.truetype(_font(), _FINER * height)
+        draw.text((_FINER * x, _FINER * y), words, ink, font, anchor=anchor)
+
+    design = solution.design
+    write(48, 78, title_words(design), 34)
+    write(48, 116, flight_words(design, units), 22, _DIM)
+    power, other = solution.power.total, against.power.total
+    write(48, 226, units.watts(power, fineness(solution.power)), 84)
+    change = 100.0 * (power / other - 1.0)
+    ink = _DIM if abs(change) < 0.05 else _GOOD if change < 0.0 else _BAD
+    write(48, 300, f"{change:+.1f} %".replace("-", "−"), 52, ink)
+    write(48, 334, f"power against {name}", 22, _DIM)
+    png = disk_png(solution, field, colour_range, size=_FINER * 400, marks=ALL_MARKS)
+    disk = Image.open(io.BytesIO(png)).convert("RGBA")
+    picture.paste(disk, (_FINER * 770, _FINER * 20), disk)
+    write(970, 436, "tail", 16, _DIM, "ms")
+    bar = Image.fromarray(np.repeat(colour_map(field.colours, 256)[None, :, :3], 1, axis=0))
+    picture.paste(bar.resize((_FINER * 300, _FINER * 12)), (_FINER * 820, _FINER * 470))
+    for percent, words in bar_ticks(*colour_range):
+        write(820 + 3.0 * float(percent), 500, words, 16, _DIM, "ms")
+    write(970, 462, field.label, 18, _INK, "ms")
+    for law, grey in ((against.design.twist, True), (design.twist, False)):
+        _draw_blade(draw, solution, law, grey)
+    write(48, 606, f"Twist × {_TIMES:g}, chord × {_WIDER:g}; grey: {name}", 16, _DIM)
+    out = io.BytesIO()
+    picture.resize(SIZE, Image.Resampling.LANCZOS).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+@cache
+def _font() -> str:
+    """A font with µ, × and the narrow spaces of numbers: matplotlib brings it; it is not imported for that."""
+    found = find_spec("matplotlib")
+    assert found is not None
+    assert found.origin is not None
+    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
+
+
+def _draw_blade(draw: ImageDraw.ImageDraw, solution: Solution, law: TwistLaw, grey: bool) -> None:
+    """One blade as seen from above its tip path, ahead of the leading edge; the faces behind first."""
+    shape = blade_shape(solution.design.rotor)
+    points = blade_vertices(shape, law, _TIMES)
+    x, y, z = points.T
+    scale = _FINER * 660.0 / (x.max() - x.min())
+    flat = np.stack(
+        (_FINER * 60.0 + scale * (x - x.min()), _FINER * 470.0 - _WIDER * scale * (0.9 * z - 0.45 * y)), axis=1
+    )
+    faces: Array = points[shape.faces]
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    light = np.abs(normals @ (0.2, 0.4, 0.9)) / np.where(lengths > 0.0, lengths, 1.0)
+    for k in np.argsort(faces[:, :, 2].mean(axis=1) * 0.45 + faces[:, :, 1].mean(axis=1) * 0.9):
+        shade = tuple(int((0.55 + 0.45 * light[k]) * part) for part in (_GHOST if grey else _BLADE))
+        draw.polygon([tuple(corner) for corner in flat[shape.faces[k]]], fill=shade)

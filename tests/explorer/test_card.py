@@ -1,0 +1,35 @@
+"""The picture to be shared: its size, and that it shows the design."""
+
+import io
+
+import numpy as np
+from PIL import Image
+
+from explorer.export.card import SIZE, card_png
+from explorer.model.units import SI
+from explorer.picture.fields import FIELDS
+from rotor import Solution, make_design, solve
+
+FIELD = FIELDS["Angle of attack"]
+
+
+def card(solution: Solution, against: Solution) -> Image.Image:
+    return Image.open(io.BytesIO(card_png(solution, against, "as built", FIELD, (-4.0, 14.0), SI)))
+
+
+def test_shows_disk_blade_and_change():
+    built, washed = solve(make_design(mu=0.3)), solve(make_design(mu=0.3, twist="linear:-14"))
+    picture, same = card(washed, built), card(built, built)
+    assert picture.size == SIZE == (1200, 630)
+    pixels, without = (np.asarray(one.convert("RGB")).astype(int) for one in (picture, same))
+    # The change is green where power falls, and grey where there is none.
+    change, none = (one[255:305, 40:300] for one in (pixels, without))
+    assert (change[..., 1] - change[..., 0] > 60).any()
+    assert not (none[..., 1] - none[..., 0] > 60).any()
+    # A blade across the lower left, and the colours of the disk right of it.
+    red = pixels[400:560, 48:740, 0] - pixels[400:560, 48:740, 2] > 80
+    assert np.ptp(np.nonzero(red.any(axis=0))[0]) > 600
+    assert len(np.unique(pixels[100:400, 790:1150].reshape(-1, 3), axis=0)) > 200
+    # Nothing touches the edges.
+    assert (pixels[[0, -1]] == 255).all()
+    assert (pixels[:, [0, -1]] == 255).all()
