@@ -307,12 +307,12 @@ def _flutter(solution: Solution | None) -> list[Limit]:
     """Margins of the blade with its actuator in flight, with the air's mean slopes around the azimuth."""
     if solution is None or solution.elastic is None:
         return []
-    found = margins(solution)
+    margin = margins(solution)
     bound = float(structure_data()["limits"]["flutter_stiffness"])
     return [
         Limit(
-            "flutter", found.instability_stiffness <= bound, 100.0 * found.instability_stiffness, 100.0 * bound,
-            "% of stiffness", found.sentence,
+            "flutter", margin.instability_stiffness <= bound, 100.0 * margin.instability_stiffness, 100.0 * bound,
+            "% of stiffness", margin.sentence,
         ),
     ]  # fmt: skip
 
@@ -340,8 +340,8 @@ class ActuatorStability:
         """Frequency and damping of each mode, side by side, and the margins."""
         lines = [f"{'mode':<11}" + "".join(f"{name:>22}" for name in self.cases)]
         for mode in self.without.modes:
-            beside = (case.mode(mode.name) for case in self.cases.values())
-            cells = (f"{own.frequency:11.3f}/rev{100.0 * own.damping_ratio:6.1f}%" for own in beside)
+            beside = [case.mode(mode.name) for case in self.cases.values()]
+            cells = (f"{mode.frequency:11.3f}/rev{100.0 * mode.damping_ratio:6.1f}%" for mode in beside)
             lines.append(f"{mode.name:<11}" + "".join(cells))
         lines += [f"{name}: {case.margins.sentence}" for name, case in self.cases.items() if case.margins is not None]
         return "\n".join(lines)
@@ -351,10 +351,9 @@ def actuator_stability(
     installed: InstalledActuator, design: Design, *, air: Air = "quasi-steady", offset: float = 0.0
 ) -> ActuatorStability:  # fmt: skip
     """The blade of a design without the actuator and with it. Errors and arguments as of `rotor.stability`."""
-    cases = [installed]
+    fits = [installed]
     if installed.masses.balance > 0.0:
-        cases.append(without_nose_weight(installed))
-    without, fitted, *rest = (
-        stability(one, air=air, offset=offset) for one in (design, *(with_actuator_mass(design, c) for c in cases))
-    )
+        fits.append(without_nose_weight(installed))
+    blades = (design, *(with_actuator_mass(design, fit) for fit in fits))
+    without, fitted, *rest = (stability(blade, air=air, offset=offset) for blade in blades)
     return ActuatorStability(without, fitted, rest[0] if rest else None)
