@@ -14,7 +14,7 @@ blade for each pair of shapes, one around the azimuth, and two numbers for each 
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -196,14 +196,27 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     _add_along_blade(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, channels)
     for channel, added in grid.varying.items():
         channels[channel] += added
-    nodes = system.nodes
-    if nodes is not None:
-        channels[nodes.channel] += nodes.field(y).reshape(channels.shape[1:])
+    if system.nodes is not None:
+        channels[system.nodes.channel] += system.nodes.field(y).reshape(channels.shape[1:])
+    return _with_forces(system, grid, x, z, by_roots, phi, channels, slopes, flow)
+
+
+def with_data(point: Point, data: Any) -> Point:
+    """R(x) with other data of the section: the channels stay, and the slopes of the shapes."""
+    grid = replace(point.grid, data=data)
+    return _with_forces(point.system, grid, point.x, point.z, point.by_roots, point.phi, point.channels)
+
+
+def _with_forces(
+    system: System, grid: Grid, x: Array, z: Array, by_roots: Array, phi: Array, channels: Array,
+    slopes: bool = False, flow: bool = False,
+) -> Point:  # fmt: skip
+    structure, nodes = system.structure, system.nodes
     forces, balanced, s = system.section(channels, grid.data, slopes, flow)
     q = np.concatenate([[1.0], _means(system, grid, forces)])
     residual = structure.residual.value(z, q)
     if nodes is not None:
-        missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
+        missing = x[structure.given :].reshape(channels.shape[1:]) - forces[nodes.force]
         residual = np.concatenate([residual, missing.ravel()])
     return Point(system, grid, x, z, by_roots, phi, channels, forces, balanced, s, q, residual)
 

@@ -26,7 +26,7 @@ from rotor.columns.hover import hover_system
 from rotor.design.blade import BladeStructure
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
-from rotor.engine.linearise import evaluate
+from rotor.engine.linearise import Point, evaluate, with_data
 from rotor.trim.adjoint import adjoint_of
 from rotor.trim.forward import SLOWEST
 from rotor.trim.power import outside_power, tail_power
@@ -278,10 +278,16 @@ class _Near:
     def change(self, problem: Problem) -> float:
         """Total power of a problem less that of the trim [W], to first order."""
         point = self._point
+        if problem.scatter is not self.problem.scatter and not problem.design.hovering:
+            there = with_data(point, problem.grid_data(1))  # Only the section's own data are other.
+            return self._difference(problem, there)
         system = (hover_system if problem.design.hovering else flight_system)(problem)
         x = point.x.copy()
         x[: len(system.numbers)] = system.numbers
-        there = evaluate(system, system.grid, x)
+        return self._difference(problem, evaluate(system, system.grid, x))
+
+    def _difference(self, problem: Problem, there: Point) -> float:
+        point = self._point
         missing = float(self._multipliers @ (there.residual - point.residual)) * problem.design.power_unit
         return (self._main(problem, there.z, there.q) - self._start - missing) * self._gain
 
