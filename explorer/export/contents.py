@@ -27,9 +27,9 @@ from rotor.actuator import (
     fly,
     phase_sweep,
     try_actuator,
+    with_actuator_mass,
 )
 from rotor.actuator.harmonic import PhaseSweep
-from rotor.actuator.installation import with_actuator_mass
 from rotor.study.envelope import Reach, reach
 from rotor.trim import HubLoads, why_no_hub_loads
 
