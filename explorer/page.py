@@ -199,7 +199,9 @@ class Page:
         """
         ghost = ghost_of(reading.sliders if reading.previewed else None, self.pin)
         self.camera.resize(solution.design.rotor.radius)
-        self.scene.draw(solution, reading.view, ghost, pinned)
+        self._views.before = self._curve.before
+        if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
+            self.scene.draw(solution, reading.view, ghost, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
@@ -349,7 +351,7 @@ class Page:
         if held:
             self.context.tracker.grab()
             if (state := self.context.state()) is not None:
-                self._curve.learn(state.inputs, self.results.sliders.slopes)
+                self._curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
         else:
             self.context.tracker.release()
             self.context.bridge.set(hand=None)
@@ -357,10 +359,13 @@ class Page:
         self._wake()
 
     def _show_hand(self, state: SessionState) -> None:
-        """Power and its change beside the pointer, while the blade or its twist curve is held."""
-        curve, hand = self._curve, self.results.card.hand(self.context.units)
-        curve.learn(state.inputs, self.results.sliders.slopes)
+        """Power and its least beside the blade, while a station of it is held."""
+        curve, units = self._curve, self.context.units
+        hand = self.results.card.hand(units)
+        curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
         place, best = curve.place, curve.best
+        if best is not None:
+            best = {**best, "power": round(units.power[0].of(best["power"]), 2)}
         self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
 
     def _theme(self) -> None:

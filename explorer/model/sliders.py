@@ -334,33 +334,48 @@ class Grab:
 class BestTurn:
     """The turn of least power of one station, foreseen from the exact slope of power at the turns seen so far."""
 
-    seen: tuple[tuple[float, float], ...] = ()
-    """Turn [°] and slope of power by it, the latest last."""
+    seen: tuple[tuple[float, float, float], ...] = ()
+    """Turn [°], power [W] and its slope [W/°] there, the latest last."""
 
-    def with_slope(self, turn: float, slope: float) -> "BestTurn":
+    def with_turn(self, turn: float, power: float, slope: float) -> "BestTurn":
         """This search with one more turn seen."""
         others = tuple(point for point in self.seen if abs(point[0] - turn) > 1e-6)
-        return BestTurn((*others, (turn, slope))[-40:])
+        return BestTurn((*others, (turn, power, slope))[-40:])
 
     @property
     def turn(self) -> float | None:
         """[°]; None while it is not known, or no minimum is near."""
+        found = self._found
+        return None if found is None else found[0]
+
+    @property
+    def power(self) -> float | None:
+        """Least power [W] by turning this station; None while it is not known."""
+        found = self._found
+        return None if found is None else found[1]
+
+    @property
+    def _found(self) -> tuple[float, float] | None:
+        """Turn and power where the slope, straight between two turns seen, is zero."""
         if len(self.seen) < 2:
             return None
         now = self.seen[-1][0]
-        below = [point for point in self.seen if point[1] < 0.0]
-        above = [point for point in self.seen if point[1] >= 0.0]
+        below = [point for point in self.seen if point[2] < 0.0]
+        above = [point for point in self.seen if point[2] >= 0.0]
         if below and above:
             # Between the two closest turns on either side of the minimum.
             pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
         else:
-            near = sorted(self.seen, key=lambda point: abs(point[1]))
+            near = sorted(self.seen, key=lambda point: abs(point[2]))
             pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > 0.15), near[1])
-        (t1, s1), (t2, s2) = pair
+        (t1, p1, s1), (t2, p2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.
         best = t1 - s1 * (t2 - t1) / (s2 - s1)
-        return best if abs(best - now) < _FARTHEST else None
+        if abs(best - now) >= _FARTHEST:
+            return None
+        t, p, s = min((t1, p1, s1), (t2, p2, s2), key=lambda point: abs(point[0] - best))
+        return best, p + 0.5 * s * (best - t)
 
 
 def begin(inputs: Inputs, r: float) -> Grab | None:

@@ -51,6 +51,8 @@ class History:
     """What the present step has moved."""
     _held: bool = False
     """Whether something is held: all that moves until it is let go is one step."""
+    _undone: list[Inputs] = field(default_factory=list)
+    """What could be redone before the present step."""
 
     def hold(self) -> None:
         """Something was taken by the hand: what moves from now on is a step of its own."""
@@ -66,9 +68,12 @@ class History:
         if not moved:
             return False
         dragging = bool(self._moving) if self._held else moved <= self._moving and pause < PAUSE
+        if dragging and self.past and self.past[-1] == inputs:  # Back where the step began: it is none.
+            self.present, self.future, self._moving = self.past.pop(), self._undone, frozenset()
+            return False
         if not dragging:
             self.past = [*self.past, self.present][-STEPS:]
-            self._moving = moved
+            self._moving, self._undone = moved, self.future
         self.present, self.future = inputs, []
         return not dragging
 

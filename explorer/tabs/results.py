@@ -151,15 +151,19 @@ class PowerCard:
         problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
         self._bridge.set(power={**self._content, "problem": problem, "status": status})
 
-    def hand(self, units: Units) -> dict[str, str] | None:
-        """Power and its change for the tag beside the pointer; None before the first solution."""
-        last, change = self._last, self._tracker.change
+    def hand(self, units: Units) -> dict[str, Any] | None:
+        """Power, its change and that before the grab, for the scale beside the blade; None before the first solution."""
+        last, change = self._last, self._tracker.change or 0.0
         if last is None:
             return None
+        unit, digits = units.power[0], fineness(last.power)
         return {
-            "power": units.watts(last.power.total, fineness(last.power)),
-            "change": units.power[0].text(change or 0.0, fineness(last.power), sign=True),
-            "kind": _kind(change or 0.0, last.power.total),
+            "power": units.watts(last.power.total, digits),
+            "change": unit.text(change, digits, sign=True),
+            "kind": _kind(change, last.power.total),
+            "now": round(unit.of(last.power.total), 2),
+            "before": round(unit.of(last.power.total - change), 2),
+            "digits": digits,
         }
 
     def _change(self, state: SessionState, units: Units) -> dict[str, Any]:

@@ -36,6 +36,10 @@ class TwistCurveEditor:
         self._context, self._changed = context, changed
         self._grab: Grab | None = None
         """While a station is held."""
+        self._before: tuple[Inputs, Solution | None] | None = None
+        """The inputs and their answer when it was taken."""
+        self._shown = False
+        """Whether the page shows the held blade from the tip, beside the disk."""
         self._best = BestTurn()
         self._place = ""
         self._range: tuple[float, float] | None = None
@@ -51,13 +55,22 @@ class TwistCurveEditor:
         """The station that is held, in words; empty while none is."""
         return self._place if self._grab is not None else ""
 
+    @property
+    def before(self) -> Solution | None:
+        """The answer when the station was taken; None while the page does not show the blade from the tip."""
+        return self._before[1] if self._shown and self._before is not None else None
+
     def grab(self, r: float, by_key: bool = False) -> None:
         """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
         grab = None if self._context.held else begin(self._context.inputs(), r)
         if grab is None:
             return
         self._begin(grab)
-        self._presses += 1
+        self._show_blade(grab, "key" if by_key else "hand")
+
+    def _show_blade(self, grab: Grab, by: str) -> None:
+        """`by`: a "hand" on the blade, a "key", or a handle of the "curve"."""
+        self._presses, self._shown = self._presses + 1, True
         places = stations(grab.inputs)
         before, response = self._response(grab)
         ends = sorted(
@@ -67,30 +80,35 @@ class TwistCurveEditor:
             rubber={
                 "press": self._presses,
                 "knot": str(grab.station.index),
-                "by_key": by_key,
+                "by": by,
                 "stations": [place.r for place in places],
                 "titles": [place.title for place in places],
                 "ends": ends,
             }
         )
 
-    def learn(self, inputs: Inputs, by_input: Mapping[str, float]) -> None:
-        """Power [W] of these inputs changes by so much for a unit of each: tells where the station is best."""
+    def learn(self, inputs: Inputs, power: float, by_input: Mapping[str, float]) -> None:
+        """Power [W] of these inputs, and its change with a unit of each: tells where the station is best."""
         if self._grab is None:
             return
         turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
         if turn is not None and slope is not None:
-            self._best = self._best.with_slope(turn, slope)
+            self._best = self._best.with_turn(turn, power, slope)
 
     @property
     def best(self) -> dict[str, Any] | None:
-        """Twist [°] of least power of the held station, and whether it is held there; None while it is not known."""
+        """Twist [°] of least power of the held station, that power [W], and whether it is held there; None while it is
+        not known, or lies past the end of a slider."""
         grab, turn = self._grab, self._best.turn
         if grab is None or turn is None:
             return None
+        (lowest, _), (highest, _) = turn_ends(grab.inputs, grab.station)
+        if not lowest <= turn <= highest:
+            return None
         now = grab.turn_to(self._context.inputs())
         before, response = self._response(grab)
-        return {"theta": round(before + turn * response, 2), "held": now is not None and abs(now - turn) < _AT}
+        held = now is not None and abs(now - turn) < _AT
+        return {"theta": round(before + turn * response, 2), "power": self._best.power, "held": held}
 
     def _act(self, value: list[Any]) -> None:
         name, change = value
@@ -99,16 +117,20 @@ class TwistCurveEditor:
             station = next((station for station in stations(start) if str(station.index) == name), None)
             if station is not None and not self._context.held:
                 self._begin(Grab(start, station))
-        elif change == "end":
+        elif change in ("end", "undo"):
             if self._grab is not None:
-                self._grab, self._place = None, ""
+                if change == "undo" and self._before is not None:
+                    self._context.drag_to(self._before[0])
+                self._grab, self._place, self._shown = None, "", False
                 self._context.bridge.set(rubber=None)
                 self._changed(False)
         elif not self._context.held:
             self._move(name, change)
 
     def _begin(self, grab: Grab) -> None:
+        state = self._context.state()
         self._grab, self._best, self._place = grab, BestTurn(), place_of(grab.inputs, grab.station)
+        self._before = self._context.inputs(), None if state is None else state.solution
         self._changed(True)
 
     def _move(self, name: str, place: list[float | None]) -> None:
@@ -118,6 +140,8 @@ class TwistCurveEditor:
         if station is None:
             return
         grab, (r, theta) = Grab(start, station), place
+        if self._grab is not None and not self._shown:
+            self._show_blade(self._grab, "curve")
         before, response = self._response(grab)
         turn = 0.0 if theta is None else (theta - before) / response
         moved = grab.turned(turn, self._best.turn if r is None and self._grab is not None else None)

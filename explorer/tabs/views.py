@@ -168,6 +168,8 @@ class SceneViews:
         """What the page's plan of the disk shows at rest."""
         self._instead = False
         """Whether something else than the rotor stands in the stage."""
+        self.before: Solution | None = None
+        """The answer when the blade was taken into the hand, while it is seen from the tip with the plan beside it."""
         self.leave_landscape: Callable[[], None] = lambda: None
         """Called when a view of the rotor is asked for."""
         context.bridge.on("view", self.look)
@@ -224,19 +226,24 @@ class SceneViews:
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
         self._show()  # Another rotor may carry an actuator, or not.
-        other = self._instead or self._actuator.lifted
+        before, other = self.before, self._instead or self._actuator.lifted or self.before is not None
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
-        if self._view != "disk" or other or ((view.beside or view.wipe) and pinned is not None):
+        if before is not None:
+            view = replace(view, stall=True, reverse_flow=True)
+        elif self._view != "disk" or other or ((view.beside or view.wipe) and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
         colour_range = self._scene.held_range(field)
-        wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned
+        wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned, before
         if not at_rest and self._planned == wanted:
             return  # It stands there already, finer.
         self._planned = wanted if at_rest else None
         pixels = _PLAN_PIXELS if at_rest else disk_image.MOVING
-        self._context.bridge.set(plan=plan(solution, view, field, colour_range, pixels, at_rest, pinned))
+        compared = pinned or before
+        content = plan(solution, view, field, colour_range, pixels, at_rest, None if compared is solution else compared)
+        held = None if before is None else "before" if pinned is None else "A"
+        self._context.bridge.set(plan={**content, "held": held})
 
     def _hide_plan(self) -> None:
         self._planned = None

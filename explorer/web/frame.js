@@ -234,22 +234,6 @@
     place.hidden = !words;
     if (words) place.innerHTML = icon('hand') + `<span data-explorer="prompt">${RX.text(words.text)}</span>`;
   });
-  // The power at the hand, while something is dragged in the scene.
-  const tag = part('tag');
-  let x = 0, y = 0;
-  const follow = () => {
-    const rubber = page.hasAttribute('data-rubber'), away = rubber && x > tag.offsetWidth + 150;  // Clear of the trailing edge and its arc.
-    tag.style.transform = `translate(${away ? x - tag.offsetWidth - 140 : Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - (away ? 24 : rubber ? -60 : 66), 4)}px)`;
-  };
-  addEventListener('pointermove', event => { x = event.clientX; y = event.clientY; if (tag.hasAttribute('data-on')) follow(); }, true);
-  RX.follow = (left, top) => { x = left; y = top; follow(); };
-  RX.paint('hand', hand => {
-    tag.toggleAttribute('data-on', Boolean(hand));
-    if (!hand) return;
-    tag.innerHTML = `<b class="rxf-num">${RX.text(hand.power)}</b><em class="rxf-num ${hand.kind ? `rxf-${hand.kind}` : ''}">${RX.text(hand.change)}</em><p class="rxf-num">${RX.text(hand.place)}</p>`;
-    follow();
-  });
-
   // Which fractions of the canvas cards cover along its width, so that the camera shows its subject between them. The
   // card of power grows with its sentence: it counts with its usual height, or the scene would move with every change.
   let telling = 0;

@@ -33,13 +33,13 @@
   // The largest circle beside the cards, or on a stage that is higher than wide between them; there the key of the
   // regions has their shares, which labels beside the circle have else.
   function arrange() {
-    const width = place.clientWidth, height = place.clientHeight, wide = width > 700 && width >= height;
-    page.dataset.plan = wide ? 'beside' : 'stacked';
+    const {held} = RX.state.plan, width = place.clientWidth, height = place.clientHeight, wide = !held && width > 700 && width >= height;
+    if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
-    const left = wide ? 288 : 8, right = wide ? LABEL.width + 26 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM, bottom = wide ? ROOM : height - low + ROOM;
+    const left = wide ? 288 : held ? 34 : 8, right = wide ? LABEL.width + 26 : held ? 34 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM + (held ? 20 : 0), bottom = wide ? ROOM : held ? 104 : height - low + ROOM;
     const radius = Math.max(60, Math.min((height - top - bottom) / 2, (width - left - right) / 2));
     const chart = around.firstElementChild;
-    return {chart: {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
+    return {chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
   }
 
   function rim() {
@@ -56,6 +56,13 @@
     words.push(`<path d="M${ax} ${ay}A${1.055 * radius} ${1.055 * radius} 0 0 0 ${bx} ${by}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/><polygon points="${head.join(' ')}" fill="var(--rx-dim)"/>`);
     return `<circle cx="${x}" cy="${y}" r="${radius}" fill="none" stroke="var(--rx-ink)"/><circle cx="${x}" cy="${y}" r="${radius * RX.state.plan.root}" fill="var(--rx-paper)" stroke="var(--rx-faint)"/>
       <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${words.join('')}`;
+  }
+
+  // Beside the blade in the hand: what the colours are, what the dashes, and the shares of the regions.
+  function key(regions) {
+    const {field, unit, held} = RX.state.plan, {y, radius, width} = layout, high = y - radius - 38;
+    return `<text x="20" y="${high}">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text><path d="M${width - 92} ${high - 4}h22" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/><text x="${width - 64}" y="${high}">${held}</text>`
+      + regions.map((one, k) => `<text x="20" y="${y + radius + 46 + 18 * k}"><tspan style="fill:${COLOURS[one.name]};font-weight:640">${text(one.title)}</tspan><tspan dx="7">${text(one.words)}</tspan></text>`).join('');
   }
 
   // Each label on the nearer side, as high as its region, none over another; what has no room left goes right.
@@ -97,12 +104,14 @@
   }
 
   RX.paint('plan', now => {
+    if (!now && page.hasAttribute('data-rubber')) return;  // It leaves with the blade.
     if (!now) delete page.dataset.plan;
-    const key = now && now.regions.map(one => one.words).join();
-    if (key !== told) { told = key; RX.again('field'); }  // Its key is that of the plan.
-    place.hidden = around.hidden = !now;
+    const told_now = now && now.regions.map(one => one.words).join();
+    if (told_now !== told) { told = told_now; RX.again('field'); }  // Its key is that of the plan.
+    place.hidden = !now;
+    around.hidden = !now || Boolean(now.held);
     if (!now) { pointer = null; pins = []; around.innerHTML = ''; return; }
-    if (!around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
+    if (!now.held && !around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
     if (now.values) {
       tables = Object.fromEntries(Object.entries(now.values).map(([name, one]) => [name, unpack(one)]));
       tables.before = now.alpha_a ? unpack(now.alpha_a) : undefined;
@@ -114,7 +123,7 @@
     const before = now.regions.flatMap(one => one.before).map(line => `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`).join('');
     const outlines = shown.flatMap(one => one.lines.map(line => `<path d="${path(line)}" stroke="var(--rx-paper)" stroke-width="4" opacity=".75"/><path d="${path(line)}" stroke="${COLOURS[one.name]}" stroke-width="2" ${DASHES[one.name] ? `stroke-dasharray="${DASHES[one.name]}"` : ''}/>`)).join('');
     place.querySelector('svg').innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}" href="data:image/png;base64,${now.picture}"/>
-      ${rim()}<g data-blades></g>${before}<g fill="none" stroke-linejoin="round">${outlines}${named.lines}</g><g data-tied></g><g data-cursor></g>`;
+      ${rim()}${now.held ? key(shown) : ''}<g data-blades></g>${before}<g fill="none" stroke-linejoin="round">${outlines}${named.lines}</g><g data-tied></g><g data-cursor></g>`;
     place.querySelector('svg').setAttribute('viewBox', `0 0 ${width} ${height}`);
     place.querySelector('[data-labels]').innerHTML = named.boxes.map(({one, left, top}) => `<div class="rxf-card rxf-region" data-region="${one.name}" style="--c:${COLOURS[one.name]};left:${left}px;top:${top}px"><b>${text(one.title)}</b><span class="rxf-num">${text(one.words)}</span></div>`).join('');
     turn();
@@ -182,7 +191,7 @@
     const here = place.querySelector('[data-cursor]'), reading = place.querySelector('[data-reading]');
     if (!here) return;
     const dots = pins.map(pin => { const [x, y] = xy(pin.r, pin.psi); return `<circle cx="${x}" cy="${y}" r="4.5" fill="var(--rx-accent)" stroke="#fff" stroke-width="2"/>`; }).join('');
-    const ring = `<circle cx="${layout.x}" cy="${layout.y}" r="${circle * layout.radius}" fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"/>`;
+    const ring = RX.state.plan.held ? '' : `<circle cx="${layout.x}" cy="${layout.y}" r="${circle * layout.radius}" fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"/>`;
     const point = pointer ? (() => { const [x, y] = xy(pointer.r, pointer.psi); return `<circle cx="${x}" cy="${y}" r="5" fill="none" stroke="#fff" stroke-width="2"/><circle cx="${x}" cy="${y}" r="6.5" fill="none" stroke="#000" stroke-opacity=".5"/>`; })() : '';
     here.innerHTML = ring + dots + point;
     // Where a pin is, its card says the same.
@@ -199,7 +208,7 @@
 
   // α around the circle, with the stall angles there.
   function drawAround() {
-    if (!tables.alpha || !around.childElementCount) return;
+    if (!tables.alpha || !layout.chart) return;
     const chart = around.firstElementChild, {width, height} = layout.chart, x = Array.from({length: 121}, (_, k) => 3 * k);
     const at360 = table => x.map(psi => reversed(circle, psi) ? null : at(table, circle, psi));
     const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), line = (y, colour, thick, dashes) => ({kind: 'line', x, y, colour, width: thick, dashes});

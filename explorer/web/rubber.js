@@ -1,8 +1,8 @@
-// The blade twisted by hand: while a station is held the blade is seen from the tip, and the trailing edge that was
-// pressed stays under the pointer. Jig twist, drawn four times; the server moves the sliders and answers with power.
+// The blade twisted by hand: while a station is held half the stage is the blade from the tip, the other half the live
+// plan of the disk (plan.js), with a scale of power above. Jig twist, drawn four times; the server moves the sliders.
 (() => {
-  const {text, part} = RX, place = part('rubber'), page = document.documentElement, DEGREE = Math.PI / 180;
-  const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75;
+  const {text, part} = RX, place = part('rubber'), disk = part('plan'), page = document.documentElement, DEGREE = Math.PI / 180;
+  const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75, SCALE = 74;
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const lerp = (a, b, t) => a + (b - a) * t, ease = t => t * t * (3 - 2 * t), clamp = (v, low, high) => Math.min(Math.max(v, low), Math.max(low, high));
   const signed = v => Charts.signed(v) + '°';
@@ -12,7 +12,7 @@
     addEventListener(name, event => {
       if (!event.isPrimary) return;
       pointer = {x: event.clientX, y: event.clientY, down: down ?? pointer.down};
-      if (!held || held.by_key) return;
+      if (held?.by !== 'hand') return;
       if (name === 'pointermove') turn();
       else if (down === false) release();
     }, true);
@@ -30,20 +30,20 @@
     const next = stations[r < own ? at - 1 : at + 1];
     return next === undefined ? 0 : Math.max(0, 1 - Math.abs(r - own) / Math.abs(next - own));
   };
-  const theta = r => twist(line('this'), r) + (held.wanted - twist(line('this'), held.r)) * hat(r);
+  const theta = r => twist(line('this'), r) + (held.by === 'curve' ? 0 : (held.wanted - twist(line('this'), held.r)) * hat(r));
 
-  // Where sections stand once the blade is seen from the tip: the pressed trailing edge under the pointer, where the
-  // stage has room for the rest.
+  // The disk on the left as far as its circle needs room, above on a narrow stage; the blade has the rest. Numbers stand
+  // on its right where there is room, words of the arc on its left.
   function arrange() {
-    const stage = place.getBoundingClientRect(), width = stage.width, height = stage.height, wide = width > 640, share = held.share, angle = TIMES * held.start * DEGREE;
-    const px = held.by_key ? .3 * width : pointer.x - stage.left, py = held.by_key ? .62 * height : pointer.y - stage.top;
-    // Numbers stand where the blade leaves room.
-    const left = wide && px > .5 * width, most = Math.min(wide ? 560 : 420, .85 * height), room = width - px - (wide && !left ? 210 : 16);
-    const chord = clamp(room / ((.58 + .42 * share) * TRAIL + .25), 220, most), size = t => chord * (.58 + .42 * t);
-    const x = Math.min(px + TRAIL * size(share) * Math.cos(angle), width - .25 * chord - 12), y = clamp(py - TRAIL * size(share) * Math.sin(angle), wide ? 160 : 120, height - 60);
-    const up = Math.max(60, Math.min(.4 * height, (y - (wide ? 150 : 110)) / Math.max(share, .05), (height - 70 - y) / Math.max(1 - share, .05)));
-    const away = [-.08 * chord, -up], tip = [x - (1 - share) * away[0], y - (1 - share) * away[1]];
-    return {width, height, wide, left, size, stage, at: t => [tip[0] + (1 - t) * away[0], tip[1] + (1 - t) * away[1]], ...scene(stage)};
+    const stage = place.getBoundingClientRect(), {width, height} = stage, wide = width > 640;
+    const top = (document.querySelector('.rxf-power').getClientRects()[0]?.bottom ?? stage.top) - stage.top + 10;
+    const split = wide ? clamp(height - top - 60, .36 * width, .5 * width) : top + .5 * (height - top);
+    const box = wide ? {x: split, y: top, w: width - split, h: height - top - 46} : {x: 0, y: split, w: width, h: height - split - 40};
+    const numbers = box.w > 430 ? 172 : 0, room = box.w - numbers - 118, high = box.h - SCALE;
+    const chord = clamp(room / (TRAIL + .32), 90, Math.max(90, .62 * high)), x = box.x + box.w - numbers - .3 * chord - 14 - Math.max(0, .35 * (room - 1.07 * chord));
+    const at = t => [x - .08 * chord * (1 - t), box.y + SCALE + (.2 + .52 * t) * high];
+    disk.style.inset = wide ? `0 ${width - split}px 0 0` : `0 0 ${height - split}px 0`;
+    return {width, height, wide, box, numbers, stage, at, size: t => chord * (.58 + .42 * t), ...scene(stage)};
   }
   // Root and tip of the blade in the scene, from where the sections come and to where they go back.
   function scene(stage) {
@@ -59,30 +59,26 @@
     if (held?.press === now.press) return;
     const at = Number(now.knot), root = now.stations[0];
     held = {...now, at, r: now.stations[at], share: (now.stations[at] - root) / (1 - root), root};
-    if (!line('this') || !RX.state.inset || (!now.by_key && !pointer.down)) {  // Let go before the answer came: nothing moves.
+    if (!line('this') || !RX.state.inset || (now.by === 'hand' && !pointer.down)) {  // Let go before the answer came: nothing moves.
       RX.send('knot', [now.knot, 'end']);
       held = null;
       return;
     }
     held.first = held.start = held.wanted = twist(line('this'), held.r);
     held.layout = arrange();
-    held.press_angle = angleOf();
-    if (now.by_key) place.focus({preventScroll: true});
+    held.from = pointer.y;
+    if (now.by === 'key') place.focus({preventScroll: true});
     fly(1);
   });
   for (const name of ['twist', 'hand']) RX.also(name, () => { if (held && !running) draw(); });
 
-  // The angle of the pointer about the held station's pitch axis, in degrees of real twist; near the axis, its height.
-  function angleOf() {
-    const {stage, size, at} = held.layout, [ox, oy] = at(held.share), x = pointer.x - stage.left - ox, y = pointer.y - stage.top - oy, reach = TRAIL * size(held.share);
-    const drawn = x > -.35 * reach ? y / reach / DEGREE : Math.atan2(y, -x) / DEGREE;
-    return drawn / TIMES;
-  }
+  // The trailing edge of the held station goes as far up or down as the pointer.
+  const pulled = () => (pointer.y - held.from) / (TRAIL * held.layout.size(held.share) * Math.max(Math.cos(TIMES * held.start * DEGREE), .5)) / TIMES / DEGREE;
   // The blade stops where the first of its sliders ends.
   const within = wanted => clamp(wanted, held.ends[0][0], held.ends[1][0]);
   const end = one => one.ends.find(([limit]) => Math.abs(limit - one.wanted) < .06);
   function turn() {
-    held.wanted = within(held.start + angleOf() - held.press_angle);
+    held.wanted = within(held.start + pulled());
     tell();
     if (!running) draw();
   }
@@ -91,10 +87,11 @@
     setTimeout(() => { if (waiting !== null && held) { sent = performance.now(); RX.send('knot', [held.knot, [null, waiting]]); waiting = null; } }, Math.max(0, 50 - (performance.now() - sent)));
   }
   function release(undo = false) {
-    const {knot, first} = held, last = undo ? first : waiting;
+    const {knot, by} = held, last = waiting;
     waiting = null;
-    if (undo || last !== null) RX.send('knot', [knot, [null, last]]);
-    setTimeout(() => RX.send('knot', [knot, 'end']), 70);
+    if (!undo && last !== null) RX.send('knot', [knot, [null, last]]);
+    if (undo) RX.send('knot', [knot, 'undo']);
+    else if (by !== 'curve') setTimeout(() => RX.send('knot', [knot, 'end']), 70);
     ended = held;
     fly(0);
     held = null;
@@ -116,7 +113,7 @@
     draw();
     running = shown !== towards;
     if (running) requestAnimationFrame(step);
-    else if (!towards) { page.removeAttribute('data-rubber'); place.querySelector('svg').innerHTML = ''; ended = null; }
+    else if (!towards) { page.removeAttribute('data-rubber'); place.querySelector('svg').innerHTML = disk.style.cssText = ''; ended = null; RX.again('plan'); }
   }
 
   function draw() {
@@ -125,7 +122,8 @@
     held = one;  // The helpers above draw what is held, or was.
     const {layout, root} = one, e = ease(shown), best = RX.state.hand?.best, reference = line('reference');
     const free = one.wanted;
-    if (best?.held) one.wanted = best.theta;  // Held softly at the best angle.
+    if (one.by === 'curve') one.wanted = twist(jig, one.r);
+    else if (best?.held) one.wanted = best.theta;  // Held softly at the best angle.
     const share = r => clamp((r - root) / (1 - root), 0, 1);
     const small = Math.hypot(layout.from[1][0] - layout.from[0][0], layout.from[1][1] - layout.from[0][1]) * .07;
     const spot = t => { const [x, y] = layout.at(t); return [lerp(lerp(layout.from[0][0], layout.from[1][0], t), x, e), lerp(lerp(layout.from[0][1], layout.from[1][1], t), y, e)]; };
@@ -143,7 +141,8 @@
     const places = Array.from({length: SECTIONS}, (_, k) => ({r: root + (1 - root) * k / SECTIONS})).concat(cuts.map(cut => ({r: cut.r, cut}))).sort((a, b) => a.r - b.r);
     for (const {r, cut} of places) {
       const t = share(r), shade = `color-mix(in oklab, ${RX.along(t)} ${Math.round(74 + 26 * t)}%, var(--rx-paper))`;
-      inside += `<path d="${shape(r, theta(r))}" fill="${cut ? RX.along(t) : shade}" stroke="var(--rx-paper)" stroke-width="${cut ? 1.3 : .5}" stroke-opacity="${cut ? .95 : .35}"/>`;
+      // What lies before the held section lets it show through.
+      inside += `<path d="${shape(r, theta(r))}" ${r > one.r + .01 ? 'opacity=".3"' : ''} fill="${cut ? RX.along(t) : shade}" stroke="var(--rx-paper)" stroke-width="${cut ? 1.3 : .5}" stroke-opacity="${cut ? .95 : .35}"/>`;
     }
     if (reference) {
       const edge = x => 'M' + Array.from({length: 25}, (_, k) => root + (1 - root) * k / 24).map(r => point(share(r), twist(reference, r), [x, 0])).join('L');
@@ -160,26 +159,50 @@
         <path d="${arc(one.first, one.wanted, 1.05)}" fill="none" stroke="var(--rx-accent)" stroke-width="4"/>`
         + (best ? `<path d="${ray(best.theta, .99, 1.13)}" stroke="var(--rx-good)" stroke-width="${best.held ? 6 : 4}" stroke-linecap="round"/>` + words(best.theta, 1.16, best.held ? 'least power' : `best ${signed(best.theta - one.first)}`, 'var(--rx-good)') : '')
         + (best && Math.abs(best.theta - one.wanted) < 1 ? '' : words(one.wanted, 1.16, `${signed(one.wanted - one.first)}${end(one) ? `, limit of ${end(one)[1]}` : ''}`, 'var(--rx-accent)'));
-      if (layout.wide) inside += numbers(layout, cuts, share, point, reference);
+      const [hx, hy] = point(t, one.wanted, [-TRAIL, 0]).split(' ');
+      inside += `<circle cx="${hx}" cy="${hy}" r="6" fill="var(--rx-accent)" stroke="var(--rx-paper)" stroke-width="2"/>`;
+      if (layout.numbers) inside += numbers(layout, cuts, share, point, reference);
+      inside += scale(one);
     }
     const svg = place.querySelector('svg');
     svg.setAttribute('viewBox', `0 0 ${layout.width} ${layout.height}`);
     svg.innerHTML = inside;
-    if (one.by_key) RX.follow?.(layout.stage.left + 6, layout.stage.top + (layout.wide ? 230 : 150));
-    place.style.opacity = Math.min(1, 1.6 * e);
-    place.querySelector('p').innerHTML = one.by_key ? `<b>${text(one.titles[one.at])} ${one.r.toFixed(2)} R</b> ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter: done · Esc: as before` : `Jig twist from the tip, drawn ×${TIMES} · release: back to the aircraft · Esc: as before`;
+    place.style.opacity = disk.style.opacity = Math.min(1, 1.6 * e);
+    const words = place.querySelector('p');
+    words.style.left = `${layout.box.x + .5 * layout.box.w}px`;
+    words.style.maxWidth = `${layout.box.w - 20}px`;
+    words.innerHTML = `<b>${text(RX.state.hand?.place ?? `${one.titles[one.at]} ${one.r.toFixed(2)} R`)}</b>` + (one.by === 'key' ? ' ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter: done' : ` drawn ×${TIMES} · release: back`) + ' · Esc: as before';
     one.wanted = free;
     held = now;
   }
+  // Power: a needle now, where it was, and the least over this station, once it is known. The scale only grows.
+  function scale(one) {
+    const hand = RX.state.hand, {box} = one.layout;
+    if (!hand) return '';
+    const {now, before, digits} = hand, best = hand.best?.power, told = [now, before, best ?? before], left = box.x + 28, right = box.x + box.w - 28, y = box.y + 40;
+    const ends = one.ends_kw ??= [before, before], room = Math.max(.025 * Math.abs(before), 12);
+    if (Math.min(...told) < ends[0] + .3 * room) ends[0] = Math.min(...told) - room;
+    if (Math.max(...told) > ends[1] - .3 * room) ends[1] = Math.max(...told) + 2 * room;
+    const span = ends[1] - ends[0], power = 10 ** Math.floor(Math.log10(span / 4)), step = power * [1, 2, 5, 10].find(k => k * power >= span / 6);
+    const X = v => left + (right - left) * (v - ends[0]) / span, x = X(now), named = [[before, 'before', 'var(--rx-dim)'], ...(best === undefined ? [] : [[best, 'least', 'var(--rx-good)']])].sort(([a], [b]) => a - b);
+    let out = `<path d="M${left} ${y}H${right}" stroke="var(--rx-faint)" stroke-width="1.5"/>`;
+    for (let v = Math.ceil(ends[0] / step) * step; v <= ends[1]; v += step) out += `<path d="M${X(v)} ${y}v5" stroke="var(--rx-faint)"/><text x="${X(v)}" y="${y + 17}" text-anchor="middle">${Charts.fixed(v, 0)}</text>`;
+    // Names stand outward of the two marks, so that they never meet.
+    named.forEach(([v, name, colour], k) => {
+      const one_side = named.length < 2 ? 'middle' : k ? 'start' : 'end', edge = X(v) + (one_side === 'start' ? -5 : one_side === 'end' ? 5 : 0);
+      out += `<path d="M${X(v)} ${y - 7}v14" stroke="${colour}" stroke-width="${name === 'least' ? 4 : 2}" stroke-linecap="round"/><text x="${clamp(edge, left + 60, right - 60)}" y="${y + 33}" text-anchor="${one_side}" style="fill:${colour};font-weight:620">${name} ${Charts.fixed(v, digits)}</text>`;
+    });
+    const gone = RX.state.power?.problem ? 'opacity=".35"' : '', colour = `var(--rx-${hand.kind || 'ink'})`;
+    return out + `<g ${gone}><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/><text x="${clamp(x, left + 50, right - 60)}" y="${y - 21}" text-anchor="middle" class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan><tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan></text></g>`;
+  }
   // r/R, twist and its change beside the leading edges, none over another.
-  function numbers(layout, cuts, share, point, reference) {
-    const x = layout.left ? 24 : layout.width - 178;
-    const top = layout.left ? 172 : 62;
+  function numbers({box}, cuts, share, point, reference) {
+    const x = box.x + box.w - 164, top = box.y + SCALE + 22;
     let last = top, out = `<text x="${x}" y="${top}">r/R</text><text x="${x + 84}" y="${top}" text-anchor="end">twist</text><text x="${x + 150}" y="${top}" text-anchor="end">Δ</text>`;
     for (const cut of cuts) {
-      const angle = theta(cut.r), [lx, ly] = point(share(cut.r), angle, [.25, 0]).split(' ').map(Number), y = Math.max(last + 20, layout.left ? 0 : Math.min(ly, layout.height - 30)), change = reference ? angle - twist(reference, cut.r) : 0;
+      const angle = theta(cut.r), [lx, ly] = point(share(cut.r), angle, [.25, 0]).split(' ').map(Number), y = Math.max(last + 20, Math.min(ly, box.y + box.h - 12)), change = reference ? angle - twist(reference, cut.r) : 0;
       last = y;
-      out += `${layout.left ? '' : `<path d="M${lx + 4} ${ly}L${x - 8} ${y - 4}" stroke="var(--rx-faint)"/>`}<text x="${x}" y="${y}">${cut.r.toFixed(2)}</text>
+      out += `<path d="M${lx + 4} ${ly}L${x - 8} ${y - 4}" stroke="var(--rx-faint)" stroke-opacity=".6"/><text x="${x}" y="${y}">${cut.r.toFixed(2)}</text>
         <text x="${x + 84}" y="${y}" text-anchor="end" style="fill:${RX.along(share(cut.r))};font-weight:650">${signed(angle)}</text>` + (Math.abs(change) >= .05 ? `<text x="${x + 150}" y="${y}" text-anchor="end">${signed(change)}</text>` : '');
     }
     return out;
@@ -188,7 +211,7 @@
   // By key.
   addEventListener('keydown', event => {
     if (!held) return;
-    const own = held.by_key && {ArrowUp: 1, ArrowDown: -1, ArrowLeft: 0, ArrowRight: 0, Enter: 0}[event.key] !== undefined;
+    const own = held.by === 'key' && {ArrowUp: 1, ArrowDown: -1, ArrowLeft: 0, ArrowRight: 0, Enter: 0}[event.key] !== undefined;
     if (event.key !== 'Escape' && !own) return;
     event.preventDefault();
     event.stopPropagation();

@@ -59,19 +59,18 @@ def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watche
     page.wait_for_selector('[data-explorer="drawer"]', state="detached")
 
 
-def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watched):
+def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     page = watched.page
     watched.answered()
     x, y = middle(watched, '[data-knot="2"]')
-    before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
+    before = watched.text("total-power")
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, 9):
         page.mouse.move(x, y - 3 * step)
         page.wait_for_timeout(60)
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)  # While the button is down.
     page.wait_for_function("() => RX.state.hand?.place.startsWith('tip 1.00 R')")
-    page.wait_for_selector(".rxf-tag[data-on]", state="attached")
+    page.wait_for_function("() => RX.state.plan?.held === 'before' && RX.part('rubber').textContent.includes('before')")
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null")
     watched.until_changed(lambda: watched.text("total-power"), before)

@@ -56,12 +56,15 @@ def drag(watched: Watched, start: tuple[float, float], end: tuple[float, float])
     watched.answered()
 
 
-# Distance [px] from the pointer to the nearest point of the tip's outline, where the blade is seen from the tip.
-FROM_TIP = """([x, y]) => {
-    const stage = RX.part('rubber').getBoundingClientRect();
-    const tip = [...RX.part('rubber').querySelectorAll('path[fill^=rgb]')].at(-1).getAttribute('d');
-    const points = tip.slice(1, -1).split('L').map(one => one.split(' ').map(Number));
-    return Math.min(...points.map(([px, py]) => Math.hypot(px + stage.left - x, py + stage.top - y)));
+# Height [px] of the held trailing edge, where the blade is seen from the tip.
+EDGE = "() => Number(RX.part('rubber').querySelector('circle').getAttribute('cy'))"
+# Boxes of the live disk, of the blade with its words, and of the card of power.
+BOXES = """() => {
+    const blade = RX.part('rubber').querySelectorAll('path[fill]:not([fill=none])');
+    return [RX.part('plan').querySelector('image'), ...blade, document.querySelector('.rxf-power')].map(one => {
+        const box = one.getBoundingClientRect();
+        return [box.left, box.top, box.right, box.bottom];
+    });
 }"""
 
 
@@ -70,13 +73,20 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
     x, y = watched.grab_tip()
     page.wait_for_function("() => document.documentElement.hasAttribute('data-rubber')")
-    watched.at_rest(lambda: page.evaluate("() => RX.part('rubber').style.opacity"))
+    edge = watched.at_rest(lambda: page.evaluate(EDGE))
     for step in range(1, 11):
         page.mouse.move(x, y + 12 + 4 * step)
         page.wait_for_timeout(60)
     page.wait_for_function("() => RX.state.hand?.place.startsWith('tip') && RX.state.hand.best")
-    # The trailing edge is under the pointer; nose up, away from the optimum at more washout.
-    assert page.evaluate(FROM_TIP, [x, y + 52]) < 12.0
+    # The trailing edge went down with the pointer; nose up, away from the optimum at more washout.
+    assert watched.at_rest(lambda: page.evaluate(EDGE)) - edge == pytest.approx(40.0, abs=8.0)
+    # The live disk stands left of the blade, both below the card of power; power now, before, and its least are told.
+    disk, *blade, card = page.evaluate(BOXES)
+    assert disk[2] <= min(box[0] for box in blade) + 1.0
+    assert min(box[1] for box in (disk, *blade)) >= card[3] - 1.0
+    assert page.evaluate("() => RX.state.plan.regions.some(one => one.before.length)")
+    told = page.evaluate("() => RX.part('rubber').textContent")
+    assert all(word in told for word in ("kW", "before ", "least "))
     assert page.evaluate("() => RX.state.hand.best.theta") < -2.0  # It began at −2°.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
     page.mouse.up()
@@ -94,8 +104,9 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
 
 def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched):
     page = watched.page
+    undo = page.evaluate("() => RX.state.bar.undo")
     page.keyboard.press("g")
-    page.wait_for_function("() => RX.state.rubber?.by_key")
+    page.wait_for_function("() => RX.state.rubber?.by === 'key'")
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
     watched.until(lambda: value(watched, "Outboard") > -3.0)
@@ -106,6 +117,8 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)
     page.wait_for_function("() => RX.state.rubber === null")
+    watched.answered()
+    assert page.evaluate("() => RX.state.bar.undo") is undo
 
 
 @pytest.mark.slow

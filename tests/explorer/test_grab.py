@@ -145,19 +145,22 @@ class TestGrab:
 
 class TestBestTurn:
     def test_two_slopes_of_a_parabola_foresee_its_minimum(self):
-        best = BestTurn().with_slope(0.0, -300.0)
-        assert best.turn is None  # One slope says which way, not how far.
-        assert best.with_slope(0.5, -200.0).turn == pytest.approx(1.5)
+        best = BestTurn().with_turn(0.0, 1225.0, -300.0)
+        assert best.turn is best.power is None  # One slope says which way, not how far.
+        best = best.with_turn(0.5, 1100.0, -200.0)
+        assert best.turn == pytest.approx(1.5)
+        assert best.power == pytest.approx(1000.0)  # 1000 + 100 (t − 1.5)²
 
     def test_slopes_on_both_sides_decide_where_power_is_no_parabola(self):
         best = BestTurn()
         for turn in (0.0, 0.8, 2.0, 1.4):
-            best = best.with_slope(turn, (turn - 1.0) ** 3 + 0.2 * (turn - 1.0))
+            off = turn - 1.0
+            best = best.with_turn(turn, 0.25 * off**4 + 0.1 * off**2, off**3 + 0.2 * off)
         assert best.turn == pytest.approx(1.0, abs=0.15)
 
     def test_nothing_is_foreseen_where_power_curves_down_or_far_away(self):
-        assert BestTurn().with_slope(0.0, 100.0).with_slope(1.0, 50.0).turn is None
-        assert BestTurn().with_slope(0.0, -100.0).with_slope(1.0, -99.0).turn is None
+        assert BestTurn().with_turn(0.0, 0.0, 100.0).with_turn(1.0, 75.0, 50.0).turn is None
+        assert BestTurn().with_turn(0.0, 0.0, -100.0).with_turn(1.0, -99.5, -99.0).power is None
 
     def test_the_station_is_held_about_the_best_turn_and_goes_on_beyond(self):
         grab, best = grab_at(0.97), 2.0
@@ -183,21 +186,31 @@ class TestBestTurn:
 
         (t0, p0, s0), (t1, p1, s1) = power_and_slope(0.0), power_and_slope(0.4)
         assert p1 - p0 == pytest.approx(0.5 * (s0 + s1) * (t1 - t0), rel=0.05)
-        best = BestTurn().with_slope(t0, s0).with_slope(t1, s1)
+        best = BestTurn().with_turn(t0, p0, s0).with_turn(t1, p1, s1)
         reached = t1
         for _ in range(3):
             if best.turn is None:
                 return  # The least power lies beyond what can be foreseen from here.
-            reached, _, slope = power_and_slope(best.turn)
-            best = best.with_slope(reached, slope)
+            reached, power, slope = power_and_slope(best.turn)
+            best = best.with_turn(reached, power, slope)
         assert best.turn is not None
         if reached == pytest.approx(best.turn, abs=0.1):  # Else a slider has ended.
             least = power_and_slope(best.turn)[1]
+            assert best.power == pytest.approx(least, rel=2e-4)
             assert least < power_and_slope(best.turn - 1.0)[1]
             assert least < power_and_slope(best.turn + 1.0)[1]
 
 
 class TestUndo:
+    def test_a_drag_that_ends_where_it_began_is_no_step_and_keeps_what_can_be_redone(self):
+        history = History(TWO, future=[replace(TWO, two_inner=-9.0)])
+        history.hold()
+        for inner in (-13.0, -12.0, TWO.two_inner):
+            history.note(replace(TWO, two_inner=inner), pause=0.1)
+        history.release()
+        assert history.past == []
+        assert history.redo() == replace(TWO, two_inner=-9.0)
+
     def test_the_next_drag_is_another_step(self):
         history = History(TWO)
         for inner in (-13.0, -12.0):
@@ -214,6 +227,7 @@ def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, Bridge, list[Inputs], l
         inputs=lambda: now[0],
         drag_to=lambda new: now.__setitem__(0, new),
         held=False,
+        state=lambda: None,
         bridge=bridge,
         keyboard=SimpleNamespace(bind=lambda *_: None),
     )
@@ -229,11 +243,12 @@ class TestTwistCurve:
         assert bridge.state["rubber"]["knot"] == "2"
         assert bridge.state["rubber"]["stations"] == pytest.approx([ROOT, 0.5, 1.0])
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
-        for turn, slope in ((0.0, -300.0), (0.5, -200.0)):
-            editor.learn(turned(TWO, stations(TWO)[2], turn), {"two_outer": slope * 0.5})
+        for turn, power, slope in ((0.0, 1225.0, -300.0), (0.5, 1100.0, -200.0)):
+            editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
         best = editor.best
         assert best is not None
         assert best["theta"] == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
+        assert best["power"] == pytest.approx(1000.0)
         assert not best["held"]
         bridge.actions["knot"](["2", [None, best["theta"] + 0.1]])
         assert now[0] == turned(TWO, stations(TWO)[2], 1.5)
@@ -256,6 +271,24 @@ class TestTwistCurve:
         editor.grab(1.0)  # At its end, it turns back as far as it came.
         bridge.actions["knot"](["2", [None, start]])
         assert now[0].two_outer == pytest.approx(TWO.two_outer, abs=0.1)
+
+    def test_no_least_power_is_told_past_the_end_of_a_slider(self):
+        editor, *_ = editor_of(TWO)
+        editor.grab(1.0)
+        end = (limits("two_outer")[1] - TWO.two_outer) * 0.5
+        for turn in (0.0, 1.0):
+            power, slope = (turn - end - 1.0) ** 2, 2.0 * (turn - end - 1.0)
+            editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
+        assert editor.best is None
+
+    def test_escape_brings_back_the_law_that_was_there(self):
+        ideal = replace(TWO, law="ideal")
+        editor, bridge, now, took = editor_of(ideal)
+        editor.grab(1.0)
+        bridge.actions["knot"](["2", [None, 5.0]])
+        bridge.actions["knot"](["2", "undo"])
+        assert now[0] == ideal
+        assert took == [True, False]
 
     def test_a_blade_without_stations_is_pressed_as_the_nearest_two_segments(self):
         editor, bridge, now, _ = editor_of(replace(TWO, law="ideal"))

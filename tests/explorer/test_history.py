@@ -85,7 +85,7 @@ class TestHistory:
         history.hold()
         for time in (10.1, 14.0):
             pauses.moved(time)
-            history.note(replace(START, two_inner=-time), pauses.longest())
+            history.note(replace(START, two_inner=0.5 - time), pauses.longest())
         pauses.moved(17.0)
         pauses.hold(False, 17.1)
         history.release()

@@ -83,7 +83,6 @@ def _twisting(page: Page) -> list[bytes]:
     page.evaluate("() => RX.send('knot', ['0', 'start'])")
     for angle in ANGLES:
         page.evaluate("angle => RX.send('knot', ['0', [0.13, angle]])", angle)
-        page.evaluate("() => RX.follow(846, 420)")  # As if the pointer held the tip.
         page.wait_for_function("() => RX.idle(true)", timeout=WAIT)
         page.wait_for_timeout(3_000)  # The fine picture of the disk.
         pictures.append(page.screenshot(timeout=WAIT))

@@ -32,7 +32,7 @@ SCRIPTS = (
 GOOD: dict[str, list[Any]] = {
     "azimuth": [65, 0.5], "fly": [1.25], "speed": [0.2, "0.165"], "hold": [True],
     "stop": [3, "3"], "guess": ["0"], "drawer": ["", "share"],
-    "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"]], "idle": [[7, False]],
+    "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]], "idle": [[7, False]],
     "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]], "undo": [None, 5], "view": ["disk"],
 }  # fmt: skip
 HOSTILE: list[Any] = [
