@@ -152,7 +152,7 @@ class PowerCard:
         self._bridge.set(power={**self._content, "problem": problem, "status": status})
 
     def hand(self, units: Units) -> dict[str, Any] | None:
-        """Power, its change and that before the grab, for the scale beside the blade; None before the first solution."""
+        """Power, its change and that before the grab, for the scale beside the blade; None before any solution."""
         last, change = self._last, self._tracker.change or 0.0
         if last is None:
             return None

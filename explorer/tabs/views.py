@@ -229,7 +229,7 @@ class SceneViews:
         before, other = self.before, self._instead or self._actuator.lifted or self.before is not None
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
         if before is not None:
-            view = replace(view, stall=True, reverse_flow=True)
+            view = replace(view, stall=True, reverse_flow=True, drag_divergence=False)
         elif self._view != "disk" or other or ((view.beside or view.wipe) and pinned is not None):
             self._hide_plan()
             return

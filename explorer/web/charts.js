@@ -126,6 +126,7 @@
   });
   for (const end of ['pointerup', 'pointercancel'])
     addEventListener(end, () => { if (held) { const {name} = held; held = null; setTimeout(() => RX.send('knot', [name, 'end']), 70); } });
+  addEventListener('keydown', event => { if (event.key === 'Escape') held = waiting = null; }, true);
   document.addEventListener('keydown', event => {
     const knot = event.target instanceof Element && event.target.closest('[data-knot]');
     const step = knot && {ArrowUp: [0, .1], ArrowDown: [0, -.1], ArrowLeft: [-.01, 0], ArrowRight: [.01, 0]}[event.key];
