@@ -169,7 +169,9 @@ PRESSES: dict[str, Check] = {
     "colours": _word("Rescale", "Default"),
     "lecture": _word("back", "next", "end"),
     "idle": _row(_count, _flag),
-    "knot": _row(_text, _either(_hand, _word("undo"), _row(_either(_none, _number(-2.0, 2.0)), _number(-360.0, 360.0)))),
+    "knot": _row(
+        _text, _either(_hand, _word("undo"), _row(_either(_none, _number(-2.0, 2.0)), _number(-360.0, 360.0)))
+    ),
     "dial": _either(_hand, _some(_row(_count, _number(0.0, 90.0), _number(-3600.0, 3600.0)), 9)),
 }  # fmt: skip
 """Every press of the page's scripts, and what its value must be."""
