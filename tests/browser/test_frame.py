@@ -216,16 +216,16 @@ def test_less_motion_is_respected(watched: Watched):
 
 
 @pytest.mark.slow
-def test_on_a_tablet_the_rail_is_a_drawer(watched: Watched):
+def test_in_a_narrow_window_the_rail_is_a_drawer(watched: Watched):
     page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
-    page.set_viewport_size({"width": 768, "height": 1024})
+    page.set_viewport_size({"width": 1000, "height": 768})
     rail.wait_for(state="hidden")
     width = "() => document.querySelector('canvas').getBoundingClientRect().width"
-    page.wait_for_function(f"() => ({width})() === 768")
+    page.wait_for_function(f"() => ({width})() === 1000")
     page.get_by_role("button", name="Controls").click()
     page.wait_for_function("() => document.querySelector('[data-dock-region=right]').checkVisibility()")
     page.wait_for_function(  # Once it has slid in.
-        "() => Math.abs(document.querySelector('[data-dock-region=right]').getBoundingClientRect().right - 768) <= 1"
+        "() => Math.abs(document.querySelector('[data-dock-region=right]').getBoundingClientRect().right - 1000) <= 1"
     )
     page.wait_for_function(  # The scene ends where the rail begins: no card lies under it.
         """() => Math.abs(document.querySelector('canvas').getBoundingClientRect().width
@@ -236,7 +236,7 @@ def test_on_a_tablet_the_rail_is_a_drawer(watched: Watched):
     watched.until_changed(lambda: watched.text("total-power"), before)
     page.get_by_role("button", name="Controls").click()
     rail.wait_for(state="hidden")
-    page.wait_for_function(f"() => ({width})() === 768")
+    page.wait_for_function(f"() => ({width})() === 1000")
     page.set_viewport_size({"width": SIZE[0], "height": SIZE[1]})
     rail.wait_for(state="visible")
 

@@ -82,8 +82,8 @@ def size(request: pytest.FixtureRequest) -> tuple[int, int]:
 
 @pytest.fixture
 def sized(size: tuple[int, int], shared: Watched, browser: "Browser", app: App) -> Iterator[Watched]:
-    """The page as it opens. Only a telephone's differs from one that is made narrow: it opens its rail."""
-    watched = opened(browser, app.address, size=size) if size[0] <= 700 else shared
+    """The page as it opens. One with a sheet differs from one that is made narrow: it opens it."""
+    watched = opened(browser, app.address, size=size) if size[0] <= 860 else shared
     watched.page.set_viewport_size({"width": size[0], "height": size[1]})
     watched.reset()
     yield watched
@@ -237,7 +237,7 @@ def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watch
     _controls_come_and_go(watched)
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
-    rail.wait_for(state="visible" if size[0] > 1100 or size[0] <= 700 else "hidden")
+    rail.wait_for(state="visible" if size[0] > 1100 or size[0] <= 860 else "hidden")
 
 
 def _controls_come_and_go(watched: Watched) -> None:
