@@ -330,7 +330,7 @@ class Page:
         """What to do first, until something was done."""
         wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
         tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        words = {"text": "Drag the twist", "node": "/rotor/blade_0", "at": tip} if wanted else None
+        words = {"text": "Pull the blade tip up or down", "node": "/rotor/blade_0", "at": tip} if wanted else None
         self.context.bridge.set(prompt=words)
 
     def _hold(self, held: bool) -> None:

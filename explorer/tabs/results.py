@@ -1,6 +1,7 @@
 """What follows a solution on the frame: power card, sensitivities beside the sliders, and the drawer of power."""
 
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -148,6 +149,7 @@ class PowerCard:
         if self._content is None:
             self._content = _EMPTY
         status = {"kind": "problem", "words": "no trim", "title": sentence}
+        sentence = re.sub(r" The nearest trim found is at .*?\.(?= |$)", "", sentence)  # The button may find another.
         problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
         self._bridge.set(power={**self._content, "problem": problem, "status": status})
 
@@ -173,7 +175,7 @@ class PowerCard:
         if change is None or before is None:
             if solution.design == reference.design or not reference.converged:
                 rest = "same as A" if pinned else "as built"
-                return {"since": None, "rest": rest, "why": "Drag the twist to change it."}
+                return {"since": None, "rest": rest, "why": "Pull the blade tip up or down."}
             change, before = solution.power.total - reference.power.total, reference
             words = "vs. A" if pinned else "vs. as built"
         value = units.watts(change, fineness(solution.power), sign=True)

@@ -122,10 +122,7 @@ def _status(kind: str, *content: Content) -> Markup:
 
 def trust_page() -> Markup:
     """Comparisons by kind."""
-    verified = "Hover over a row to see the test it is verified by. Computed by ", tag("i", "make trust")
-    parts: list[Content] = [
-        tag("div.rx-dim", verified, "; docs/validation.md leads to a page with charts for each set.")
-    ]
+    parts: list[Content] = [tag("div.rx-dim", "Hover over a row to see the test it is verified by.")]
     for kind, title in KINDS.items():
         parts.append(tag("h4", title))
         parts.extend(_trust_row(row) for row in trust_rows() if row.kind == kind)

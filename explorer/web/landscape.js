@@ -58,7 +58,7 @@
     if (!next) { running = false; shown = ''; card.innerHTML = ''; return; }
     card.innerHTML = `<div class="rxl-head"><b>Power above the least</b> <span class="rxf-dim">% of ${text(next.least)}</span></div>
       <div class="rxl-grad" style="background:linear-gradient(90deg,${next.colours.join()})"></div>${Charts.bar(next.ticks)}
-      <p class="rxl-water" title="${text(next.each)}"><i></i>${text(next.water)}</p><p><b>${text(next.words)}</b></p>
+      <p class="rxl-water" title="${text(next.each)}"><i></i>${text(next.water)}</p><p class="rxl-words"><b>${text(next.words)}</b></p>
       ${next.balls.length ? `<div class="rxf-row rxf-turn"><button data-roll title="Replay the search in 6 s"></button><input type="range" min="0" max="1" step="0.001" value="1" aria-label="Replay of the search"><output class="rxf-num"></output></div>` : ''}
       <p class="rxf-dim">${text(next.note)}</p>`;
     buttons();

@@ -23,7 +23,7 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit
     watched = visit(size=SIZE)
     for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("since", "as built")):
         watched.says(part, words)
-    watched.says("prompt", "Drag the twist")
+    watched.says("prompt", "Pull the blade tip up or down")
     watched.press("Δ outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden")
     watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since")))

@@ -355,7 +355,7 @@ def front_chart(dots: Sequence[FrontDot]) -> Chart:
     return Chart(
         "Vibration by power",
         Axis("power [%]", (low, end), (*ticks, 0.5 * (high + end)), (*map(tick_text, ticks), "vibration alone")),
-        Axis("changes [%]", (-100.0, most), [at for at in _VIBRATIONS if at < most]),
+        Axis("changes [%]", (-100.0, most), tuple(at for at in _VIBRATIONS if at < most)),
         (
             *spreads,
             _published(

@@ -126,7 +126,7 @@ class LandscapePanel:
         paths = paths_on(drawn, run)
         key = drawn, None if design is None else design.twist, pinned, units, dark, run if paths else None
         if key != self._drawn:
-            self._build(drawn, paths, design, pinned, units, dark)
+            self._build(drawn, paths, design, pinned, units, dark, run)
             self._drawn = key
         if not self._shown:
             self._shown = True
@@ -159,6 +159,7 @@ class LandscapePanel:
         pinned: TwistLaw | None,
         units: Units,
         dark: bool,
+        run: SearchRun | None,
     ) -> None:
         land = self._land = Landscape(refined(drawn.powers, POINTS, POINTS), BAND)
         theme = scene_theme(dark)
@@ -183,7 +184,7 @@ class LandscapePanel:
                     f"{p.title.lower()} ±{number(half, 1 if p.angular else 2)} {p.shown_unit}"
                     for p, half in half_widths(drawn, land)
                 ),
-                "note": _note(drawn, paths),
+                "note": _note(drawn, paths, run),
             },
             landscape_labels=labels,
         )
@@ -340,7 +341,9 @@ def _water_label(drawn: Map, land: Landscape, units: Units) -> dict[str, Any]:
     return {"text": valley_words(drawn, land, units), "node": ROOT, "at": at, "kind": "water", "title": title}
 
 
-def _note(drawn: Map, paths: tuple[Path, ...]) -> str:
+def _note(drawn: Map, paths: tuple[Path, ...], run: SearchRun | None) -> str:
+    if not paths and run is not None:
+        return "The search is under way." if run.under_way else "The last search was of another design or concept."
     if not paths:
         return "Optimise with the same concept to see its starts roll."
     others = [p.title.lower() for k, p in enumerate(drawn.task.concept.parameters) if k not in drawn.task.axes]
