@@ -20,6 +20,7 @@ from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import SUSPECT_STALL, solve
+from rotor.trim.validity import MOST_STALLED
 from tests.tools.designs import FIRST, RIGHT, run, share
 
 TRIMMABLE = 0.08
@@ -226,7 +227,11 @@ def check_random(count: int, seed: int) -> None:
     plain = sum(one.plain for one in outcomes)
     # Three hundred designs have some sixty in plain level flight, of which one is 2 %: a second one is chance.
     assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
-    assert sum(one.kind == "trimmed" for one in outcomes) > 0.8 * count  # 88 % of 3000.
+    # A free rotor has no equilibrium at many a load, and beyond 30 % stalled there is no power; of 80 these
+    # were all 15 refusals.
+    possible = [one for one in outcomes if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED]
+    assert len(possible) > 0.5 * count
+    assert sum(one.kind == "trimmed" for one in possible) > 0.95 * len(possible)
 
 
 @pytest.mark.slow
