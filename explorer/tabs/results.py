@@ -1,4 +1,7 @@
-"""What follows a solution on the frame: power card, sensitivities beside the sliders, and the drawer of power."""
+"""What follows a solution on the frame: power card, sensitivities beside the sliders, and the drawer of power.
+
+One file, because all of it is drawn from one solution in one update.
+"""
 
 import math
 import re

@@ -96,16 +96,16 @@
     return field = {key, matrix, power, index, least};
   }
   // Segments of a line of one value on the grid, in cells.
-  function contour(values, level) {
+  function contour(grid, level) {
     let path = '';
     const places = [];
     for (let row = 0; row < GRID - 1; row++) for (let column = 0; column < GRID - 1; column++) {
-      const corners = [[column, row], [column + 1, row], [column + 1, row + 1], [column, row + 1]], ends = [];
+      const corners = [[column, row], [column + 1, row], [column + 1, row + 1], [column, row + 1]], cuts = [];
       corners.forEach(([x0, y0], k) => {
-        const [x1, y1] = corners[(k + 1) % 4], v0 = values[y0 * GRID + x0] - level, v1 = values[y1 * GRID + x1] - level;
-        if (v0 < 0 !== v1 < 0) { const t = v0 / (v0 - v1); ends.push([x0 + t * (x1 - x0), y0 + t * (y1 - y0)]); }
+        const [x1, y1] = corners[(k + 1) % 4], v0 = grid[y0 * GRID + x0] - level, v1 = grid[y1 * GRID + x1] - level;
+        if (v0 < 0 !== v1 < 0) { const t = v0 / (v0 - v1); cuts.push([x0 + t * (x1 - x0), y0 + t * (y1 - y0)]); }
       });
-      for (let k = 0; k + 1 < ends.length; k += 2) { path += `M${ends[k].map(v => v.toFixed(2))}L${ends[k + 1].map(v => v.toFixed(2))}`; places.push(ends[k]); }
+      for (let k = 0; k + 1 < cuts.length; k += 2) { path += `M${cuts[k].map(v => v.toFixed(2))}L${cuts[k + 1].map(v => v.toFixed(2))}`; places.push(cuts[k]); }
     }
     return [path, places];
   }
@@ -199,9 +199,9 @@
   }
 
   // Two meters: the bar is the band over inflow models, the mark the design's own, the line the other blade.
-  function meter(name, values, low, high, zero, said, kind) {
-    const at = v => 100 * Charts.clamp((v - low) / (high - low), 0, 1), [a, b] = ends(values).map(at);
-    return `<div class="rxd-meter" role="img" aria-label="${name}: ${said}"><span>${name}</span><div><i style="left:${a}%;width:${b - a}%"></i><s style="left:${at(zero)}%"></s><b data-kind="${kind}" style="left:${at(values[0])}%"></b></div><em class="rxf-num" data-kind="${kind}">${said}</em></div>`;
+  function meter(name, told, low, high, zero, said, kind) {
+    const at = v => 100 * Charts.clamp((v - low) / (high - low), 0, 1), [a, b] = ends(told).map(at);
+    return `<div class="rxd-meter" role="img" aria-label="${name}: ${said}"><span>${name}</span><div><i style="left:${a}%;width:${b - a}%"></i><s style="left:${at(zero)}%"></s><b data-kind="${kind}" style="left:${at(told[0])}%"></b></div><em class="rxf-num" data-kind="${kind}">${said}</em></div>`;
   }
   function readout() {
     const {dial, dial_matrix: matrix} = RX.state, [a, p] = wave(chosen), now = change(), head = `<p class="rxf-num"><b>${chosen}/rev</b> ${a.toFixed(2)}° <span class="rxf-dim">at phase ${p.toFixed(0)}°</span></p>`;
@@ -277,13 +277,13 @@
     draw();
   }
   document.addEventListener('pointerdown', event => {
-    const near = event.target instanceof Element && event.isPrimary && event.button === 0 && event.target, round = near && near.closest('.rxd-round'), chart = near && near.closest('.rxd-front');
-    if (!(round || (chart && near.closest('svg') && RX.state.dial?.front.length > 1)) || RX.state.dial?.held) return;
-    const box = (round || chart).getBoundingClientRect();
-    if (round && Math.hypot(event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2) > box.width / 2 - 8) return;
+    const near = event.target instanceof Element && event.isPrimary && event.button === 0 && event.target, circle = near && near.closest('.rxd-round'), chart = near && near.closest('.rxd-front');
+    if (!(circle || (chart && near.closest('svg') && RX.state.dial?.front.length > 1)) || RX.state.dial?.held) return;
+    const box = (circle || chart).getBoundingClientRect();
+    if (circle && Math.hypot(event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2) > box.width / 2 - 8) return;
     event.preventDefault();
-    held = {place: round || chart, front: !round, waves: {}, above: round ? 0 : near.closest('svg').getBoundingClientRect().top - box.top};
-    round?.querySelector('[data-dot]')?.focus({preventScroll: true});
+    held = {place: circle || chart, front: !circle, waves: {}, above: circle ? 0 : near.closest('svg').getBoundingClientRect().top - box.top};
+    circle?.querySelector('[data-dot]')?.focus({preventScroll: true});
     RX.send('dial', 'start');
     follow(event);
     shake();

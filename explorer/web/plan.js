@@ -167,9 +167,9 @@
   }
   // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
   function tie(all) {
-    const stage = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean), labels = [...place.querySelectorAll('[data-labels] > *')].map(one => ({left: one.offsetLeft, top: one.offsetTop, right: one.offsetLeft + one.offsetWidth, bottom: one.offsetTop + one.offsetHeight}));
+    const stage = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean), named = [...place.querySelectorAll('[data-labels] > *')].map(one => ({left: one.offsetLeft, top: one.offsetTop, right: one.offsetLeft + one.offsetWidth, bottom: one.offsetTop + one.offsetHeight}));
     const points = RX.state.plan.regions.flatMap(one => one.lines.flat()).map(([px, py]) => [layout.x + layout.radius * px, layout.y + layout.radius * py]).concat(pins.map(pin => xy(pin.r, pin.psi)));
-    const taken = [...stage, ...labels], lines = [];
+    const taken = [...stage, ...named], lines = [];
     pins.forEach((pin, k) => {
       if (!all[k]) return;
       const [x, y] = xy(pin.r, pin.psi), [w, h] = size(all[k]);

@@ -39,11 +39,11 @@
     const top = (document.querySelector('.rxf-power').getClientRects()[0]?.bottom ?? stage.top) - stage.top + 10;
     const split = wide ? clamp(height - top - 60, .36 * width, .5 * width) : top + .5 * (height - top);
     const box = wide ? {x: split, y: top, w: width - split, h: height - top - 46} : {x: 0, y: split, w: width, h: height - split - 40};
-    const numbers = box.w > 430 ? 172 : 0, room = box.w - numbers - 118, high = box.h - SCALE;
-    const chord = clamp(room / (TRAIL + .32), 90, Math.max(90, .62 * high)), x = box.x + box.w - numbers - .3 * chord - 14 - Math.max(0, .35 * (room - 1.07 * chord));
+    const column = box.w > 430 ? 172 : 0, room = box.w - column - 118, high = box.h - SCALE;
+    const chord = clamp(room / (TRAIL + .32), 90, Math.max(90, .62 * high)), x = box.x + box.w - column - .3 * chord - 14 - Math.max(0, .35 * (room - 1.07 * chord));
     const at = t => [x - .08 * chord * (1 - t), box.y + SCALE + (.2 + .52 * t) * high];
     disk.style.inset = wide ? `0 ${width - split}px 0 0` : `0 0 ${height - split}px 0`;
-    return {width, height, wide, box, numbers, stage, at, size: t => chord * (.58 + .42 * t), ...scene(stage)};
+    return {width, height, wide, box, column, stage, at, size: t => chord * (.58 + .42 * t), ...scene(stage)};
   }
   // Root and tip of the blade in the scene, from where the sections come and to where they go back.
   function scene(stage) {
@@ -161,7 +161,7 @@
         + (best && Math.abs(best.theta - one.wanted) < 1 ? '' : words(one.wanted, 1.16, `${signed(one.wanted - one.first)}${end(one) ? `, limit of ${end(one)[1]}` : ''}`, 'var(--rx-accent)'));
       const [hx, hy] = point(t, one.wanted, [-TRAIL, 0]).split(' ');
       inside += `<circle cx="${hx}" cy="${hy}" r="6" fill="var(--rx-accent)" stroke="var(--rx-paper)" stroke-width="2"/>`;
-      if (layout.numbers) inside += numbers(layout, cuts, share, point, reference);
+      if (layout.column) inside += numbers(layout, cuts, share, point, reference);
       inside += scale(one);
     }
     const svg = place.querySelector('svg');
@@ -179,14 +179,14 @@
   function scale(one) {
     const hand = RX.state.hand, {box} = one.layout;
     if (!hand) return '';
-    const {now, before, digits} = hand, best = hand.best?.power, told = [now, before, best ?? before], left = box.x + 28, right = box.x + box.w - 28, y = box.y + 40;
-    const ends = one.ends_kw ??= [before, before], room = Math.max(.025 * Math.abs(before), 12);
+    const {now, before: start, digits} = hand, best = hand.best?.power, told = [now, start, best ?? start], left = box.x + 28, right = box.x + box.w - 28, y = box.y + 40;
+    const ends = one.ends_kw ??= [start, start], room = Math.max(.025 * Math.abs(start), 12);
     if (Math.min(...told) < ends[0] + .3 * room) ends[0] = Math.min(...told) - room;
     if (Math.max(...told) > ends[1] - .3 * room) ends[1] = Math.max(...told) + 2 * room;
-    const span = ends[1] - ends[0], power = 10 ** Math.floor(Math.log10(span / 4)), step = power * [1, 2, 5, 10].find(k => k * power >= span / 6);
-    const X = v => left + (right - left) * (v - ends[0]) / span, x = X(now), named = [[before, 'before', 'var(--rx-dim)'], ...(best === undefined ? [] : [[best, 'least', 'var(--rx-good)']])].sort(([a], [b]) => a - b);
+    const span = ends[1] - ends[0], power = 10 ** Math.floor(Math.log10(span / 4)), tick = power * [1, 2, 5, 10].find(k => k * power >= span / 6);
+    const X = v => left + (right - left) * (v - ends[0]) / span, x = X(now), named = [[start, 'before', 'var(--rx-dim)'], ...(best === undefined ? [] : [[best, 'least', 'var(--rx-good)']])].sort(([a], [b]) => a - b);
     let out = `<path d="M${left} ${y}H${right}" stroke="var(--rx-faint)" stroke-width="1.5"/>`;
-    for (let v = Math.ceil(ends[0] / step) * step; v <= ends[1]; v += step) out += `<path d="M${X(v)} ${y}v5" stroke="var(--rx-faint)"/><text x="${X(v)}" y="${y + 17}" text-anchor="middle">${Charts.fixed(v, 0)}</text>`;
+    for (let v = Math.ceil(ends[0] / tick) * tick; v <= ends[1]; v += tick) out += `<path d="M${X(v)} ${y}v5" stroke="var(--rx-faint)"/><text x="${X(v)}" y="${y + 17}" text-anchor="middle">${Charts.fixed(v, 0)}</text>`;
     // Names stand outward of the two marks, so that they never meet.
     named.forEach(([v, name, colour], k) => {
       const one_side = named.length < 2 ? 'middle' : k ? 'start' : 'end', edge = X(v) + (one_side === 'start' ? -5 : one_side === 'end' ? 5 : 0);

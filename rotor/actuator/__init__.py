@@ -18,7 +18,7 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.harmonic import DynamicTwist, Effect, dynamic_twist, effect, phase_sweep, steady_room
+from rotor.actuator.harmonic import DynamicTwist, EffectInFlight, dynamic_twist, effect, phase_sweep, steady_room
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
@@ -34,7 +34,7 @@ __all__ = (
     "BreakEven",
     "ConditionPair",
     "DynamicTwist",
-    "Effect",
+    "EffectInFlight",
     "Engines",
     "ExtensionTwist",
     "Failure",

@@ -99,7 +99,7 @@ def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
 
 
 @dataclass(frozen=True)
-class Effect:
+class EffectInFlight:
     """What an actuator changes in one flight, against another blade there.
 
     By inflow model that trims: the design's own first, then those of `hub_loads.BAND`.
@@ -108,10 +108,10 @@ class Effect:
     power: tuple[float, ...]
     """[W]"""
     index: tuple[float, ...]
-    """Of the vibration index [%]; empty where there are no hub loads."""
+    """Change of the vibration index [%]; empty where there are no hub loads."""
 
 
-def effect(design: Design, reference: Design) -> Effect:
+def effect(design: Design, reference: Design) -> EffectInFlight:
     """Change of power and of vibration from `reference` to `design`, both in its flight and with its models.
 
     `design`: with the actuator's mass and stiffness on board (`with_actuator_mass`). RuntimeError where it does not
@@ -130,7 +130,7 @@ def effect(design: Design, reference: Design) -> Effect:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:
                 index.append(100.0 * (hub_index(Adjoint(one)) / hub_index(Adjoint(other)) - 1.0))
-    return Effect(tuple(power), tuple(index))
+    return EffectInFlight(tuple(power), tuple(index))
 
 
 def _over_the_tip(stations: Array, r: Array, twist: Array) -> tuple[float, ...]:

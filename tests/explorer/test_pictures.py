@@ -13,7 +13,7 @@ from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, apart, fit
-from explorer.picture.fields import FIELDS, filled, reverse_flow
+from explorer.picture.fields import FIELDS, reverse_flow
 from explorer.picture.picture import (
     DISK_DROP,
     about,
@@ -24,7 +24,7 @@ from explorer.picture.picture import (
     rotate,
     tip_path_pose,
 )
-from explorer.picture.polar import PolarGrid, polar_grid, refined
+from explorer.picture.polar import PolarGrid, filled, polar_grid, refined
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

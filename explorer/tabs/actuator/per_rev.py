@@ -17,9 +17,9 @@ from explorer.model.units import Units, number
 from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.design_words import harmonic_words
-from rotor import Design
+from rotor import Design, t_matrix
 from rotor.actuator import (
-    Effect,
+    EffectInFlight,
     InstalledActuator,
     Programme,
     dynamic_twist,
@@ -33,7 +33,7 @@ from rotor.aero.bending import can_bend
 from rotor.chart import Axis, Chart, Line, Points, Rule, as_json, round_ticks, tick_text
 from rotor.design import Harmonic, TwistLaw
 from rotor.markup import Markup, tag
-from rotor.optimisation.vibration import TMatrix, front_twists, t_matrix, with_harmonics
+from rotor.optimisation.vibration import TMatrix, front_twists, with_harmonics
 from rotor.trim import why_no_hub_loads
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import BAND, hub_index, index_gains
@@ -65,7 +65,7 @@ class Fitted:
     volts: tuple[float, ...]
     """Steady voltage of each segment [V]."""
     twist: TwistLaw | None
-    """Of the blade compared with; None while it is being worked out."""
+    """Twist of the blade compared with; None while it is being worked out."""
     against: str
     """What that blade is called."""
 
@@ -229,7 +229,7 @@ class TwistDial:
             drive = sum(fitted.losses[k] * size**2 for k, size in sizes)
         unit = units.power[0]
         settled = None
-        if isinstance(moved, Effect):
+        if isinstance(moved, EffectInFlight):
             settled = {
                 "power": [unit.of(change + drive) for change in moved.power],
                 "index": [round(change, 2) for change in moved.index],
@@ -348,7 +348,7 @@ def front_chart(dots: Sequence[FrontDot]) -> Chart:
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
     column = 0.09 * (high - low)
     end = high + column * (len(alone) + 0.5)
-    ticks = [at for at in round_ticks(low, high, 4) if at < high]
+    ticks = tuple(at for at in round_ticks(low, high, 4) if at < high)
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
     line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
     best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
