@@ -45,6 +45,7 @@ def test_a_few_designs_in_two_orders_and_in_threads() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_thirty_designs_in_three_orders_and_in_four_threads() -> None:
     assert len(DESIGNS) == 30
     order = list(range(30))

@@ -74,7 +74,13 @@ def test_energy_identity_for_every_combination(inflow: str, combined: list[tuple
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 @pytest.mark.parametrize(
-    ("mu", "every"), [(0.0, 13), (0.38, 7), *(pytest.param(mu, 1, marks=pytest.mark.slow) for mu in (0.05, 0.2, 0.38))]
+    ("mu", "every"),
+    [
+        (0.0, 13),
+        (0.38, 7),
+        *(pytest.param(mu, 1, marks=pytest.mark.slow) for mu in (0.05, 0.38)),
+        pytest.param(0.2, 1, marks=[pytest.mark.slow, pytest.mark.nightly]),
+    ],
 )
 def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
     for off in EVERY[::every]:

@@ -85,7 +85,7 @@ def test_the_free_division_is_no_worse_than_any_fixed_one():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("mu", [0.0, 0.1, 0.2, 0.3, 0.35])
+@pytest.mark.parametrize("mu", [0.0, *(pytest.param(mu, marks=pytest.mark.nightly) for mu in (0.1, 0.2, 0.3)), 0.35])
 def test_no_point_of_a_fine_grid_is_better(mu: float):
     design = make_design(mu=mu)
     powers = grid_powers(design, "linear", np.radians(np.arange(-30.0, 10.01, 0.1)))

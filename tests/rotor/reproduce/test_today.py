@@ -108,6 +108,7 @@ def test_the_ladder_on_the_command_line(ladder: Ladder, capsys: pytest.CaptureFi
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_the_page_of_one_screen(tmp_path: Path):
     """Every number of the page is the ladder's; the quotations are the thesis' words."""
     report = find_entry("today").make()

@@ -225,7 +225,7 @@ def check_random(count: int, seed: int) -> None:
     outcomes = run(count, seed)
     assert [(one.kind, one.said, one.asked) for one in outcomes if one.kind not in RIGHT] == []
     plain = sum(one.plain for one in outcomes)
-    # Three hundred designs have some sixty in plain level flight, of which one is 2 %: a second one is chance.
+    # A hundred designs have some twenty in plain level flight, of which one is 5 %: a second one is chance.
     assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
     # A free rotor has no equilibrium at many a load, and beyond 30 % stalled there is no power; of 80 these
     # were all 15 refusals.
@@ -235,8 +235,8 @@ def check_random(count: int, seed: int) -> None:
 
 
 @pytest.mark.slow
-def test_three_hundred_designs():
-    check_random(300, seed=5)
+def test_a_hundred_designs():
+    check_random(100, seed=5)
 
 
 @pytest.mark.slow
