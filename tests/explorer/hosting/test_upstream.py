@@ -1,4 +1,4 @@
-"""Patches for viser: each applies to the source that is installed, shows its fault there, and mends it.
+"""Patches for viser: each applies to the source that is installed; those in Python mend a fault that shows there.
 
 When a fault is no longer there, this viser has mended it: drop the patch and our own change in `viser_compat.py`.
 """
