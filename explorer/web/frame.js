@@ -147,9 +147,10 @@
   if (innerWidth <= 860) openRail(true);
   // The sheet follows the finger that pulls its edge; the canvas takes its new size when it is let go.
   const grip = root.querySelector('.rxf-grip');
-  let pull = null, pulled = -Infinity;
+  let pull = null, pulled = false;
   grip.addEventListener('pointerdown', event => {
     const high = Number.parseFloat(getComputedStyle(document.querySelector('[data-dock-region=right]') ?? grip).height);
+    pulled = false;
     pull = {y: event.clientY, high: page.matches('[data-drawer], [data-rail=open]') ? high : 0, moved: false};
     grip.setPointerCapture(event.pointerId);
   });
@@ -161,9 +162,9 @@
     page.style.setProperty('--rx-pulled', `${pull.now}px`);
     if (!page.matches('[data-drawer]')) page.dataset.rail = 'open';
   });
-  grip.addEventListener('click', event => { if (event.timeStamp - pulled < 400) event.stopPropagation(); });  // It was no press.
+  grip.addEventListener('click', event => { if (pulled && event.detail) event.stopPropagation(); });  // It ends a pull and is no press.
   grip.addEventListener('pointercancel', () => { pull = null; page.style.removeProperty('--rx-under'); });
-  grip.addEventListener('pointerup', event => {
+  grip.addEventListener('pointerup', () => {
     const {moved, now} = pull ?? {};
     pull = null;
     page.style.removeProperty('--rx-under');
@@ -171,7 +172,7 @@
     if (now < 90) page.style.removeProperty('--rx-pulled');
     if (now < 90 && state.bar?.drawer) RX.send('drawer', '');
     openRail(now >= 90);
-    pulled = event.timeStamp;
+    pulled = true;
   });
 
   function mark(mode) {
