@@ -45,7 +45,8 @@ def test_report_rail_and_command_say_the_same(against: Against):
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert sentence == [printed.splitlines()[0]]
     assert f"<b>{sentence[0]}</b>" in details_panel(one)
-    assert numbers(page) == [bar["text"] for bar in rail["bars"]]
+    needed = str.maketrans("+−", "−+")  # The page counts the power needed, the report the power saved.
+    assert numbers(page) == [bar["text"].translate(needed) for bar in rail["bars"]]
     assert f"<b>{rail['fuel']}</b>" in page
     of_command = re.findall(r"^  (?:gross|stiffness|mass|drive|net)[^-\d]*(-?[\d.]+) kW", printed, re.MULTILINE)
     assert [float(text.replace("−", "-")) for text in numbers(page)] == [float(text) for text in of_command]
