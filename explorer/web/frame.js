@@ -262,6 +262,7 @@
 
   // Words at points of the scene; each of these parts of the state is a list of them.
   const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels', 'landscape_labels'];
+  const LABEL_SHIFT = 60;  // [px]
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);
@@ -274,7 +275,7 @@
     });
   });
   function placeLabels(client, box) {
-    const taken = [], cards = [...root.querySelectorAll('.rxf-stage > .rxf-card, .rxf-low > .rxf-card')].map(card => card.getBoundingClientRect());
+    const taken = [], cards = [...root.querySelectorAll('.rxf-stage > .rxf-card, .rxf-low > .rxf-card')].map(card => card.getBoundingClientRect()).filter(card => card.width).map(card => [card.left - box.left, card.top - box.top, card.width, card.height]);
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
@@ -283,17 +284,18 @@
       if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
-      if (one.aside) {  // Beside its point, away from what it belongs to, and below a label that is there already.
+      if (one.aside) {  // Beside its point, away from what it belongs to.
         const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
         left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);
         top += label.offsetHeight / 2;
-        for (const [near, over, wide, high] of taken) if (left < near + wide && near < left + label.offsetWidth && top < over + high && over < top + high) top = over + high + 2;
       }
       left = Math.max(4, Math.min(left, box.width - label.offsetWidth - 4));
       top = Math.max(4, top);
-      // None lies behind a card or over another.
-      const [wide, high] = [label.offsetWidth, label.offsetHeight], meets = (x, y, w, h) => left < x + w && x < left + wide && top < y + h && y < top + high;
-      const free = !taken.some(other => meets(...other)) && !cards.some(card => card.width && meets(card.left - box.left, card.top - box.top, card.width, card.height));
+      // None lies behind a card or over another: it goes below what it meets, but not far from its point.
+      const [wide, high, wanted] = [label.offsetWidth, label.offsetHeight, top];
+      const met = () => [...taken, ...cards].find(([x, y, w, h]) => left < x + w && x < left + wide && top < y + h && y < top + high);
+      for (let other; top - wanted < LABEL_SHIFT && (other = met());) top = other[1] + other[3] + 2;
+      const free = !met();
       seen = free && at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1;
       if (seen) taken.push([left, top, wide, high]);
       label.style.visibility = seen ? 'visible' : 'hidden';
