@@ -60,8 +60,9 @@ def test_the_index_follows_twist_at_n_per_rev(watched: Watched):
     switch(watched)
     before = float(watched.reads("index", r"^\d\.\d$"))
     watched.mode("actuate")
-    for change in ("start", [1.0, 60.0], "end"):
-        watched.page.evaluate("change => RX.send('dial', [3, change])", change)
+    watched.page.wait_for_function("() => RX.state.dial?.settled", timeout=240_000)
+    for change in ("start", [[3, 1.0, 60.0]], "end"):
+        watched.page.evaluate("change => RX.send('dial', change)", change)
     settled = "() => RX.state.dial?.now.length === 1 && RX.state.dial.settled"
     watched.page.wait_for_function(settled, timeout=240_000)
     assert watched.page.evaluate("() => RX.state.dial.settled.index[0]") < -30.0  # [%] That of the design's own inflow.
