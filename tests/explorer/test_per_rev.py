@@ -243,7 +243,7 @@ def test_the_front_is_near_its_trims(whole: DialAnswer, answer: dict[str, object
     for dot in (dots[0], dots[-1]):
         power, index = changes(BENDING, (), dot.twist)
         full = abs(dot.power - power - lost(dot.twist))
-        half = [replace(wave, amplitude=0.5 * wave.amplitude) for wave in dot.twist]
+        half = tuple(replace(wave, amplitude=0.5 * wave.amplitude) for wave in dot.twist)
         power, _ = changes(BENDING, (), half)
         # What is left out is of third order: an eighth at half the twist, and a quarter would still be second order.
         assert abs(foreseen(answer, half)[0] - power - lost(half)) < max(full / 4.0, 0.02)
