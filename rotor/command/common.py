@@ -10,7 +10,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -131,10 +131,10 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     return make_design(**{name: value for name, value in changed.items() if value is not None})
 
 
-def add_output_arguments(parser: argparse.ArgumentParser) -> None:
+def add_output_arguments(parser: argparse.ArgumentParser, table: str = "the table") -> None:
     """`--csv` and `--json` of a command that prints a table."""
     parser.add_argument(
-        "--csv", metavar="FILE", help="write the table to a file as well; - prints it in place of all else"
+        "--csv", metavar="FILE", help=f"write {table} to a file as well; - prints it in place of all else"
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
@@ -162,6 +162,12 @@ def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> 
         write_whole(path, text.getvalue())
     except OSError as error:
         raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
+
+
+def write_records(path: str, records: Sequence[Mapping[str, object]]) -> None:
+    """Records that share their keys, as CSV below these; None is an empty cell."""
+    cells = (["" if value is None else str(value) for value in record.values()] for record in records)
+    write_table(path, [tuple(records[0]), *cells])
 
 
 def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:

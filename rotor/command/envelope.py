@@ -11,7 +11,7 @@ from rotor.command.common import (
     check_output,
     design_from,
     print_result,
-    write_table,
+    write_records,
 )  # fmt: skip
 from rotor.study.envelope import SPEEDS, Envelope, Reach, envelope
 from rotor.terminal import wrapped
@@ -48,8 +48,7 @@ def run(args: argparse.Namespace) -> int:
         ]
     rows = [{"envelope": each.label, **point.record()} for each in envelopes for point in each.points]
     if args.csv:
-        cells = (["" if cell is None else str(cell) for cell in row.values()] for row in rows)
-        write_table(args.csv, [tuple(rows[0]), *cells])
+        write_records(args.csv, rows)
     print_result(args, lambda: [each.record() for each in envelopes], lambda: "\n\n".join(map(report, envelopes)))
     return 0 if all(point.load_factor.value is not None for each in envelopes for point in each.points) else 1
 

@@ -12,11 +12,14 @@ from tqdm import tqdm
 from rotor.command.common import (
     STOPPED,
     add_command,
+    add_output_arguments,
     add_processes_argument,
     bar,
+    check_output,
     interruptible,
     print_result,
     processes_from,
+    write_table,
 )
 from rotor.reproduce.ladder import (
     FAST,
@@ -29,6 +32,7 @@ from rotor.reproduce.ladder import (
     Least,
     MovingTwist,
     Step,
+    Ways,
     calls,
     check_speeds,
     climb,
@@ -114,7 +118,7 @@ def add_ladder(commands: Any) -> None:
     )
     parser.add_argument("--mu", metavar="A:B:STEP", help="hover (0) and advance ratios (default 0,0.1,0.15,…,0.35)")
     add_processes_argument(parser)
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    add_output_arguments(parser)
 
 
 def run_ladder(args: argparse.Namespace) -> int:
@@ -122,11 +126,14 @@ def run_ladder(args: argparse.Namespace) -> int:
     from rotor.reproduce.runs import compute_ahead
 
     speeds = check_speeds(parse_range(args.mu)) if args.mu else SPEEDS
+    check_output(args)
     groups = calls(speeds)
     with interruptible() as stop, bar(len({call for group in groups for call in group}), "optimum") as advance:
         if compute_ahead(groups, processes_from(args), advance, stop):
             return STOPPED
     ladder = climb(speeds)
+    if args.csv:
+        write_table(args.csv, ladder_rows(ladder))
     print_result(args, lambda: ladder_record(ladder), lambda: ladder_text(ladder))
     return 0
 
@@ -159,6 +166,23 @@ def ladder_text(ladder: Ladder) -> str:
         for row in ladder.inflows
     ]
     return "\n".join(lines)
+
+
+def ladder_rows(ladder: Ladder) -> list[tuple[str, ...]]:
+    """The CSV: a line for each step, or inflow model of the preset flight, and advance ratio.
+
+    A step moves the best twist in the ladder, alone on thesis, and taken back alone from flight, at some of them.
+    """
+    rows = [("step", "mu", "best_twist_deg", "power_w", *(f"{way}_deg" for way in Ways._fields))]
+    for name, best, moves in (
+        *((step.name, step.best, step.moves) for step in ladder.steps),
+        *((row.inflow, row.best, ()) for row in ladder.inflows),
+    ):
+        moved = dict(zip(ladder.named, moves, strict=False))
+        for mu, least in zip(ladder.speeds, best, strict=True):
+            ways = (f"{way:.3f}" for way in moved[mu]) if mu in moved else [""] * len(Ways._fields)
+            rows.append((name, f"{mu:g}", f"{least.rate_deg:.3f}", f"{1e3 * least.power_kw:.1f}", *ways))
+    return rows
 
 
 def _rates(best: Sequence[Least]) -> str:

@@ -11,9 +11,12 @@ from rotor.actuator.section import Host, default_placement
 from rotor.command.common import (
     add_command,
     add_design_arguments,
+    add_output_arguments,
+    check_output,
     design_from,
     finite,
     print_result,
+    write_records,
 )
 from rotor.dynamics.structure import check_blade
 from rotor.terminal import wrapped
@@ -37,7 +40,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
     parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
     add_design_arguments(parser, speed=True)
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    add_output_arguments(parser, "the modes, or with --boundary its lines,")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -46,6 +49,7 @@ def run(args: argparse.Namespace) -> int:
     if args.actuator is None and args.plies is not None:
         raise ValueError("--plies needs an actuator: add --actuator, for example MFC_P1")
     offsets = tuple(0.01 * place for place in parse_range(args.boundary)) if args.boundary else ()
+    check_output(args)
     try:
         if args.actuator is not None:
             check_blade(design.aircraft)
@@ -61,8 +65,10 @@ def run(args: argparse.Namespace) -> int:
         message = {"status": "not-converged", "message": str(error)}
         print(json.dumps(message, indent=2) if args.json else f"not converged: {error}")
         return 1
-    beside = {"boundary": [_record(point) for point in points]} if offsets else {}
-    print_result(args, lambda: result.to_dict() | beside, lambda: _report(result.table(), points))
+    record = result.to_dict() | ({"boundary": [_record(point) for point in points]} if offsets else {})
+    if args.csv:
+        write_records(args.csv, record["boundary" if offsets else "modes"])
+    print_result(args, lambda: record, lambda: _report(result.table(), points))
     return 0
 
 

@@ -14,7 +14,15 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from rotor.command.common import STOPPED, add_command, interruptible, print_result
+from rotor.command.common import (
+    STOPPED,
+    add_command,
+    add_output_arguments,
+    check_output,
+    interruptible,
+    print_result,
+    write_records,
+)
 from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
 from rotor.study.run import (
@@ -165,14 +173,14 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
     parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: uncertain axes")
-    parser.add_argument("--json", action="store_true", help="with show: machine-readable output")
+    add_output_arguments(parser, "all points, with show,")
 
 
 def run(args: argparse.Namespace) -> int:
     """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C; finished chunks are kept."""
     if args.file == "show":
         return _show(args)
-    for flag in ("folder", "least", "uncertain", "json"):
+    for flag in ("folder", "least", "uncertain", "csv", "json"):
         if getattr(args, flag):
             name = repr(args.folder) if flag == "folder" else f"--{flag}"
             raise ValueError(f"{name} belongs to show: write `study show DIR`")
@@ -284,6 +292,11 @@ def _show(args: argparse.Namespace) -> int:
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)
+    check_output(args)
+    if args.csv:
+        names = tuple(results.columns)
+        rows = zip(*results.columns.values(), strict=True)
+        write_records(args.csv, [{name: _plain(v) for name, v in zip(names, row, strict=True)} for row in rows])
     print_result(args, lambda: shown, lambda: report(results, shown))
     return 0
 

@@ -124,6 +124,10 @@ def test_stability_as_text_and_as_json(capsys: pytest.CaptureFixture[str]):
     first, aft = found["boundary"]
     assert first["instability_stiffness_percent"] < aft["instability_stiffness_percent"]
     assert first["instability_stiffness_percent"] == found["margins"]["instability_stiffness_percent"]
+    rows = list(csv.DictReader(io.StringIO(run(capsys, "stability", "--hover", "--csv", "-"))))
+    assert [row["name"] for row in rows] == [mode["name"] for mode in found["modes"]]
+    rows = csv.DictReader(io.StringIO(run(capsys, "stability", "--hover", "--boundary", "0:4:4", "--csv", "-")))
+    assert [{name: float(cell) for name, cell in row.items()} for row in rows] == found["boundary"]
 
 
 def test_stability_refuses_what_it_cannot_do(capsys: pytest.CaptureFixture[str]):

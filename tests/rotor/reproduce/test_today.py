@@ -1,5 +1,7 @@
 """Quoted literature and the last chapter: conditions that hold whatever the numbers are."""
 
+import csv
+import io
 import json
 import re
 from pathlib import Path
@@ -99,6 +101,13 @@ def test_the_ladder_on_the_command_line(ladder: Ladder, capsys: pytest.CaptureFi
     assert main(["ladder", "--mu", "0,0.35", "--processes", "1"]) == 0
     printed = capsys.readouterr().out
     assert all(words in printed for words in RUNGS.values())
+    assert main(["ladder", "--mu", "0,0.35", "--processes", "1", "--csv", "-"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    fast = [row for row in rows if row["mu"] == "0.35"]
+    assert [row["step"] for row in fast] == ["thesis", *RUNGS, *(one["inflow"] for one in found["wakes"])]
+    assert_allclose(float(fast[0]["best_twist_deg"]), ladder.steps[0].best[1].rate_deg, atol=5e-4)
+    assert {row["in_ladder_deg"] for row in rows if row["mu"] == "0"} == {""}
+    assert_allclose(float(fast[1]["in_ladder_deg"]), ladder.steps[1].moves[0].in_ladder, atol=5e-4)
     moves = found["trim"]["moves"][0]
     assert moves["in_ladder_deg"] == found["trim"]["moves_deg"] == ladder.moves("trim", 0.35).in_ladder
     assert main(["ladder", "--mu", "0.03,0.2"]) == 2

@@ -1,6 +1,8 @@
 """Studies: the file, the order of points, rows, the folder, and reading its results."""
 
+import csv
 import importlib
+import io
 import json
 import math
 import signal
@@ -356,6 +358,10 @@ def test_show_is_text_and_json(
     out = capsys.readouterr().out
     assert "least stalled_area_percent" in out
     assert "depends on, from the finished points" in out
+    assert main(["study", "show", str(tmp_path / "out"), "--csv", "-"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert [float(row["point"]) for row in rows] == read_results(tmp_path / "out").columns["point"].tolist()
+    assert min(float(row["power_total_w"]) for row in rows) == shown["best"]["power_total_w"]
     assert main(["study", "show", str(tmp_path / "out"), "--least", "noise"]) == 2
     assert "noise" in capsys.readouterr().err
 
