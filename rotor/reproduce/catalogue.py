@@ -57,7 +57,6 @@ _SLOW: dict[str, tuple[Callable[[], Report], Searches]] = {
     "today": (today.today, today.needed),
 }
 _FAST: dict[str, Callable[[], Report]] = {
-    "literature": today.literature,
     "2.7": disk_figures.figure_2_7,
     "2.8": disk_figures.figure_2_8,
     **{number: partial(implementation.error_figure, number) for number in ("3.3", "3.4")},
@@ -119,7 +118,6 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
 
 
 _TESTS = {
-    "Literature": "test_today.py::test_useful_load_at_equal_power",
     "Readings": "test_readings.py::test_the_preset_is_the_reading_that_holds_most",
 }
 """Tests of the entries that the test file of no chapter holds, by title."""

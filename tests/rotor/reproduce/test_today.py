@@ -1,4 +1,4 @@
-"""Quoted literature and the last chapter: conditions that hold whatever the numbers are."""
+"""The ladder and the last chapter: conditions that hold whatever the numbers are."""
 
 import csv
 import io
@@ -13,46 +13,9 @@ from numpy.testing import assert_allclose
 from rotor.__main__ import main
 from rotor.files.make_design import make_design
 from rotor.reproduce.catalogue import find_entry
-from rotor.reproduce.ladder import RUNGS, STRONG, TRIM, WEAK, Ladder, built, climb
+from rotor.reproduce.ladder import RUNGS, TRIM, Ladder, built, climb
 from rotor.reproduce.page import TALK, write_report, write_talk
-from rotor.reproduce.today import download_of_twist, gain_of_2_per_rev, mass_for_equal_power, shear_tube
 from rotor.trim.solve import solve
-
-
-@pytest.mark.slow
-def test_useful_load_at_equal_power():
-    """With the mass that was found, the strong twist needs the weak one's power."""
-    mass = make_design().condition.mass
-    heavier = mass * (1.0 + mass_for_equal_power())
-    powers = [
-        solve(make_design(twist=f"linear:{rate}", mu=0.0, mass_kg=kg)).require().power.main_rotor
-        for rate, kg in ((STRONG, heavier), (WEAK, mass))
-    ]
-    assert_allclose(powers[0], powers[1], rtol=2e-4)
-
-
-@pytest.mark.slow
-def test_gain_of_2_per_rev_is_small_and_its_phase_between_the_six():
-    """A per cent or two, as measured in tunnels, and nothing without amplitude."""
-    saving, phase, lift_over_drag = gain_of_2_per_rev(1.5)
-    assert 0.0 < saving < lift_over_drag < 0.06  # Of a smaller number: power less that of the propulsive force.
-    assert 0.0 <= phase < 360.0
-    assert abs(gain_of_2_per_rev(0.0)[0]) < 1e-9
-
-
-@pytest.mark.slow
-def test_download_follows_the_twist():
-    """More twist moves the inflow inboard, over the fuselage."""
-    more, of_gain = download_of_twist()
-    assert 0.0 < more < 0.1
-    assert 0.0 < of_gain < 1.0
-
-
-def test_a_tube_in_shear_by_hand():
-    """741 pm/V at 0.5 kV/mm is 370 microstrain; over 7.11 m of a tube of 20 mm radius that is 7.5°."""
-    free, held = shear_tube()
-    assert_allclose(free, np.degrees(741e-12 * 5e5 * 7.112 / 0.02), rtol=1e-3)
-    assert 0.0 < held < 0.1 * free
 
 
 @pytest.fixture(scope="module")
