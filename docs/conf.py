@@ -1,19 +1,14 @@
 """The documentation site: `make docs` builds it with Sphinx, warnings as errors, into `dist/docs`.
 
-Markdown is read by MyST, the notebooks are run by sphinx-gallery, formulas become MathML. Three directives run the
-program while the site is built, so that no page holds a typed result: `run` prints what a command prints, `picture`
-draws one of `pictures.py`, `commands` prints the help of every command. The built pages ask no other host for
-anything; the last step of the build checks that.
+Markdown is read by MyST, the notebooks are run by sphinx-gallery, formulas become MathML. No page holds a typed result:
+`command-output` shows what a command prints, `picture` draws one of `pictures.py`, `commands` prints the help of every
+command. The built pages ask no other host for anything; the last step of the build checks that.
 """
 
 import argparse
-import contextlib
-import io
 import os
 import re
-import shlex
 import sys
-import tempfile
 from pathlib import Path
 
 import matplotlib
@@ -28,7 +23,9 @@ from sphinx.writers.html5 import HTML5Translator
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path[:0] = [str(ROOT), str(HERE)]
-os.environ["COLUMNS"] = "96"  # Width of the help of the commands.
+os.environ["COLUMNS"] = "96"  # Width of what commands print.
+os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"  # Its own `python`.
+os.environ["PYTHONPATH"] = str(ROOT)
 
 import pictures  # noqa: E402
 import theory_figures  # noqa: E402
@@ -38,7 +35,6 @@ from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import report  # noqa: E402
 from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import build_parser  # noqa: E402
-from rotor.__main__ import main as rotor_main  # noqa: E402
 
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
@@ -50,6 +46,7 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
+    "sphinxcontrib.programoutput",
 ]
 exclude_patterns = ["developers", "templates", "notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
@@ -98,37 +95,6 @@ sphinx_gallery_conf = {
 }
 
 
-class Run(SphinxDirective):
-    """`run`: a command of the program and what it prints. With files in the body, one after a line `== NAME`."""
-
-    required_arguments = 1
-    final_argument_whitespace = True
-    has_content = True
-    folder = tempfile.TemporaryDirectory(prefix="rotor-docs-")
-    """Where the commands of all pages run; files of one remain for the next."""
-
-    def run(self) -> list[nodes.Node]:
-        command = self.arguments[0]
-        name = ""
-        for line in self.content:
-            if line.startswith("== "):
-                name = line[3:]
-                Path(self.folder.name, name).write_text("", encoding="utf-8")
-            else:
-                with Path(self.folder.name, name).open("a", encoding="utf-8") as file:
-                    file.write(f"{line}\n")
-        words = shlex.split(command)
-        if words[:3] != ["python", "-m", "rotor"]:
-            raise self.error(f"{command}: only python -m rotor is run here")
-        out = io.StringIO()
-        with contextlib.chdir(self.folder.name), contextlib.redirect_stdout(out):
-            code = rotor_main(words[3:])
-        if code != 0:
-            raise self.error(f"{command} ended with {code}")
-        text = f"$ {command}\n{out.getvalue().rstrip()}"
-        return [nodes.literal_block(text, text, language="text")]
-
-
 class Picture(SphinxDirective):
     """`picture`: what a function of `pictures.py` or `theory_figures.py` draws, as HTML; the body is its caption."""
 
@@ -140,16 +106,6 @@ class Picture(SphinxDirective):
         self.env.note_dependency(module.__file__)
         drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
         return [drawn, *self.parse_content_to_nodes()]
-
-
-class Division(SphinxDirective):
-    """`div`: what is in it, in a division of the page of the class named."""
-
-    optional_arguments = 1
-    has_content = True
-
-    def run(self) -> list[nodes.Node]:
-        return [nodes.container("", *self.parse_content_to_nodes(), classes=self.arguments, is_div=True)]
 
 
 class Commands(SphinxDirective):
@@ -252,9 +208,7 @@ def check_hosts(app: Sphinx, error: Exception | None):
 
 
 def setup(app: Sphinx):
-    app.add_directive("run", Run)
     app.add_directive("picture", Picture)
-    app.add_directive("div", Division)
     app.add_directive("commands", Commands)
     app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))

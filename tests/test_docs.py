@@ -178,7 +178,7 @@ def page_with_a_chart(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
     (folder / "in").mkdir()
     (folder / "in" / "index.md").write_text(CHART, encoding="utf-8")
-    extensions = "extensions=myst_parser,sphinx.ext.autodoc"
+    extensions = "extensions=myst_parser,sphinx.ext.autodoc,sphinxcontrib.programoutput"
     places = str(folder / "in"), str(folder / "out")
     command = (sys.executable, "-m", "sphinx", "-q", "-b", "html", "-c", str(DOCS), "-D", extensions, *places)
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)

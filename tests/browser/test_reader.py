@@ -32,7 +32,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     docs, out = ROOT / "docs", tmp_path_factory.mktemp("site")
     pages = {path.relative_to(docs).as_posix() for path in docs.rglob("*.md")}
     left_out = ",".join([*sorted(pages - READ), "_made", "notebooks", "templates"])
-    options = ("-D", "extensions=myst_parser,sphinx.ext.autodoc", "-D", f"exclude_patterns={left_out}")
+    options = (
+        "-D",
+        "extensions=myst_parser,sphinx.ext.autodoc,sphinxcontrib.programoutput",
+        "-D",
+        f"exclude_patterns={left_out}",
+    )
     command = (sys.executable, "-m", "sphinx", "-q", "-b", "html", *options, str(docs), str(out))
     subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
     return out
