@@ -136,7 +136,9 @@ class Page:
         self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
+        bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
+        bridge.on("aim", lambda _: self.camera.come_back())
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         self.file.begin(problems, retired)
@@ -372,6 +374,15 @@ class Page:
         self._client.gui.configure_theme(
             dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
         )
+
+    def _default(self, label: str) -> None:
+        """A slider was double-clicked."""
+        if self.context.held:
+            return
+        if self.layout.mode == "explore":
+            self.controls.default(label, self._opening)
+        else:
+            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview or a flight, ends."""

@@ -150,11 +150,11 @@ _radius, _hand = _number(0.0, 1.0), _word("start", "end")
 PRESSES: dict[str, Check] = {
     **dict.fromkeys(
         ("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard",
-         "halt", "land", "nearest"),
+         "halt", "land", "nearest", "aim"),
         _nothing,
     ),
     **dict.fromkeys(("along", "hold"), _flag),
-    **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown"), _text),
+    **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _text),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _count),
     **dict.fromkeys(("grab_at", "twist_by_hand"), _radius),
     "ride": _either(_word("off"), _row(_radius, _number(-3600.0, 3600.0)), _nothing),

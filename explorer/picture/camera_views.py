@@ -1,4 +1,4 @@
-"""Camera positions that fit the rotor or a blade into the canvas, and from a click to a point of the disk."""
+"""Camera positions that fit the rotor or a blade into the canvas, and the section that a click means."""
 
 import math
 from dataclasses import dataclass
@@ -7,8 +7,18 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from explorer.model.inputs import ViewState
 from explorer.picture.airframe import size
-from explorer.picture.picture import compose, disk_drop, rotate, rotor_pose, tip_path_pose
+from explorer.picture.blade_mesh import blade_shape
+from explorer.picture.picture import (
+    compose,
+    disk_drop,
+    flown_vertices,
+    rotate,
+    rotor_pose,
+    tip_path_pose,
+    turned_blades,
+)
 from rotor import Solution
 from rotor.arrays import Array
 
@@ -230,8 +240,47 @@ def _blade(radius: float, azimuth: float) -> Array:
     )
 
 
+_CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
+"""Times a unit quaternion: the rotation back."""
 _BESIDE = 0.02
 """A click this far [R] beside the blade's reach still means its end."""
+
+
+def pick_blade(
+    solution: Solution, view: ViewState, origin: ArrayLike, direction: ArrayLike
+) -> tuple[float, float] | None:
+    """(r/R, ψ [deg]) of the section that a ray of the world meets first on a blade as it is drawn: twisted, flapped,
+    bent. None where it misses all blades."""
+    rotor = solution.design.rotor
+    cutout, hinge = rotor.blade.root_cutout, rotor.blade.flap_hinge * rotor.radius
+    shaft, faces = rotor_pose(solution.controls).wxyz, blade_shape(rotor).faces
+    nearest, found = math.inf, None
+    for k, pose in enumerate(turned_blades(solution, view, each=False).poses):
+        psi_deg = (view.azimuth_deg + 360.0 * k / rotor.blades) % 360.0
+        back = compose(shaft, pose.wxyz) * _CONJUGATE
+        start = rotate(back, np.asarray(origin, dtype=np.float64) - rotate(shaft, pose.position))
+        along = rotate(back, np.asarray(direction, dtype=np.float64))
+        distance = _first_hit(flown_vertices(solution, view, math.radians(psi_deg))[faces], start, along)
+        if distance < nearest:
+            r = (float((start + distance * along)[0]) + hinge) / rotor.radius  # Sections stand across the blade's x.
+            nearest, found = distance, (min(max(r, cutout), 1.0), psi_deg)
+    return found
+
+
+def _first_hit(triangles: Array, start: Array, along: Array) -> float:
+    """How many times `along` from `start` a ray meets the first of the triangles, (n, 3, 3); ∞ where it meets none.
+
+    Möller and Trumbore, Journal of Graphics Tools 2 (1997) 21.
+    """
+    corner, one, other = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(along, other)
+    with np.errstate(divide="ignore", invalid="ignore"):  # Triangles seen edge-on.
+        scale = 1.0 / np.einsum("ij,ij->i", one, across)
+        u = scale * ((start - corner) * across).sum(axis=1)
+        turned = np.cross(start - corner, one)
+        v, distance = scale * (turned @ along), scale * (other * turned).sum(axis=1)
+        met = distance[(u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (distance > 0.0)]
+    return float(met.min(initial=math.inf))
 
 
 def pick(solution: Solution, origin: ArrayLike, direction: ArrayLike) -> tuple[float, float] | None:
@@ -241,7 +290,7 @@ def pick(solution: Solution, origin: ArrayLike, direction: ArrayLike) -> tuple[f
     turn = compose(shaft.wxyz, disk.wxyz)
     centre = shaft.position + rotate(shaft.wxyz, disk.position)
     start, along = np.asarray(origin, dtype=np.float64), np.asarray(direction, dtype=np.float64)
-    back = turn * np.array([1.0, -1.0, -1.0, -1.0])
+    back = turn * _CONJUGATE
     start, along = rotate(back, start - centre), rotate(back, along)
     if abs(along[2]) < 1e-9 * float(np.linalg.norm(along)):
         return None  # Along the plane: it is seen edge-on.

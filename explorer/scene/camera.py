@@ -58,6 +58,10 @@ class FittedCamera:
         self._view, self.subject = view, None
         self._aim(partial(self._fitted, view), eased)
 
+    def come_back(self) -> None:
+        """The user has turned it: show the subject again."""
+        self._aim(self._fit, eased=True)
+
     def _fitted(self, view: View, aspect: float) -> Camera:
         return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover, self._beside)
 

@@ -57,11 +57,6 @@ def motion_of(solution: Solution, root: str = ROTOR) -> dict[str, Any]:
     }
 
 
-def tie(client: viser.ClientHandle, *nodes: str) -> None:
-    """Let the page turn these nodes about the shaft with the reference blade while the rotor plays, and no others."""
-    call(client, "rotorScene.tie", nodes)
-
-
 class PageScene:
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client

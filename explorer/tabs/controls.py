@@ -121,6 +121,12 @@ class DesignControls:
         self.pauses.moved(time.monotonic())
         self.set_inputs(changed)
 
+    def default(self, label: str, opening: Inputs) -> None:
+        """Put the slider with this label where `opening` has it, or another rotor as it is built."""
+        now = self.inputs()
+        base = opening if now.rotor == opening.rotor else with_rotor(opening, now.rotor, now.own_rotor)
+        self.change(**{name: getattr(base, name) for name in self._form.sliders(label)})
+
     def follow(self, preview: Inputs | None) -> None:
         """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
         with self._moving:

@@ -52,6 +52,8 @@ class Form:
         self._handles: dict[str, Any] = {}
         self._titles: dict[str, Mapping[Any, str]] = {}
         """Titles of each menu, by what its titles mean."""
+        self._defaults: dict[str, float] = {}
+        """Where sliders began."""
         self._below: dict[str, viser.GuiHtmlHandle] = {}
         self._units = SI
 
@@ -59,7 +61,7 @@ class Form:
         self, name: str, form: Slider, value: float, *, entry: str = "", visible: bool = True, below: str = ""
     ) -> None:
         """`entry`: of the glossary, where it has another name. `below`: HTML under the slider, shown with it."""
-        place = min(max(value, form.low), form.high)
+        place = self._defaults[name] = min(max(value, form.low), form.high)
         self._add(
             name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
         )
@@ -111,6 +113,16 @@ class Form:
     def values(self) -> dict[str, Any]:
         """All of them, by name."""
         return {name: self[name] for name in self._handles}
+
+    def sliders(self, label: str) -> list[str]:
+        """Names of the sliders that are shown with this label."""
+        return [n for n in self._defaults if self._handles[n].label == label and self._handles[n].visible]
+
+    def default(self, label: str) -> None:
+        """Put the sliders with this label back to where they began, as a hand does."""
+        for name in self.sliders(label):
+            self.place(name, self._defaults[name])
+            self._moved(name, True)
 
     def place(self, name: str, value: Any) -> None:
         """Move a widget; nothing is sent where it is there already."""

@@ -13,10 +13,10 @@ from explorer import colours
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.picture.blade_mesh import circle_segments, drawn_pitch
-from explorer.picture.camera_views import pick
-from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist
-from explorer.scene.controller import SceneController, tie
+from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
+from explorer.picture.camera_views import pick, pick_blade
+from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist, rotate
+from explorer.scene.controller import SceneController
 from explorer.tabs.context import Player, Tab, TabContext
 from explorer.tabs.element import Probe, Ride, probe
 from explorer.tabs.layout import COARSE, by_hand
@@ -29,62 +29,60 @@ from rotor.arrays import Array
 from rotor.markup import Markup
 
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
-"""Casing and line."""
+"""The dark line and the light one."""
 
 _DISK, _BLADE = "/rotor/disk/probe", "/rotor/blade_0/probe"
 _RING = 0.036
 """Radius of the ring [R]."""
-_WIDER = 1.12
-"""The section's outline stands off the blade by this factor."""
+_LABEL_ABOVE = 0.4
+"""Height of the label above the probe [m]."""
+_WIDER = 1.16
+"""The dark ring about the light one, in its radii."""
 
 
 class Cursor:
-    """Handles made once; a step of the probe only turns and shifts them, except on the blade."""
+    """On the reference blade, where that is at the probe, else on the disk. Handles are made once."""
 
-    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
-        self._client, self._bridge, api = client, bridge, client.scene
-        self._tied = False
+    def __init__(self, api: viser.SceneApi, bridge: Bridge) -> None:
+        self._bridge = bridge
         self._rotor: Rotor | None = None
         self._turned = api.add_frame(_DISK, show_axes=False, visible=False)
         self._at = api.add_frame(f"{_DISK}/at", show_axes=False)
         self._ray = _cased(api, f"{_DISK}/ray", 1.2, 2.8)
-        self._ring = _cased(api, f"{_DISK}/at/ring", 2.2, 5.0)
-        self._section = _cased(api, _BLADE, 2.2, 5.0)
-        for handle in self._section:
+        self._ring = _cased(api, f"{_DISK}/at/ring", 2.2, 1.4)
+        self._on_blade = _cased(api, _BLADE, 2.2, 1.4)
+        for handle in self._on_blade:
             handle.visible = False
         self._drawn: tuple[object, ...] | None = None
 
-    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, tied: bool, bent: Array | None = None) -> None:
+    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, bent: Array | None = None) -> None:
         """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there.
-        `bent`: where bending moves the section to, as drawn [m], (1, 3).
-
-        `tied`: the page turns it with the blade, which is ahead of or behind what the server knows.
-        """
+        `bent`: where bending moves the section to, as drawn [m], (1, 3)."""
         self._scale(rotor)
-        self._turned.visible = True
-        if tied != self._tied:
-            self._tied = tied
-            tie(self._client, *([_DISK] if tied else []))
-        if not tied:
+        node, at = f"{_DISK}/at", np.zeros(3)
+        self._turned.visible = pitch is None
+        if pitch is None:
             self._turned.wxyz = about(2, probe.psi)
-        self._at.position = np.array([probe.radius, 0.0, 0.0])
+            self._at.position = np.array([probe.radius, 0.0, 0.0])
+        else:
+            node, at[0] = "/rotor/blade_0", probe.radius - rotor.blade.flap_hinge * rotor.radius
+            at += 0.0 if bent is None else bent[0]
         words = f"α {number(math.degrees(probe.alpha), 1)}°"
-        self._bridge.set(probe_label=[{"text": words, "node": f"{_DISK}/at", "at": [0.0, 0.0, 0.4]}])
-        shift = None if bent is None else tuple(bent[0].tolist())
-        wanted = None if pitch is None else (rotor, probe.r, pitch, shift)
+        above = (at + np.array([0.0, 0.0, _LABEL_ABOVE])).round(3).tolist()
+        self._bridge.set(probe_label=[{"text": words, "node": node, "at": above}])
+        wanted = None if pitch is None else (rotor, probe.r, pitch, at.tolist())
         if wanted == self._drawn:
             return
         self._drawn = wanted
-        for handle in self._section:
+        for handle in self._on_blade:
             handle.visible = pitch is not None
         if pitch is not None:
-            loop = section_loop(rotor, probe, pitch)
-            _draw(self._section, loop if bent is None else loop + bent)
+            _draw_ring(self._on_blade, rotor, at + _on_upper_side(rotor, probe, pitch), pitch)
 
     def hide(self) -> None:
         self._turned.visible, self._drawn = False, None
         self._bridge.set(probe_label=[])
-        for handle in self._section:
+        for handle in self._on_blade:
             handle.visible = False
 
     def _scale(self, rotor: Rotor) -> None:
@@ -93,12 +91,13 @@ class Cursor:
             return
         self._rotor, radius = rotor, rotor.radius
         ray = np.array([[[rotor.blade.root_cutout * radius, 0.0, 0.0], [(1.0 - _RING) * radius, 0.0, 0.0]]])
-        _draw(self._ray, ray)
-        _draw(self._ring, circle_segments(_RING * radius, 28))
+        for step, handle in enumerate(self._ray):
+            handle.points = (ray + np.array([0.0, 0.0, (2.0 + step) * LINE_LIFT])).astype(np.float32)
+        _draw_ring(self._ring, rotor, np.array([0.0, 0.0, 3.0 * LINE_LIFT]))
 
 
 def _cased(api: viser.SceneApi, name: str, pixels: float, casing: float) -> Cased:
-    """A light line in a dark casing, that reads on every colour of the disk and on the blade; no place as yet."""
+    """A light line and a dark one, that read on every colour of the disk and on the blade; no place as yet."""
     some = circle_segments(0.1, 8).astype(np.float32)
     under, over = (
         api.add_line_segments(name + end, some, colour, thickness=width, thickness_units="screen")
@@ -107,20 +106,18 @@ def _cased(api: viser.SceneApi, name: str, pixels: float, casing: float) -> Case
     return under, over
 
 
-def _draw(lines: Cased, segments: Array) -> None:
-    for step, handle in enumerate(lines):
-        handle.points = (segments + np.array([0.0, 0.0, (2.0 + step) * LINE_LIFT])).astype(np.float32)
+def _draw_ring(lines: Cased, rotor: Rotor, middle: Array, pitch: float = 0.0) -> None:
+    """About a point [m], tilted by a pitch [rad]; the dark ring lies beside the light one, or it would cover it."""
+    for handle, wider in zip(lines, (_WIDER, 1.0), strict=True):
+        ring = circle_segments(wider * _RING * rotor.radius, 28)
+        handle.points = (middle + rotate(about(0, pitch), ring)).astype(np.float32)
 
 
-def section_loop(rotor: Rotor, probe: Probe, pitch: float) -> Array:
-    """The probed section a little widened, in the blade's own axes [m]; segments of shape (n, 2, 3)."""
-    middle = np.array([-0.25, 0.0])
-    shape = _WIDER * (outline(probe.section) - middle) + middle
-    y, z = float(rotor.blade.chord(probe.r)) * shape.T
-    cos, sin = math.cos(pitch), math.sin(pitch)
-    out = np.full_like(y, probe.radius - rotor.blade.flap_hinge * rotor.radius)
-    loop = np.stack((out, y * cos - z * sin, y * sin + z * cos), axis=1)
-    return np.stack((loop, np.roll(loop, -1, axis=0)), axis=1)
+def _on_upper_side(rotor: Rotor, probe: Probe, pitch: float) -> Array:
+    """From the pitch axis to the middle of the probed section's upper side, in the blade's own axes [m]."""
+    chord, top = float(rotor.blade.chord(probe.r)), float(outline(probe.section)[:, 1].max())
+    aft = 0.25 * chord + float(swept_back(rotor, probe.r))
+    return rotate(about(0, pitch), np.array([0.0, -aft, top * chord]))
 
 
 LONGEST = 600.0
@@ -143,9 +140,9 @@ class ProbePanel(Tab):
     def __init__(self, context: TabContext, scene: SceneController) -> None:
         client, self._context, self._scene = context.client, context, scene
         self._seen = True
-        self._drawn: tuple[Solution, _ProbePoint, float | None, bool] | None = None
+        self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = Markup()
-        self._cursor = Cursor(client, context.bridge)
+        self._cursor = Cursor(client.scene, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
@@ -189,20 +186,19 @@ class ProbePanel(Tab):
         place = self._place()
         r = min(max(place.r, self._r.min), 1.0)
         here = probe(solution, r, math.radians(place.psi_deg))
-        tied = (
+        at_blade = (
             self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         )
-        pitch = _drawn_pitch(state, here) if tied else None
-        rides = self._follow.value and self._player.playing
-        if self._drawn == (solution, place, pitch, rides):
+        pitch = _drawn_pitch(state, here) if at_blade else None
+        if self._drawn == (solution, place, pitch):
             return
-        self._drawn = solution, place, pitch, rides
+        self._drawn = solution, place, pitch
         self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
         self._panel.content = self._html
         with self._context.client.atomic():
             if place.shown:
                 bent = drawn_bending(solution, [here.r], math.radians(state.view.azimuth_deg))
-                self._cursor.show(solution.design.rotor, here, pitch, rides, bent)
+                self._cursor.show(solution.design.rotor, here, pitch, bent)
             else:
                 self._cursor.hide()
 
@@ -309,9 +305,11 @@ class ProbePanel(Tab):
         state = self._context.state()
         if state is None or not self._seen:
             return
-        picked = pick(state.solution, event.ray_origin, event.ray_direction)
+        origin = np.array(event.ray_origin) - self._scene.scene.rotor.frame.position
+        on_blade = pick_blade(state.solution, self._context.view(), origin, event.ray_direction)
+        picked = on_blade or pick(state.solution, origin, event.ray_direction)
         if picked is not None:
-            self._set(picked[0], round(math.degrees(picked[1])) % 360)
+            self._set(picked[0], picked[1] if on_blade else round(math.degrees(picked[1])) % 360)
             self._context.layout.open_drawer("probe")
 
 

@@ -120,6 +120,11 @@
   }, true);
   for (const end of ['pointerup', 'pointercancel'])
     addEventListener(end, event => { if (holding && event.isPrimary) { holding = false; setTimeout(() => RX.send('hold', false), 80); } }, true);
+  // A double click on the handle of a slider, or on its label, puts it back.
+  document.addEventListener('dblclick', event => {
+    const near = event.target instanceof Element && event.target.closest('.mantine-Slider-thumb, label'), row = near && near.closest('[class*=Flex-root]:has(.mantine-Slider-root):has(label)');
+    if (row && row.closest('[data-dock-region]')) RX.send('default', row.querySelector('label').textContent);
+  });
   // Keys pressed in the frame's own controls are theirs alone.
   root.addEventListener('keydown', event => {
     if (event.target.matches('select, input') || (event.target.matches('button') && (event.key === ' ' || event.key === 'Enter'))) event.stopPropagation();
@@ -304,7 +309,7 @@
   }
 
   // Where the canvas is: cards follow it; and the prompt follows a node of the scene.
-  let place = '';
+  let place = '', hooked = null;
   function look() {
     requestAnimationFrame(look);
     const client = window.__viserMutable, canvas = client?.canvas;
@@ -317,6 +322,17 @@
       RX.again('inset', 'strip', 'twist');
       tellCover();
     }
+    // What belongs to a point of a turning blade is placed once more when the blade is drawn: else it is a frame late.
+    const {scene} = client;
+    if (scene && scene !== hooked) {
+      const after = scene.onAfterRender;
+      hooked = scene;
+      scene.onAfterRender = (...all) => { after.apply(scene, all); placeWords(client); };
+    }
+    placeWords(client);
+  }
+  function placeWords(client) {
+    const box = client.canvas.getBoundingClientRect();
     if (labels.length) placeLabels(client, box);
     const words = state.prompt, node = words && client.nodeRefFromName?.[words.node];
     if (!node || !client.camera) return;

@@ -234,4 +234,36 @@
     event.preventDefault();
     RX.send('grab_at', Number(cut.dataset.grab));
   });
+
+  // What the pointer is over decides what a press does there: the reference blade is taken, a blade or the disk shows its
+  // section, elsewhere the view turns. The cursor says so, and the blade shines a little.
+  let over = null, met = null, due = 0;
+  const viewer = () => window.__viserMutable, lies = node => { for (; node; node = node.parent) if (!node.visible) return false; return true; };
+  function find({clientX, clientY}) {
+    const {camera, canvas, nodeRefFromName: nodes} = viewer(), box = canvas.getBoundingClientRect(), ray = viewer().scene.__r3f.root.getState().raycaster;
+    ray.setFromCamera({x: 2 * (clientX - box.left) / box.width - 1, y: 1 - 2 * (clientY - box.top) / box.height}, camera);
+    const meet = name => {
+      let mesh = null;
+      nodes[name]?.traverse(part => { if (part.isMesh && !part.isLineSegments2) mesh ??= part; });
+      const [hit] = mesh && lies(mesh) ? ray.intersectObject(mesh, false) : [];
+      return hit && {name, mesh, uv: hit.uv, far: hit.distance};
+    };
+    const hits = ['/lifted/skin', ...Array.from({length: 8}, (_, k) => `/rotor/blade_${k}`)].map(meet).filter(Boolean).sort((a, b) => a.far - b.far);
+    const disk = hits.length ? null : meet('/rotor/disk/field');
+    return hits[0] ?? (disk && Math.hypot(disk.uv.x - .5, disk.uv.y - .5) < .5 ? {name: 'disk'} : {name: ''});
+  }
+  function aim(at) {
+    const now = at ? find(at) : {name: ''}, kind = /blade_0|lifted/.test(now.name) ? 'grab' : now.name ? 'crosshair' : 'move';
+    viewer().canvas.style.cursor = at ? kind : '';
+    if (now.mesh === met) return;
+    for (const [mesh, share] of [[met, 0], [met = now.mesh, .28]]) mesh?.material.emissive?.copy(mesh.material.color).multiplyScalar(share);
+    viewer().requestRender?.();
+  }
+  addEventListener('pointermove', event => {
+    const canvas = viewer()?.canvas, free = event.pointerType === 'mouse' && !event.buttons && canvas?.contains(event.target);
+    if (!free && !over) return;
+    over = free ? event : null;
+    due ||= requestAnimationFrame(() => { due = 0; aim(over); });
+  }, {passive: true});
+  addEventListener('dblclick', event => { if (viewer()?.canvas?.contains(event.target)) RX.send('aim'); });
 })();

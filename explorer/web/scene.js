@@ -1,7 +1,7 @@
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
   const viewer = () => window.__viserMutable;
-  let seat = null, surfaces = {}, lit = {}, tied = [], motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  let seat = null, surfaces = {}, lit = {}, motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -68,7 +68,6 @@
   const show = at => {
     pose(motion, at);
     if (compared) pose(compared, at);
-    for (const name of tied) place(name, at, 0, 0, 0);
     trail(at);
     viewer().requestRender?.();
   };
@@ -216,8 +215,6 @@
       control.setLookAt(from.x, from.y, from.z, to.x, to.y, to.z, !calm.matches);
       viewer().requestRender?.();
     },
-    // What else turns with the reference blade while the rotor plays.
-    tie(nodes) { tied = nodes; },
     stop() { motion = heard = mark = null; },
     get psi() { return psi; },
   };

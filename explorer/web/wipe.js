@@ -11,7 +11,10 @@
   const hook = scene => {
     hooked = scene;
     scene.onBeforeRender = (_, __, ___, target) => { if ((on || alone) && !target && node('/compared')) side(second); };
-    scene.onAfterRender = (renderer, _, camera, target) => {
+    const after = scene.onAfterRender;
+    scene.onAfterRender = (...all) => {
+      const [renderer, , camera, target] = all;
+      after.apply(scene, all);
       if (!on || target || second || !node('/compared')) return;
       const {clientWidth, clientHeight} = renderer.domElement;
       second = true;

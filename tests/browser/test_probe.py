@@ -27,6 +27,10 @@ def watched(shared: Watched) -> Iterator[Watched]:
     assert shared.complaints == []
 
 
+ON_BLADE = "/rotor/blade_0/probe"
+"""The ring about the section that is probed."""
+
+
 def number(watched: Watched, label: str) -> float:
     return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
 
@@ -76,7 +80,7 @@ def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float
 
 def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page = watched.page
-    assert not seen(watched, "/rotor/disk/probe")
+    assert not seen(watched, ON_BLADE)
     page.keyboard.press("2")
     watched.until(lambda: stands(watched, "top"))
     watched.at_rest(lambda: eye(watched).round(2).tolist())
@@ -88,7 +92,7 @@ def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     )
     watched.until(lambda: number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02))
     watched.until(lambda: number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0))
-    watched.until(lambda: seen(watched, "/rotor/disk/probe"))
+    watched.until(lambda: seen(watched, ON_BLADE))
     watched.reads("probe-alpha", "^α")
     label = page.locator('[data-explorer="labels"]').get_by_text("α")
     label.wait_for()
@@ -158,26 +162,23 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
 
 
 WATCH_PLAY = """seconds => new Promise(done => {
-    const client = window.__viserMutable, end = performance.now() + 1000 * seconds, apart = [], corners = [];
-    const rotor = client.nodeRefFromName['/rotor'].matrixWorld.clone().invert();
-    const azimuth = name => {
-        const node = client.nodeRefFromName[name];
-        const at = node.position.clone().set(6, 0, 0).applyMatrix4(node.matrixWorld).applyMatrix4(rotor);
-        return Math.atan2(at.y, at.x) * 180 / Math.PI;
-    };
+    const client = window.__viserMutable, end = performance.now() + 1000 * seconds, apart = [];
     const look = now => {
-        apart.push(Math.abs((azimuth('/rotor/blade_0') - azimuth('/rotor/disk/probe') + 540) % 360 - 180));
-        for (const label of document.querySelectorAll('.rxf-label'))
-            if (label.style.visibility !== 'hidden') corners.push(label.style.transform === '');
-        now < end ? requestAnimationFrame(look) : done({apart, corners});
+        const box = client.canvas.getBoundingClientRect(), [{node: name, at}] = RX.state.probe_label;
+        const node = client.nodeRefFromName[name];
+        const label = [...document.querySelectorAll('.rxf-label')].find(one => one.textContent.startsWith('α'));
+        const place = node.position.clone().set(...at).applyMatrix4(node.matrixWorld).project(client.camera);
+        const x = (place.x + 1) / 2 * box.width;
+        const [left] = label.style.transform.match(/[-.0-9]+/);
+        if (label.style.visibility !== 'hidden') apart.push(Math.abs(Number(left) + label.offsetWidth / 2 - x));
+        now < end ? requestAnimationFrame(look) : done(apart);
     };
     requestAnimationFrame(look);
 })"""
-"""Degrees between the reference blade and the probe in each frame, and whether a label that is seen has no place."""
+"""Pixels across the screen between the label and the probe on the blade as it was drawn last, in each frame."""
 
 
-@pytest.mark.slow
-def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_plays(watched: Watched):
+def test_the_label_stays_by_its_ring_while_the_rotor_plays(watched: Watched):
     page = watched.page
     click_disk(watched, 0.8, 200.0)
     page.wait_for_selector(".rxf-label", state="visible")
@@ -185,16 +186,80 @@ def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_pl
     stood = pose(watched, "/rotor/blade_0")
     page.evaluate("() => RX.send('play')")
     watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), stood)
-    page.wait_for_timeout(1000)
     played = page.evaluate(WATCH_PLAY, 3.0)
     page.evaluate("() => RX.send('play')")
     page.wait_for_function("() => !RX.state.turn.playing")
-    rested = watched.at_rest(lambda: page.evaluate(WATCH_PLAY, 0.1)["apart"][-1])
-    # One frame may lie between the poses of the two; a blade turns by a few degrees in it on a slow machine.
-    assert np.median(played["apart"]) < 0.5
-    assert rested < 0.5
-    assert played["corners"]
-    assert not any(played["corners"])
+    assert len(played) > 3
+    assert np.percentile(played, 90) < 4.0
+
+
+ON_MESH = """r => {
+    const client = window.__viserMutable, blade = client.nodeRefFromName['/rotor/blade_0'];
+    const box = client.canvas.getBoundingClientRect();
+    let mesh = null;
+    blade.traverse(one => { if (one.isMesh && !one.isLineSegments2) mesh ??= one; });
+    const all = mesh.geometry.attributes.position, x = [...Array(all.count).keys()].map(k => all.getX(k));
+    const near = x.reduce((a, b) => Math.abs(b - r) < Math.abs(a - r) ? b : a);
+    const ring = x.flatMap((v, k) => v === near ? [k] : []);
+    const mean = read => ring.reduce((sum, k) => sum + all[read](k), 0) / ring.length;
+    blade.updateWorldMatrix(true, false);
+    const middle = blade.position.clone().set(near, mean('getY'), mean('getZ')).applyMatrix4(blade.matrixWorld);
+    const at = middle.project(client.camera);
+    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height, near];
+}"""
+"""Pixel of the middle of the drawn blade's section so far from the hinge [m], and how far that section is."""
+
+
+@pytest.mark.parametrize("psi_deg", [60, 340])
+def test_a_click_on_the_blade_picks_the_section_that_is_clicked_and_keeps_the_azimuth(watched: Watched, psi_deg: int):
+    page, hinge = watched.page, uh60a_rotor("flight").blade.flap_hinge * RADIUS
+    page.keyboard.press("1")
+    page.evaluate("psi => RX.send('azimuth', psi)", psi_deg)
+    watched.until(lambda: number(watched, "Azimuth") == psi_deg)
+    for r in (0.98, 0.78, 0.54, 0.35):
+        x, y, out = watched.at_rest(lambda r=r: page.evaluate(ON_MESH, r * RADIUS - hinge))
+        page.mouse.move(x, y)
+        watched.until(lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab")
+        page.mouse.click(x, y)
+        watched.until(lambda out=out: abs(number(watched, "Radius r/R") - (out + hinge) / RADIUS) <= 0.02)
+        watched.answered()
+        assert number(watched, "Azimuth") == psi_deg
+        assert seen(watched, ON_BLADE)
+
+
+def test_a_double_click_beside_the_disk_brings_the_camera_back(watched: Watched):
+    page = watched.page
+    page.keyboard.press("1")
+    before = watched.at_rest(lambda: eye(watched).round(2).tolist())
+    box = page.locator("canvas").first.bounding_box()
+    assert box is not None
+    x, y = box["x"] + 0.04 * box["width"], box["y"] + 0.35 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 150, y + 40, steps=5)
+    page.mouse.up()
+    watched.until_changed(lambda: eye(watched).round(2).tolist(), before)
+    watched.at_rest(lambda: eye(watched).round(2).tolist())
+    page.mouse.dblclick(x, y)
+    watched.until(lambda: np.allclose(eye(watched), before, atol=0.05))
+
+
+def test_a_double_click_on_a_slider_or_its_name_sets_the_default_and_can_be_undone(watched: Watched):
+    watched.reset()
+    page, row = watched.page, watched.row("Adv. ratio")
+    default = number(watched, "Adv. ratio")
+    for target in (row.locator(".mantine-Slider-thumb"), row.locator("label").first):
+        watched.press("Adv. ratio", "ArrowRight", 4)
+        watched.until(lambda: number(watched, "Adv. ratio") == pytest.approx(default + 0.02))
+        watched.answered()
+        target.dblclick()
+        watched.until(lambda: number(watched, "Adv. ratio") == default)
+        watched.answered()
+    page.evaluate("() => document.activeElement?.blur()")
+    page.keyboard.press("Control+z")
+    watched.until(lambda: number(watched, "Adv. ratio") == pytest.approx(default + 0.02))
+    row.locator("label").first.dblclick()
+    watched.until(lambda: number(watched, "Adv. ratio") == default)
 
 
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):

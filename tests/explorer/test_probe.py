@@ -13,8 +13,10 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import svg
 from explorer.hosting.gate import PRESSES
-from explorer.picture.camera_views import pick
-from explorer.picture.picture import DISK_DROP, compose, rotate, rotor_pose, tip_path_pose
+from explorer.model.inputs import ViewState
+from explorer.picture.blade_mesh import blade_shape
+from explorer.picture.camera_views import pick, pick_blade
+from explorer.picture.picture import DISK_DROP, compose, make_picture, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.tabs.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe_measured import lift_chart, public_table
@@ -156,6 +158,28 @@ class TestPick:
         assert pick(fast, above, (0.0, 0.0, 1.0)) is None
         normal = rotate(compose(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0])
         assert pick(fast, above, normal) is None
+
+
+@pytest.mark.parametrize("psi_deg", [65.0, 250.0])
+@pytest.mark.parametrize("bending", [False, True])
+def test_a_ray_at_a_blade_finds_its_section_and_keeps_the_azimuth(psi_deg: float, bending: bool):
+    """Against the vertices of the picture, placed in the world as the page places them."""
+    solution = solve(make_design(mu=0.2, models=replace(FLIGHT_MODELS, bending=bending)))
+    view = ViewState(azimuth_deg=psi_deg)
+    picture, shape = make_picture(solution, view, (0.0, 1.0)), blade_shape(solution.design.rotor)
+    points = shape.rings.shape[1]
+    for k, pose in enumerate(picture.blades.poses):
+        own = picture.blades.shapes[k] if picture.blades.shapes else picture.blade_vertices
+        for r in (0.98, 0.78, 0.54, 0.35):
+            ring = int(np.argmin(np.abs(shape.r - r)))
+            top = own[ring * points + points // 4]
+            place = rotate(picture.rotor.wxyz, pose.position + rotate(pose.wxyz, top))
+            eye = place + np.array([4.0, -3.0, 30.0])  # From where the upper side is seen at any pitch.
+            found = pick_blade(solution, view, eye, place - eye)
+            assert found is not None
+            assert_allclose(found[0], shape.r[ring], atol=0.003)
+            assert found[1] == (psi_deg + 90.0 * k) % 360.0
+    assert pick_blade(solution, view, (22.0, 33.0, 15.0), (0.0, 0.0, 1.0)) is None
 
 
 def numbers_of(text: str) -> list[float]:

@@ -135,7 +135,7 @@ class ActuatorControls:
         """`moved`: something changed, by a hand or not. `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
         start = ActuatorInputs()
-        form = self._form = Form(gui, self._heard)
+        form = self.form = Form(gui, self._heard)
         self.verdict = gui.add_html("")
         form.menu("actuator", "Actuator", actuator_titles())
         form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)
@@ -168,13 +168,13 @@ class ActuatorControls:
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
-        values = self._form.values()
+        values = self.form.values()
         drives = tuple(float(values.pop(name)) for name in _DRIVES)
         return ActuatorInputs(**values, drives=drives)
 
     def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
         """Which widgets there are, and what they are called."""
-        actuator, count, form = installed.actuator, len(installed.shapes), self._form
+        actuator, count, form = installed.actuator, len(installed.shapes), self.form
         ply, passive = isinstance(actuator, PiezoPly), isinstance(actuator, ExtensionTwist)
         word = "Voltage" if ply else "Drive"
         for k, name in enumerate(_DRIVES):
@@ -193,8 +193,8 @@ class ActuatorControls:
 
     def other_baseline(self) -> None:
         """Count savings from the other blade."""
-        now = self._form["against"]
-        self._form.place("against", next(other for other in AGAINST if other != now))
+        now = self.form["against"]
+        self.form.place("against", next(other for other in AGAINST if other != now))
 
     def drive_through(
         self,
@@ -212,7 +212,7 @@ class ActuatorControls:
         if isinstance(actuator, PiezoPly):
             wanted, shares = shares, np.asarray(voltages, dtype=float) / actuator.voltage_swing
             opposed = installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
-            self._form.place("crossed", opposed)
+            self.form.place("crossed", opposed)
         legs = np.arange(len(shares))
         drives = [drive_of(actuator, float(np.interp(x, legs, share))) for share in shares.T]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
@@ -220,7 +220,7 @@ class ActuatorControls:
     def drive(self, drives: tuple[float, ...]) -> None:
         """Move the voltage sliders."""
         for name, drive in zip(_DRIVES, drives, strict=True):
-            self._form.place(name, round(drive))
+            self.form.place(name, round(drive))
         self._moved(False)
 
     def _heard(self, name: str, by_hand: bool) -> None:

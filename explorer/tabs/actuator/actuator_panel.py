@@ -19,6 +19,7 @@ from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.actuator.per_rev import Fitted
 from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
+from explorer.tabs.form import Form
 from explorer.workers import solver
 from rotor import Design, Solution
 from rotor.actuator import InstalledActuator, Verdict, actuator_stability
@@ -186,6 +187,11 @@ class ActuatorPanel:
             self._blade.hold(self._radius)
             self._blade.show(picture)
         self._context.client.flush()
+
+    @property
+    def form(self) -> Form:
+        """The sliders and menus of the actuator."""
+        return self._controls.form
 
     def _moved(self, by_hand: bool) -> None:
         self._touched = self._touched or by_hand

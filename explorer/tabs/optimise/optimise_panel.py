@@ -51,7 +51,7 @@ class OptimisePanel(BackgroundWork):
         """The last search; None before the first."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
-        form = self._form = Form(gui, lambda name, by_hand: context.wake() if by_hand else None)
+        form = self.form = Form(gui, lambda name, by_hand: context.wake() if by_hand else None)
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
@@ -88,7 +88,7 @@ class OptimisePanel(BackgroundWork):
         by_hand(self._scrubber, self._scrubbed)
 
     def request(self) -> SearchRequest:
-        values = self._form.values()
+        values = self.form.values()
         for limit, name in _LIMITS.items():
             if not values.pop(limit):
                 values[name] = None
@@ -164,7 +164,7 @@ class OptimisePanel(BackgroundWork):
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
         run, request, units = self.run, self.request(), self._context.units
-        self._form.show({name: request.asks_for(name) for name in _NUMBERS})
+        self.form.show({name: request.asks_for(name) for name in _NUMBERS})
         concept = request.known_concept()
         self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
         under_way = run is not None and run.under_way
