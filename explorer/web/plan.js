@@ -2,7 +2,7 @@
 // angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
 (() => {
   const {text, part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
-  const DEGREE = Math.PI / 180, RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
+  const DEGREE = Math.PI / 180, RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34, CARDS = 288, STACKED = 350;  // [px] The last two: cards beside the circle, and above and below it.
   const COLOURS = {stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)'};
   const DASHES = {negative_stall: '7 3', drag_divergence: '3 4'};
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'c_l', 2, ''], ['margin', 'To stall', 1, '°']];
@@ -30,16 +30,16 @@
   const polar = (x, y) => [Math.hypot(x - layout.x, y - layout.y) / layout.radius, (Math.atan2(x - layout.x, y - layout.y) / DEGREE + 360) % 360];
   const path = line => 'M' + line.map(([x, y]) => `${(layout.x + layout.radius * x).toFixed(1)} ${(layout.y + layout.radius * y).toFixed(1)}`).join('L');
 
-  // The largest circle beside the cards, or on a stage that is higher than wide between them; there the key of the
-  // regions has their shares, which labels beside the circle have else.
+  // The largest circle: beside the cards, or between them on a stage that is high; there the key of the regions has their
+  // shares, which labels beside the circle have else. Labels stand on its right too where that costs the circle little.
   function arrange() {
-    const {held} = RX.state.plan, width = place.clientWidth, height = place.clientHeight, wide = !held && width > 700 && width >= height;
+    const {held} = RX.state.plan, width = place.clientWidth, height = place.clientHeight, wide = !held && width > 560 && width - CARDS > height - STACKED;
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
-    const left = wide ? 288 : held ? 34 : 8, right = wide ? LABEL.width + 26 : held ? 34 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM + (held ? 20 : 0), bottom = wide ? ROOM : held ? 104 : height - low + ROOM;
+    const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM), left = wide ? CARDS : held ? 34 : 8, right = wide ? (both ? LABEL.width : 0) + 26 : held ? 34 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM + (held ? 20 : 0), bottom = wide ? ROOM : held ? 104 : height - low + ROOM;
     const radius = Math.max(60, Math.min((height - top - bottom) / 2, (width - left - right) / 2));
     const chart = around.firstElementChild;
-    return {chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
+    return {chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, both, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
   }
 
   function rim() {
@@ -49,8 +49,8 @@
       marks.push(`M${ax.toFixed(1)} ${ay.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}`);
     }
     // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
-    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27, side = Math.min(Math.max(radius, 165), x - 8, layout.width - x - 8);
-    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [x + side, below, 'end', 'ADVANCING · 90° →'], [x - side, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
+    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27, side = Math.max(radius, 172), east = Math.min(x + side, layout.width - 8), west = Math.max(x - side, 8);
+    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [east, below, 'end', 'ADVANCING · 90° →'], [west, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
       .map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
     const [ax, ay] = xy(1.055, 32), [bx, by] = xy(1.055, 52), head = [[1.03, 52], [1.055, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi).map(v => v.toFixed(1)));
     words.push(`<path d="M${ax} ${ay}A${1.055 * radius} ${1.055 * radius} 0 0 0 ${bx} ${by}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/><polygon points="${head.join(' ')}" fill="var(--rx-dim)"/>`);
@@ -77,7 +77,7 @@
     for (const one of regions) {
       const points = one.lines.reduce((most, line) => line.length > most.length ? line : most), side = points.reduce((sum, [x]) => sum + x, 0) < 0 ? 'left' : 'right';
       const middle = layout.y + layout.radius * points.reduce((sum, [, y]) => sum + y, 0) / points.length - LABEL.height / 2;
-      const room = [side, side === 'left' ? 'right' : 'left'].map(name => ({name, top: free(columns[name], middle)})).find(found => found.top !== null);
+      const room = (layout.both ? [side, side === 'left' ? 'right' : 'left'] : ['left']).map(name => ({name, top: free(columns[name], middle)})).find(found => found.top !== null);
       if (!room) continue;
       const column = columns[room.name], end = room.name === 'left' ? column.x + LABEL.width : column.x;
       column.taken.push(room.top);

@@ -266,4 +266,30 @@
     due ||= requestAnimationFrame(() => { due = 0; aim(over); });
   }, {passive: true});
   addEventListener('dblclick', event => { if (viewer()?.canvas?.contains(event.target)) RX.send('aim'); });
+  // In Actuate the voltage moves the blade, not the hand: pulling the blade's edge moves the voltage, FULL pixels all of it.
+  const FULL = 150;
+  let pull = null;
+  const tug = share => RX.send('pull', share);
+  addEventListener('pointerdown', event => {
+    if (event.button || !event.isPrimary || !viewer()?.canvas?.contains(event.target) || !find(event).name.startsWith('/lifted')) return;
+    event.stopPropagation();  // Else the camera turns.
+    pull = {from: event.clientY, share: 0, due: 0};
+    page.toggleAttribute('data-pull', true);
+    RX.send('hold', true);
+    tug(null);
+  }, true);
+  addEventListener('pointermove', event => {
+    if (!pull || !event.isPrimary) return;
+    pull.share = (pull.from - event.clientY) / FULL;
+    pull.due ||= requestAnimationFrame(() => { if (pull) { pull.due = 0; tug(pull.share); } });
+  }, true);
+  const letGo = share => {
+    if (!pull) return;
+    tug(share);
+    pull = null;
+    page.removeAttribute('data-pull');
+    RX.send('hold', false);
+  };
+  for (const name of ['pointerup', 'pointercancel']) addEventListener(name, event => { if (event.isPrimary) letGo(pull?.share); }, true);
+  addEventListener('keydown', event => { if (pull && event.key === 'Escape') { event.stopPropagation(); letGo(0); } }, true);
 })();

@@ -54,6 +54,40 @@ def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
 
 
+TIP = """() => {
+    const client = window.__viserMutable, box = client.canvas.getBoundingClientRect();
+    let mesh = null;
+    client.nodeRefFromName['/lifted/skin'].traverse(one => { if (one.isMesh) mesh ??= one; });
+    const all = mesh.geometry.attributes.position;
+    const order = [...Array(all.count).keys()].sort((a, b) => all.getX(b) - all.getX(a));
+    const read = (k, share) => client.camera.position.clone().set(share * all.getX(k), .5 * all.getY(k), all.getZ(k));
+    const at = read(order[0], .97).applyMatrix4(mesh.matrixWorld).project(client.camera);
+    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
+}"""
+"""Pixel of the lifted blade near its tip."""
+
+
+def test_the_lifted_blade_is_pulled_by_its_voltage_and_the_camera_stays(watched: Watched):
+    page = watched.page
+    field = watched.row("Voltage").locator("input:not([type=hidden])").last
+    camera = "() => window.__viserMutable.camera.position.toArray()"
+    x, y = watched.at_rest(lambda: page.evaluate(TIP))
+    page.mouse.move(x, y)
+    watched.until(lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab")
+    stood = page.evaluate(camera)
+    page.mouse.down()
+    page.mouse.move(x, y - 75, steps=4)  # Trailing edge up, nose down: half of the voltage.
+    watched.until(lambda: field.input_value() == "-50")
+    watched.reads("actuator-now", r"−\d\.\d\d°")
+    page.mouse.move(x, y - 400, steps=4)
+    watched.until(lambda: field.input_value() == "-100")
+    page.keyboard.press("Escape")
+    watched.until(lambda: field.input_value() == "0")
+    page.mouse.up()
+    watched.answered()
+    assert page.evaluate(camera) == pytest.approx(stood, abs=0.01)
+
+
 @pytest.mark.slow
 def test_another_actuator_gets_another_verdict(watched: Watched):
     unfold(watched, "Placement and blade")

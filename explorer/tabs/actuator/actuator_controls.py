@@ -217,11 +217,11 @@ class ActuatorControls:
         drives = [drive_of(actuator, float(np.interp(x, legs, share))) for share in shares.T]
         self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
 
-    def drive(self, drives: tuple[float, ...]) -> None:
+    def drive(self, drives: tuple[float, ...], by_hand: bool = False) -> None:
         """Move the voltage sliders."""
         for name, drive in zip(_DRIVES, drives, strict=True):
             self.form.place(name, round(drive))
-        self._moved(False)
+        self._heard(_DRIVES[0], by_hand)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in _DRIVES:

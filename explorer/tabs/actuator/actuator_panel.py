@@ -1,11 +1,13 @@
 """The Actuator tab of one browser: its widgets, and what follows them."""
 
 import math
+from dataclasses import replace
 
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
     AGAINST,
+    MOST_SEGMENTS,
     ActuatorInputs,
     Outcome,
     Question,
@@ -26,6 +28,8 @@ from rotor.actuator import InstalledActuator, Verdict, actuator_stability
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
 
+_FULL = 100.0
+"""The whole voltage on its slider [%]."""
 _STILL = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
 _IDLE = 2.5
@@ -59,6 +63,9 @@ class ActuatorPanel:
         self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
         self._flight_bar = FlightBar(context, self._controls)
         context.bridge.on("against", lambda _: self._controls.other_baseline())
+        context.bridge.on("pull", self._pull)
+        self._pulled = (0.0,) * MOST_SEGMENTS, 0.0
+        """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
         self._pay = PayPanel(context)
         self.inputs = self._controls.inputs
         self.top = self._controls.now.order
@@ -129,6 +136,19 @@ class ActuatorPanel:
         twist = design.twist if inputs.against == "as-built" else fixed
         against = f"the {AGAINST[inputs.against][0].lower()}{AGAINST[inputs.against][1:]}"
         self.fitted = Fitted(installed, inputs.volts(installed), twist, against)
+
+    def _pull(self, share: float | None) -> None:
+        """The lifted blade was taken (None), or its trailing edge is pulled up by this share of the full drive."""
+        inputs, fitted = self.inputs(), self.fitted
+        if self._context.held or fitted is None:
+            return
+        if share is None:
+            full = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS)
+            nose_up = full.tip(fitted.installed, self._context.inputs().design())
+            self._pulled = inputs.drives, -math.copysign(_FULL, nose_up)
+            return
+        start, whole = self._pulled
+        self._controls.drive(tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start), by_hand=True)
 
     def show_problem(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
