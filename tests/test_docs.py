@@ -79,7 +79,7 @@ PACKAGES = {
 
 @pytest.mark.parametrize("path", sorted((DOCS / "notebooks").glob("*.py")), ids=lambda path: path.stem)
 def test_notebooks_import_nothing_private(path: Path):
-    """Of ours the four packages, and of them only what they name as public."""
+    """They import only the four packages of ours, and only what these name as public."""
     for node in ast.walk(ast.parse(text(path))):
         if isinstance(node, ast.Import):
             ours = {name.name for name in node.names if name.name.split(".")[0] in ("rotor", "explorer")}

@@ -72,10 +72,10 @@ def card_png(
 @cache
 def _font() -> str:
     """A font with µ, × and the narrow spaces of numbers: matplotlib brings it; it is not imported for that."""
-    found = find_spec("matplotlib")
-    assert found is not None
-    assert found.origin is not None
-    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
+    spec = find_spec("matplotlib")
+    assert spec is not None
+    assert spec.origin is not None
+    return str(Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
 
 
 def _draw_blade(draw: ImageDraw.ImageDraw, solution: Solution, law: TwistLaw, grey: bool) -> None:

@@ -37,12 +37,12 @@ class PageFacts:
     """Another one each time that a tab is loaded; the same when a page connects again."""
 
 
-def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
+def page_facts(client: viser.ClientHandle) -> PageFacts:
     """Ask the browser. Blocks, on a busy machine for seconds; not to be called on the event loop."""
     key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
     call(client, "RX.facts", key)
     try:
-        text = client.local_storage.get_item(key, timeout=timeout)
+        text = client.local_storage.get_item(key, timeout=20.0)
         client.local_storage.remove_item(key)
         facts = json.loads(text or "{}")
         kept = {str(name): str(value) for name, value in facts.get("kept", {}).items()}

@@ -345,17 +345,17 @@ class BestTurn:
     @property
     def turn(self) -> float | None:
         """[°]; None while it is not known, or no minimum is near."""
-        found = self._found
-        return None if found is None else found[0]
+        least = self._least
+        return None if least is None else least[0]
 
     @property
     def power(self) -> float | None:
         """Least power [W] by turning this station; None while it is not known."""
-        found = self._found
-        return None if found is None else found[1]
+        least = self._least
+        return None if least is None else least[1]
 
     @property
-    def _found(self) -> tuple[float, float] | None:
+    def _least(self) -> tuple[float, float] | None:
         """Turn and power where the slope, straight between two turns seen, is zero."""
         if len(self.seen) < 2:
             return None

@@ -378,12 +378,12 @@ def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_wid
                     codes[i, j] = code
 
 
-def region_masks(solution: Solution, grid: PolarGrid, slowest: float = 0.0) -> dict[str, Booleans]:
+def region_masks(solution: Solution, grid: PolarGrid) -> dict[str, Booleans]:
     """Where each region lies on the polar grid, shape (radii, azimuths), by name; none of them in reverse flow but
-    that itself. Stall and drag divergence count where U_T/ΩR is above `slowest`.
+    that itself.
     """
     flow = refined(solution, grid)
-    stalled, up = (flow.attached < 0.0) & (flow.u_t > slowest), flow.alpha > 0.5 * (flow.upper + flow.lower)
+    stalled, up = (flow.attached < 0.0) & (flow.u_t > 0.0), flow.alpha > 0.5 * (flow.upper + flow.lower)
     return {
         "stall": stalled & up,
         "negative_stall": stalled & ~up,

@@ -9,7 +9,7 @@ import numpy as np
 from explorer.model.units import number
 from rotor import Design, Solution
 from rotor.aero.disk import azimuths_of
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.arrays import Array
 from rotor.trim import DiskFields, HubLoads
 from rotor.units import GRAVITY

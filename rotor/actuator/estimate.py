@@ -26,8 +26,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.electrical import drive
-from rotor.actuator.installation import InstalledActuator, with_actuator_mass
+from rotor.actuator.installation import InstalledActuator, drive, with_actuator_mass
 from rotor.actuator.optimum import STATIONS, Baseline, ConditionPair, best_fixed, law_shapes, twisted
 from rotor.actuator.section import Host, default_placement
 from rotor.arrays import Array

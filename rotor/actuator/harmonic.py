@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.electrical import harmonic_loss
-from rotor.actuator.installation import InstalledActuator, with_actuator_mass
+from rotor.actuator.installation import InstalledActuator, harmonic_loss, with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design

@@ -12,7 +12,7 @@ again, that the wake of one blade differs, motion in lag, bending, and a change 
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -110,7 +110,6 @@ class FailurePoint:
 
     def record(self) -> dict[str, Any]:
         """Texts and numbers, for JSON and tables; angles in degrees."""
-        one = {} if self.one_blade is None else vars(self.one_blade)
         trims: dict[str, Any] = {}
         for name, trim in (("working", self.working), ("stopped", self.stopped)):
             trims |= {f"{name}_{key}": value for key, value in trim.record().items()}
@@ -121,7 +120,7 @@ class FailurePoint:
             "message": self.stopped.message,
             "cost_w": self.cost,
             "power_left_w": self.power_left,
-            "one_blade": {name: one.get(name) for name in OneBlade.__dataclass_fields__} if one else None,
+            "one_blade": None if self.one_blade is None else asdict(self.one_blade),
         }
 
 
@@ -187,9 +186,9 @@ def frozen(working: Sequence[Design], stopped: Design, jig: TwistLaw | None = No
         engines = design.aircraft.installed_power
         left = None if engines is None or not there.converged else engines - there.power.total
         alone = here.converged and stuck.active_twist == design.active_twist and not why_not_one(design)
-        one = one_blade(here, stopped.twist) if alone else None
+        shaken = one_blade(here, stopped.twist) if alone else None
         mu = design.condition.advance_ratio
-        points.append(FailurePoint(mu, design.airspeed, _flown(here, jig), _flown(there, jig), left, one))
+        points.append(FailurePoint(mu, design.airspeed, _flown(here, jig), _flown(there, jig), left, shaken))
     return tuple(points)
 
 

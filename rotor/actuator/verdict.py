@@ -17,8 +17,7 @@ from rotor.actuator.catalogue import (
     fuel_caveats,
     holding_caveats,
 )
-from rotor.actuator.electrical import Drive, drive
-from rotor.actuator.installation import InstalledActuator, install, segment_voltages, with_actuator_mass
+from rotor.actuator.installation import Drive, InstalledActuator, drive, install, segment_voltages, with_actuator_mass
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
 from rotor.actuator.section import Host, Placement, default_placement

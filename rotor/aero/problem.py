@@ -16,7 +16,7 @@ from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
-from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
+from rotor.aero.lifting_line import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.section import LOSS, NO_MOMENT, NO_SCATTER, NOTHING_ADDED, SectionData
 from rotor.aero.stalling_section import StallingData, stalling

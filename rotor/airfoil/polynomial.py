@@ -6,7 +6,6 @@ Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in de
 have a condition number of 2e15.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -139,13 +138,11 @@ class FitError:
     cd_rms: float
 
 
-def fit_error_study(
-    polar: Polar, range_deg: tuple[float, float] = FIT_RANGE_DEG, orders: Sequence[int] = tuple(range(1, 17))
-) -> tuple[FitError, ...]:
+def fit_error_study(polar: Polar, range_deg: tuple[float, float]) -> tuple[FitError, ...]:
     """Error against order, as in figs. 3.3 and 3.4 of the document, over the points within `range_deg`."""
     alpha, cl, cd = _within(polar, range_deg)
     out: list[FitError] = []
-    for order in orders:
+    for order in range(1, 17):
         fit_cl, fit_cd = fit_polynomials(polar, order, order, range_deg)(alpha)
         rms = [float(np.sqrt(np.mean((f - y) ** 2))) for f, y in ((fit_cl, cl), (fit_cd, cd))]
         out.append(FitError(order, rms[0], rms[1]))

@@ -57,9 +57,9 @@ def public_points(section: str) -> tuple[PublicPoint, ...]:
     )
 
 
-def points_near(section: str, mach: float, within: float = 0.05) -> tuple[PublicPoint, ...]:
-    """The points whose Mach number is within `within` of `mach`: what a polar at that Mach number is drawn beside."""
-    return tuple(point for point in public_points(section) if abs(point.mach - mach) <= within + 1e-9)
+def points_near(section: str, mach: float) -> tuple[PublicPoint, ...]:
+    """The points whose Mach number is within 0.05 of `mach`: what a polar at that Mach number is drawn beside."""
+    return tuple(point for point in public_points(section) if abs(point.mach - mach) <= 0.05 + 1e-9)
 
 
 def nearest_points(section: str, mach: float, alpha: float) -> tuple[PublicPoint, ...]:

@@ -138,26 +138,26 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    also = {"failures": [one.record() for one in failures]} if failures else {}
-    told = "".join(f"\n\n{failure_report(one)}" for one in failures)
+    also = {"failures": [failed.record() for failed in failures]} if failures else {}
+    told = "".join(f"\n\n{failure_report(failed)}" for failed in failures)
     print_result(args, lambda: record(verdict, turned) | also, lambda: report(verdict, turned) + told)
     return 0
 
 
-def failure_report(found: stopped.Failure) -> str:
+def failure_report(failed: stopped.Failure) -> str:
     """What flying on costs, speed by speed."""
     lines = [
-        f"stopped at µ {found.stops_at:g}, its twist frozen; one blade: the others work",
+        f"stopped at µ {failed.stops_at:g}, its twist frozen; one blade: the others work",
         f"{'µ':<7}{'kt':>4}{'twist':>9}{'power':>12}{'cost':>11}{'engines left':>14}{'stalled':>9}{'collective':>12}"
         f"{'controls left':>15}{'one blade':>13}",
     ]
-    for point in found.points:
-        row, there, one = point.record(), point.stopped, point.one_blade
+    for point in failed.points:
+        row, there, blade = point.record(), point.stopped, point.one_blade
         left = "" if point.power_left is None else f"{point.power_left / 1e3:.0f} kW"
         cost = "" if point.cost is None else f"{point.cost / 1e3:+.1f} kW"
         power = "no trim" if there.power is None else f"{there.power / 1e3:.1f} kW"
         free = "" if there.controls_left is None else f"{100.0 * there.controls_left:.0f} %"
-        shaken = "" if one is None else f"{one.force_n:.0f} N 1/rev"
+        shaken = "" if blade is None else f"{blade.force_n:.0f} N 1/rev"
         lines.append(
             f"{point.mu:<7g}{row['speed_kt']:>4.0f}{math.degrees(there.twist):>8.2f}°{power:>12}{cost:>11}{left:>14}"
             f"{row['stopped_stalled_percent']:>7.1f} %{math.degrees(there.collective):>10.1f} °{free:>14}{shaken:>14}"

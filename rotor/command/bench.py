@@ -37,6 +37,7 @@ from rotor.trim.forward import first_guess
 from rotor.trim.newton import first_point, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation.verification import dynbem_case, moment_trimmed
 
 T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
@@ -223,7 +224,7 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     baselines = [OtherCode("scipy root, hybr, without Jacobian", hybr, "cold trim", cold, "the same equations")]
     notes: list[str] = []
     try:
-        baselines += _dynbem(linear[2], evaluation, cold)
+        baselines += _dynbem(evaluation, cold)
     except ImportError:
         notes.append("dynbem is not installed: pip install 'rotor-explorer[test]' adds that baseline")
     try:
@@ -263,38 +264,12 @@ def _hybr(problem: Problem) -> None:
     root(residual, first[free], method="hybr", tol=1e-10)
 
 
-def _dynbem(design: Design, evaluation: float, cold: float) -> list[OtherCode]:
+def _dynbem(evaluation: float, cold: float) -> list[OtherCode]:
     """dynbem (MIT, Rust): one evaluation of its Pitt–Peters model, and its trim of the hub moments by cyclic."""
+    model, inputs, state = dynbem_case(moment_trimmed(_ADVANCE_RATIOS[2]))
     dynbem: Any = importlib.import_module("dynbem")
-
-    main, mu = design.rotor, design.condition.advance_ratio
-    alpha = np.radians(np.arange(-180.0, 180.5, 1.0))
-    polar = dynbem.TabulatedPolar(alpha, 1.1 * np.sin(2 * alpha), 0.01 + 1.2 * np.sin(alpha) ** 2)
-    stations = np.linspace(main.blade.root_cutout, 1.0, 20)
-    twisted = {
-        "r_stations_m": list(stations * main.radius),
-        "chord_stations_m": [main.reference_chord] * len(stations),
-        "twist_stations_deg": list(-16.0 * (stations - 0.75)),
-    }
-    blade = dynbem.BladeGeometry(
-        main.blades, main.radius, main.blade.root_cutout * main.radius, main.reference_chord, 0.0, 40, **twisted
-    )
-    definition = dynbem.RotorDefinition(
-        blade,
-        dynbem.LinearPolarParameters(0.1, 6.0, 0.009, 12.0),
-        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
-    )
-    model = dynbem.PittPetersModel(definition, polar, 120)
-    inputs = dynbem.RotorInputs(
-        collective_rad=0.15, tilt_lon=0.0, tilt_lat=0.0, R_hub=np.eye(3),
-        v_hub_world=np.array([mu * main.tip_speed, 0.0, 0.0]), wind_world=np.zeros(3),
-        omega_rad_s=main.angular_speed, rho_kg_m3=design.condition.density,
-    )  # fmt: skip
-    state = dynbem.PittPetersRotorState(0.01, 0.0, 0.0)
     evaluated = _time(lambda: model.compute_forces(inputs, state), 50)
-    trimmed = _time(
-        lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0), 3
-    )  # fmt: skip
+    trimmed = _time(lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0), 3)
     return [
         OtherCode(
             "dynbem evaluation", evaluated, "evaluation", evaluation,

@@ -261,7 +261,7 @@ def digits_of_band(width: float) -> int:
 
 
 def _in_hover(beside: _Beside, optimum: Optimum, k: int) -> list[float]:
-    """The parameter of that index with the other wake of hover, where there is one."""
+    """The parameter of that index with the other inflow model of hover, where there is one."""
     optima = [other.best for _, other in beside.models] if optimum.design.hovering else []
     return [best.parameters[k] for best in optima if best is not None]
 

@@ -68,7 +68,6 @@ def torsion_beam(
     *,
     scale: float = 1.0,
     addition: Addition | None = None,
-    trapeze: bool = True,
     control: bool = False,
 ) -> TorsionBeam:
     """The blade with GJ × `scale` and an addition; held by its control system with `control`, else clamped."""
@@ -83,7 +82,7 @@ def torsion_beam(
         stiffness = stiffness + inside * addition.stiffness
         inertia = inertia + inside * addition.torsional_inertia
         force = force + added_pull(addition, centres, angular_speed)
-    pull = force * structure.tension_gyration if trapeze else np.zeros_like(centres)
+    pull = force * structure.tension_gyration
     spring = structure.control_stiffness if control else math.inf
     return TorsionBeam(r, stiffness + pull, inertia, pull, angular_speed, spring)
 

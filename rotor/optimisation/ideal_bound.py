@@ -19,8 +19,7 @@ import scipy
 from numpy.polynomial.chebyshev import chebvander
 
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import LiftingLine, influence
+from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array, fixed_property, read_only
 from rotor.assets import asset_path, csv_rows

@@ -9,8 +9,7 @@ import numpy as np
 
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
-from rotor.actuator.electrical import electric_field, free_strain
-from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.installation import InstalledActuator, electric_field, free_strain, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import Host, default_placement

@@ -232,7 +232,7 @@ def figure_3_10() -> Report:
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
     plain, *raised = (solve(built(on, RAISED)).require().power.total for on in ((), ("table",), ("wake",)))
-    section, wake = (power / plain - 1.0 for power in raised)
+    section, line = (power / plain - 1.0 for power in raised)
     hover_ratio = np.array(hover_ours) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
     return report(
@@ -277,5 +277,5 @@ def figure_3_10() -> Report:
         flight_bucket=bucket["flight"],
         thesis_bucket=bucket["thesis"],
         section=section,
-        wake=wake,
+        wake=line,
     )  # fmt: skip

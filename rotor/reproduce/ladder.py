@@ -55,14 +55,14 @@ def built(on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str
     rotor = flight.rotor if "blade" in on else thesis.rotor
     if ("table" in on) != ("blade" in on):
         rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_READING.name,), ())
-    wake, stated = flight.models, thesis.models
+    ours, stated = flight.models, thesis.models
     models = replace(
         flight.models,
-        inflow=inflow or (wake if "wake" in on else stated).inflow,
-        low_speed=(wake if "wake" in on else stated).low_speed,
-        loss_on=(wake if "wake" in on else stated).loss_on,
+        inflow=inflow or (ours if "wake" in on else stated).inflow,
+        low_speed=(ours if "wake" in on else stated).low_speed,
+        loss_on=(ours if "wake" in on else stated).loss_on,
         # Equation (3.3) has one lift-curve slope, which a table over angle of attack does not.
-        hover_inflow=(wake if "table" in on else stated).hover_inflow,
+        hover_inflow=(ours if "table" in on else stated).hover_inflow,
         trim="propulsive" if "cyclic" in on else "thrust",
         disk_axial_flow="axial" in on,
         blade_weight="blade" in on,
@@ -132,12 +132,10 @@ def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | N
 
 
 @CachedFunction
-def strong_over_weak(on: tuple[str, ...], kmh: float, inflow: str | None) -> float:
+def strong_over_weak(on: tuple[str, ...], kmh: float) -> float:
     """Part by which twist −17.3° needs more main-rotor power than −11.5°."""
     mu = kmh / 3.6 / make_design().rotor.tip_speed
-    strong, weak = (
-        solve(built(on, mu, f"linear:{rate}", inflow)).require().power.main_rotor for rate in (STRONG, WEAK)
-    )
+    strong, weak = (solve(built(on, mu, f"linear:{rate}")).require().power.main_rotor for rate in (STRONG, WEAK))
     return strong / weak - 1.0
 
 
@@ -288,7 +286,7 @@ def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
             name, words, tuple(least(on, mu, None) for mu in speeds),
             tuple(ways(on, before, changed, mu) for mu in named) if changed else (),
             moving_twist(on, speeds, None),
-            (strong_over_weak(on, 0.0, None), strong_over_weak(on, FAST_KMH, None)),
+            (strong_over_weak(on, 0.0), strong_over_weak(on, FAST_KMH)),
         )  # fmt: skip
 
     steps = [step("thesis", "preset thesis: the reading that holds most", (), 0)]
@@ -318,7 +316,7 @@ def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
         *(
             [(least, (on, mu, None)) for mu in speeds]
             + [(moving_twist, (on, speeds, None))]
-            + [(strong_over_weak, (on, kmh, None)) for kmh in (0.0, FAST_KMH)]
+            + [(strong_over_weak, (on, kmh)) for kmh in (0.0, FAST_KMH)]
             for on in ladder
         ),
         *([(least, (on, mu, None)) for on in alone] for mu in named_of(speeds)),

@@ -354,7 +354,7 @@ RUNGS_OF = {"thesis": (), THESIS_WAKE: ("wake",), "flight": tuple(RUNGS)}
 
 def keys_1987() -> Report:
     """Two twists, hover to fast flight, and over propulsive force."""
-    percent = {name: [100.0 * strong_over_weak(on, kmh, None) for kmh in SPEEDS_KMH] for name, on in RUNGS_OF.items()}
+    percent = {name: [100.0 * strong_over_weak(on, kmh) for kmh in SPEEDS_KMH] for name, on in RUNGS_OF.items()}
     hover, fast = percent["flight"][0], percent["flight"][-1]
     near = [
         abs(ours - 100.0 * measured) <= CLOSE * abs(100.0 * measured)

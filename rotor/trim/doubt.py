@@ -176,8 +176,8 @@ def doubt(solution: Solution, against: Solution | None = None, *, models: bool =
 
     Example:
         >>> here, built = (rotor.solve(rotor.make_design(mu=0.3, twist=twist)) for twist in ("linear:-12", "builtin"))
-        >>> found = rotor.doubt(here, against=built)
-        >>> found.change_band < 0.2 * found.band  # [W]
+        >>> band = rotor.doubt(here, against=built)
+        >>> band.change_band < 0.2 * band.band  # [W]
         True
     """
     here, there = power_changes(solution), None if against is None else power_changes(against)

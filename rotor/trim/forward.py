@@ -17,7 +17,7 @@ from rotor.aero.display import stalled_area
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import Problem, build_problem, in_disk_axes
 from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand

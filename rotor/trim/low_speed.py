@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from rotor.aero.inflow import DiskFlow, inflow_model
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array, fix

@@ -19,7 +19,7 @@ from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
 from rotor.aero.display import STALLED, Unsteady
 from rotor.aero.elements import TrimState
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array, Booleans, ShortRepr

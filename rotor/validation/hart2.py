@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.chart import Axis, Chart, Line, Points, Series

@@ -12,7 +12,7 @@ import numpy as np
 
 from rotor.aero.inflow.lifting_line import LiftingLineInflow, LiftingLineTerms
 from rotor.aero.inflow.linear import LINEAR_MODELS
-from rotor.aero.lifting_line.influence import at_points
+from rotor.aero.lifting_line import at_points
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.chart import Chart, Line, Points, Series

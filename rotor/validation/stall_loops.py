@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow
-from rotor.aero.lifting_line.influence import theodorsen
+from rotor.aero.lifting_line import theodorsen
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.airfoil.section_table import SectionTable, table_from_deck
 from rotor.airfoil.stall_onset import stall_onset
@@ -93,8 +93,8 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     phase = 2.0 * math.pi * np.arange(_AZIMUTHS) / _AZIMUTHS
     alpha, q = mean + amplitude * np.sin(phase), k * amplitude * np.cos(phase)
     turning = -k * k * amplitude * np.sin(phase)
-    wake = complex(theodorsen(np.array([k]))[0])
-    seen = mean + amplitude * np.imag(wake * (1.0 + 1j * k) * np.exp(1j * phase))
+    lag = complex(theodorsen(np.array([k]))[0])
+    seen = mean + amplitude * np.imag(lag * (1.0 + 1j * k) * np.exp(1j * phase))
     onset = stall_onset(table)
     section, weight = np.zeros((1, 2), np.int64), np.zeros(1)
     numbers, tables = onset.numbers[None].copy(), onset.tables[None].copy()

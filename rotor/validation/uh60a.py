@@ -159,8 +159,8 @@ def _over_angle(name: str, label: str, mach: float = 0.4) -> Chart:
     )
 
 
-def _drag_rise(alpha_deg: float = 2.0) -> Chart:
-    table, alpha = load_section("sc1095"), math.radians(alpha_deg)
+def _drag_rise() -> Chart:
+    table, alpha = load_section("sc1095"), math.radians(2.0)
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = np.arange(mach[0], mach[-1], 0.01)
@@ -168,7 +168,7 @@ def _drag_rise(alpha_deg: float = 2.0) -> Chart:
         Points("RANS and net, kept aside", mach, drag),
         Line("section table", fine, table(alpha, fine).cd, 1),
     )
-    return Chart(f"Drag rise of SC1095 at {alpha_deg:g}°", Axis("Mach number"), Axis(f"C_d at {alpha_deg:g}°"), series)
+    return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 
 def constants() -> TrustSet:

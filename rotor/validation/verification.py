@@ -245,9 +245,9 @@ def moment_trimmed(mu: float) -> Solution:
     return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
 
 
-def _one_dynbem(mu: float) -> CodeComparison:
+def dynbem_case(ours: Solution) -> tuple[Any, Any, Any]:
+    """Model, inputs and first inflow states of dynbem for a trim of `moment_trimmed`; ImportError without it."""
     dynbem: Any = importlib.import_module("dynbem")
-    ours = moment_trimmed(mu)
     design, controls, rotor = ours.design, ours.controls, ours.design.rotor
     alpha = np.radians(np.arange(-180.0, 180.1, 0.25))
     polar = load_section(SECTION)(alpha, MACH)
@@ -272,10 +272,15 @@ def _one_dynbem(mu: float) -> CodeComparison:
         v_hub_world=np.array([speed * math.cos(tilt), 0.0, -speed * math.sin(tilt)]), wind_world=np.zeros(3),
         omega_rad_s=rotor.angular_speed, rho_kg_m3=design.condition.density,
     )  # fmt: skip
-    state = dynbem.PittPetersRotorState(controls.lambda0, 0.0, 0.0)
-    forces, state = _settle(model, inputs, state)
+    return model, inputs, dynbem.PittPetersRotorState(controls.lambda0, 0.0, 0.0)
+
+
+def _one_dynbem(mu: float) -> CodeComparison:
+    ours = moment_trimmed(mu)
+    design, controls = ours.design, ours.controls
+    forces, state = _settle(*dynbem_case(ours))
     thrust = -float(forces.F_world[2])
-    torque = ours.power.shaft / rotor.angular_speed
+    torque = ours.power.shaft / design.rotor.angular_speed
     lambda0, gradient, _ = (float(value) for value in state.to_array())
     return CodeComparison(
         condition=f"µ {mu:g}",

@@ -105,7 +105,7 @@ def test_another_actuator_gets_another_verdict(watched: Watched):
 
 
 def angle(watched: Watched) -> float:
-    """Of the drawn tip section of the lifted blade [°]."""
+    """Angle of the drawn tip section of the lifted blade [°]."""
     return watched.page.evaluate(
         """() => {
             const {points} = window.__viserSceneTree.getState()['/lifted/edges'].message.props;

@@ -1,4 +1,4 @@
-"""A server without a page, the sliders of the Explore mode on it, and the UH-60A as built at three speeds."""
+"""The page's server, one without a page, the sliders of Explore on it, and the UH-60A as built at three speeds."""
 
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 import viser
 
+from explorer.app import App
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PowerTracker
 from explorer.tabs.controls import DesignControls, SessionCallbacks
@@ -32,6 +33,13 @@ def fast() -> Solution:
 
 def nothing(*_: Any) -> None:
     """For whoever must be told."""
+
+
+@pytest.fixture
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
 
 
 @pytest.fixture

@@ -300,7 +300,7 @@ class FakePool:
         return [task for task, _ in self.jobs]
 
     def end(self, result: object) -> None:
-        """Of the last one."""
+        """End the last job."""
         self.jobs[-1][1](JobEnded(result))
 
 

@@ -1,7 +1,6 @@
 """Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone."""
 
 import asyncio
-from collections.abc import Iterator
 
 import pytest
 
@@ -16,13 +15,6 @@ PAGES = 4
 EDITS = 6
 SAME = 1e-7
 """Largest relative difference of a power from that of a solve alone, which starts elsewhere."""
-
-
-@pytest.fixture
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
 
 
 def query(k: int) -> str:

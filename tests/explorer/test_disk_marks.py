@@ -114,7 +114,7 @@ class TestRegions:
 
 class TestHatch:
     def test_stall_is_striped_over_the_colours_of_the_field(self, fast: Solution):
-        """Of the stalled part about a third is stripe, the rest keeps the field's colour."""
+        """About a third of the stalled part is striped; the rest keeps the field's colour."""
         regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
         plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))

@@ -70,7 +70,7 @@ def test_the_page_draws_the_flight_as_it_was_computed(flight: ActuatorFlight):
 
 
 def test_what_is_being_computed_is_said_and_keeps_its_place(flight: ActuatorFlight, verdict: Verdict):
-    """The same keys, so that nothing jumps; the curves of the question before stay, marked."""
+    """Its keys are those of an answer, so that nothing jumps; the curves of the question before stay, marked."""
     speed = RIGID.rotor.tip_speed
     first, before = (flight_state(LEGS, one, False, 0.2, speed, SI) for one in (None, flight))
     wrong = flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim")

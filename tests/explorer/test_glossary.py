@@ -45,7 +45,7 @@ def _never_seen(call: ast.Call) -> bool:
 
 
 def test_every_widget_that_is_made_anywhere_has_its_hint_from_the_glossary():
-    """Of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
+    """Names of the hints of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
     for path in sorted((ROOT / "explorer").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in WIDGETS):

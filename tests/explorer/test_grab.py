@@ -259,7 +259,7 @@ class TestTwistCurve:
         assert took == [True, False]
 
     def test_the_blade_stops_where_its_first_slider_ends(self):
-        """Of the tip's turn relative to 0.75 R, half a radius of the outboard slider's rate is a quarter."""
+        """A quarter of the tip's turn relative to 0.75 R is half a radius of the outboard slider's rate."""
         editor, bridge, now, _ = editor_of(TWO)
         editor.grab(1.0)
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])

@@ -167,7 +167,7 @@ class TestAnswers:
     """The right answers, and numbers of their texts, against what is known from elsewhere."""
 
     def test_the_right_ones(self, facts: dict[str, Facts]):
-        """Of `trim` by momentum theory: far from hover induced power falls as 1/µ; at µ 0.3 to well below half."""
+        """That of `trim` by momentum theory: far from hover induced power falls as 1/µ; at µ 0.3 to well below half."""
         right = {"trim": 0, "hover_twist": 1, "linear_inflow": 0, "responding_wake": 1, "fast_twist": 0,
                  "reverse_flow": 2, "two_segments": 1, "fixed_or_moving": 0, "power_or_vibration": 1,
                  "piezoelectric_ply": 0}  # fmt: skip

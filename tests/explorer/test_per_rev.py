@@ -114,7 +114,7 @@ def test_each_blade_is_drawn_at_the_pitch_of_its_root():
 
 
 def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
-    """Of a rigid blade the band is that of the twist alone: at the tip an amplitude to either side of the jig twist."""
+    """A rigid blade has the band of the twist alone: at the tip an amplitude to either side of the jig twist."""
     r = np.array([OPENING.aircraft.rotor.blade.root_cutout, 1.0])
     solution = solve(rigid(replace(OPENING, twist_per_rev=TWIST).design())).require()
     band = flown_band(solution, r)
@@ -189,7 +189,7 @@ def foreseen(answer: dict[str, object], waves: tuple[Harmonic, ...]) -> tuple[fl
 
 STILL = replace(BENDING, active_twist=None)
 LOSSES = (10e3, 20e3, 0.0, 0.0)
-"""Of the drive for 1° [W]; far more than there are, so that they are seen."""
+"""Losses of the drive for 1° [W]; far more than there are, so that they are seen."""
 
 
 def lost(waves: tuple[Harmonic, ...]) -> float:
@@ -209,7 +209,7 @@ def answer(whole: DialAnswer) -> dict[str, Any]:
 
 
 def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]) -> tuple[float, float]:
-    """Of power and index [%], by two trims."""
+    """Changes of power and index [%], by two trims."""
     rest, moved = (solve(with_harmonics(design, waves)).require() for waves in (before, after))
     index = hub_index(Adjoint(moved)) / hub_index(Adjoint(rest))
     return 100.0 * (moved.power.total / rest.power.total - 1.0), 100.0 * (index - 1.0)
@@ -253,7 +253,7 @@ def test_the_front_is_near_its_trims(whole: DialAnswer, answer: dict[str, object
 
 
 def test_the_blade_with_the_actuator_is_compared_with_another_one():
-    """The same mass and stiffness as a verdict counts; the other blade as it was given, and both bend."""
+    """Mass and stiffness are those that a verdict counts; the other blade is as it was given, and both bend."""
     installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), BENDING.rotor)
     fitted = Fitted(installed, (0.0,), LinearTwist(math.radians(-12.0)), "that blade")
     design = make_design(mu=0.3, twist="builtin")

@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-from collections.abc import Iterator
 from unittest.mock import Mock
 
 import pytest
@@ -22,13 +21,6 @@ def scripts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     found: list[str] = []
     monkeypatch.setattr(browser, "run_in_page", lambda client, script: found.append(script))
     return found
-
-
-@pytest.fixture
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
 
 
 def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str]):

@@ -24,7 +24,7 @@ ROOT = Path(__file__).parent.parent.parent
 
 
 def answers(order: list[int], threads: int = 1) -> dict[str, Any]:
-    """Of some designs in a fresh process."""
+    """Answers to some designs, from a fresh process."""
     arguments = [",".join(map(str, order)), str(threads)]
     done = subprocess.run(
         [sys.executable, "-m", "tests.tools.thirty_designs", *arguments],

@@ -44,7 +44,7 @@ def faults() -> list[str]:
 
 
 def sheet_faults(sheet: str) -> list[str]:
-    """Of one style sheet: braces that do not match, and declarations that are none."""
+    """Faults of one style sheet: braces that do not match, and declarations that are none."""
     depths = list(accumulate({"{": 1, "}": -1}[brace] for brace in re.findall("[{}]", _bare(sheet))))
     if min(depths, default=0) < 0:
         return ["a brace is closed that was not opened"]
@@ -76,7 +76,7 @@ class _Elements(HTMLParser):
 
 
 def html_faults(text: str) -> list[str]:
-    """Of one HTML file: elements that are not closed in their order, and attributes given twice."""
+    """Faults of one HTML file: elements that are not closed in their order, and attributes given twice."""
     parser = _Elements()
     parser.feed(text)
     return parser.found + [f"<{tag}> is not closed" for tag in parser.open]

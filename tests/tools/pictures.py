@@ -24,7 +24,7 @@ WAIT = 120_000
 MOST_BYTES = 560_000
 
 ANGLES = tuple(range(2, 19, 2))
-"""Of the root in the moving picture, less that at 0.75 R [°]."""
+"""Twist of the root in the moving picture, less that at 0.75 R [°]."""
 MOVING_SIZE = (900, 564)
 
 _AS_WITH_A_GPU = """

@@ -23,9 +23,9 @@ from rotor.design.design import Design
 from rotor.validation import airloads
 
 Moment = Callable[[Array, Array, Array, Array], Array]
-"""Of α [rad] in a column, the Mach number in a row, C_l and C_m there: by how much C_m is larger."""
+"""By how much C_m is larger: of α [rad] in a column, the Mach number in a row, C_l and C_m there."""
 Blade = Callable[[BladeTorsion, Array], BladeTorsion]
-"""Of the torsion of a blade and its `tip_mass` with the centre of gravity a chord aft, (elements,): the changed one."""
+"""The changed torsion of a blade, from it and its `tip_mass` with the centre of gravity a chord aft, (elements,)."""
 
 Row = tuple[tuple[float, ...], tuple[float, ...]]
 AT = (0.2, 0.3, 0.37)

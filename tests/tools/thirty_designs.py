@@ -39,7 +39,7 @@ mass_kg = 1950.0
 
 
 def own_rotor(**given: Any) -> rotor.Design:
-    """Of a rotor from a file."""
+    """A design with a rotor from a file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mine.toml"
         path.write_text(FILE, encoding="utf-8")
@@ -84,7 +84,7 @@ DESIGNS: tuple[Callable[[], rotor.Design], ...] = (
     of(mu=0.5, mass_kg=11_000.0),
 )
 FEW = (1, 0, 3, 9, 13, 19, 26, 27)
-"""Of most kinds, quickly."""
+"""Designs of most kinds, quickly solved."""
 
 
 def exactly(value: Any) -> Any:
@@ -95,7 +95,7 @@ def exactly(value: Any) -> Any:
 
 
 def answer(number: int) -> Any:
-    """Of a design, from a cold start: trim, power, elastic twist, loads on the hub, gradient."""
+    """A design's answer from a cold start: trim, power, elastic twist, loads on the hub, gradient."""
     solution = rotor.solve(DESIGNS[number]())
     found: list[Any] = [solution.status.value, list(astuple(solution.controls)), list(astuple(solution.last_power))]
     if solution.elastic is not None:

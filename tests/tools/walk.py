@@ -15,7 +15,7 @@ from tests.chromium import LAUNCH_ARGUMENTS, find_chromium
 
 SIZES = ("1500x940", "1280x720", "1180x820", "820x1180", "390x844")
 TOUCHED = ("1180x820", "820x1180", "390x844")
-"""Of tablets and telephones: a finger, no pointer."""
+"""Sizes of tablets and telephones: a finger, no pointer."""
 WAIT = 180_000
 """[ms]"""
 MEASURE = (Path(__file__).parents[1] / "browser" / "overlaps.js").read_text(encoding="utf-8")

@@ -28,7 +28,7 @@ from rotor.actuator import (
     steady_room,
     with_actuator_mass,
 )
-from rotor.actuator.electrical import harmonic_loss
+from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
 from rotor.chart import Axis, Chart, Line, Points, Rule, as_json, round_ticks, tick_text
 from rotor.design import Harmonic, TwistLaw

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import DiskFlow
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array

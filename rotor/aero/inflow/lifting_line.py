@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import LiftingLine, influence, mean_influence, shed_correction
+from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array, read_only
 from rotor.design.design import Models
@@ -113,7 +112,7 @@ class LiftingLineTerms(InflowTerms):
         self.least_azimuths = line.azimuths
 
     def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
-        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line.influence`."""
+        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line`."""
         return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:

@@ -18,7 +18,7 @@ import numpy as np
 
 from rotor.aero.disk import Disk, azimuths_of
 from rotor.aero.inflow.interface import Atoms, DiskFlow, Followed, InflowModel, InflowTerms, Losses
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import SMALLEST_TIP_FACTOR, mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array

@@ -19,7 +19,7 @@ import numpy as np
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, Followed, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.inflow.linear import STRENGTHS, of_mean, scaled_half_skew
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
 from rotor.arrays import Array

@@ -102,7 +102,7 @@ def patched(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def faults(folder: Path) -> list[str]:
-    """Of the viser in a folder."""
+    """What is wrong with the viser in a folder."""
     done = subprocess.run(
         [sys.executable, "-c", FAULTS], cwd=folder, capture_output=True, text=True, check=True,
         env={**os.environ, "PYTHONPATH": str(folder)},

@@ -6,7 +6,6 @@ import math
 import threading
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -85,13 +84,6 @@ def test_any_failure_of_a_reader_leaves_the_page_standing():
     assert len(problems) == 1
     with pytest.raises(ValueError, match="version"):
         view_from("q" * 7000)
-
-
-@pytest.fixture
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
 
 
 @pytest.mark.parametrize("length", [7_000, 20_000])

@@ -121,7 +121,7 @@ def test_an_encoded_png_is_assigned_as_it_is(server: viser.ViserServer):
 
 
 def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
-    """The same messages, and none for what stays."""
+    """It sends the messages of the setters, and none for what stays."""
     one, other = (server.scene.add_frame(name) for name in ("/one", "/other"))
     queued: list[Any] = []
     cast(Any, server._websock_server).queue_message = queued.append

@@ -8,9 +8,17 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.electrical import capacitance, drive, harmonic_loss
 from rotor.actuator.harmonic import dynamic_twist
-from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install, without_nose_weight
+from rotor.actuator.installation import (
+    InstalledActuator,
+    addition,
+    balance_mass,
+    capacitance,
+    drive,
+    harmonic_loss,
+    install,
+    without_nose_weight,
+)
 from rotor.actuator.limits import ELEMENTS, actuator_stability, bend, fibre_strain, limits
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.dynamics.structure import BendingStructure, uh60a_structure

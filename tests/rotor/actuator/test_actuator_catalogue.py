@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, Programme, actuators, derating, find_actuator, programmes
-from rotor.actuator.electrical import (
+from rotor.actuator.installation import (
     electric_field,
 )
 from rotor.assets import asset_path
@@ -69,7 +69,7 @@ def test_grades_of_the_file_are_those_of_the_lists():
 
 
 def test_lift_to_drag_as_power_by_hand():
-    """Of the same lift at the same speed: L/D 3.43 % lower takes 1/0.9657 = 3.55 % more power."""
+    """At the same lift and speed, L/D 3.43 % lower takes 1/0.9657 = 3.55 % more power."""
     single, both = (found for found in programmes() if found.short == "XH-59A")
     assert single.power_change_percent == pytest.approx(3.5518, rel=1e-4)
     assert both.power_change_percent == pytest.approx(-0.3686, rel=1e-3)

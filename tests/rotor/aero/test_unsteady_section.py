@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor import make_design, solve
 from rotor.aero.inflow.interface import PLAIN
-from rotor.aero.lifting_line.influence import theodorsen
+from rotor.aero.lifting_line import theodorsen
 from rotor.aero.problem import build_problem
 from rotor.aero.section import CHANNELS, FX, FZ, LOSS, NO_SCATTER, NOTHING_ADDED, RATE, TH, UP, UT, M, SectionData
 from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady

@@ -18,7 +18,7 @@ from rotor.validation.compare import compare, load_set
 
 QUICK = ("--twist", "linear:-10", "--off", "elastic-twist")
 OLD = "dynamic-wake-quick"
-"""Of forward flight; all have the same way in."""
+"""A retired model of forward flight; all have the same way in."""
 SENTENCE = RETIRED[OLD].sentence
 
 

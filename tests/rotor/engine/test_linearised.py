@@ -134,14 +134,14 @@ def check(value: Callable[[float], Any], slope: Any, least: float) -> None:
 
 
 def kinds_of(point: Point) -> tuple[list[Hashable], list[Hashable]]:
-    """Of every equation and of every unknown, the nodes with them."""
+    """The kind of every equation and of every unknown, nodes included."""
     nodes: list[Hashable] = ["node"] * (len(point.residual) - len(point.system.structure.equations))
     equations, states = point.system.structure.kinds
     return equations + nodes, states + nodes
 
 
 def directions(point: Point) -> list[Array]:
-    """Of random size: each quantity of the trim alone, all of the elastic twist, and all nodes of the inflow."""
+    """Steps of random size: each quantity of the trim alone, all of the elastic twist, and all nodes of the inflow."""
     random, kinds = np.random.default_rng(3), kinds_of(point)[1]
     sizes = {"lambda0": 0.1, "node": 0.003}
     found: list[Array] = []
@@ -216,7 +216,7 @@ def test_slopes_of_any_measure_by_the_states(name: str):
 
 @pytest.mark.parametrize("name", CASES)
 def test_slopes_by_what_is_added_to_a_channel(name: str):
-    """Of weighted equations alone, and with measures of forces and of channels."""
+    """Slopes of weighted equations alone, and with measures of forces and of channels."""
     point = solved(name)
     structure, random = point.system.structure, np.random.default_rng(7)
     channels = sorted({channel for _, channel in structure.pairs if structure.shapes[channel]})

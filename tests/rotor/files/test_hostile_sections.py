@@ -178,7 +178,7 @@ def test_no_upload_holds_the_interpreter(kind: str):
 
 
 def longest_wait(name: str, text: str) -> tuple[float, float]:
-    """Of another thread for the interpreter [s] while a file is refused, and the processor time of that [s]."""
+    """How long another thread waits for the interpreter [s] while a file is refused, and its processor time [s]."""
     before, longest, done = sys.getswitchinterval(), 0.0, threading.Event()
 
     def watch() -> None:

@@ -10,8 +10,7 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import LiftingLine
+from rotor.aero.lifting_line import LiftingLine, WakeCourse
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
@@ -88,7 +87,7 @@ def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int], mon
 
     Up to 4 % at µ 0.3; steady twists need 1 % more.
     """
-    monkeypatch.setattr("rotor.aero.lifting_line.influence.OWN_CORE", 0.02)
+    monkeypatch.setattr("rotor.aero.lifting_line.OWN_CORE", 0.02)
     found, expected = compare(LiftingLine(4, 0.13, *grid), mu)
     assert_allclose(found, expected, rtol=TOLERANCE[mu])
 

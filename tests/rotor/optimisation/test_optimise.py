@@ -263,7 +263,7 @@ class TestVibration:
 
     @pytest.mark.parametrize("quantity", ["vibration", "total"])
     def test_gradients_over_two_conditions(self, quantity: Quantity):
-        """Of objective and limits by twist in two segments, against differences of tight trims."""
+        """Slopes of objective and limits by twist in two segments, against differences of tight trims."""
         concept, design, held = CONCEPTS["two-segment"], self.bent(0.3), Limits(index=3.0, stalled=0.1)
         conditions = tuple(
             WeightedCondition(self.bent(mu).condition, hours) for mu, hours in ((0.25, 2.0), (0.33, 1.0))

@@ -3,7 +3,7 @@
 import pytest
 from patched import Patch
 
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.files.make_design import make_design

@@ -275,7 +275,7 @@ def test_a_hingeless_root_with_a_spring_in_lag() -> None:
 
 @pytest.mark.parametrize("inflow", [LINEAR, LINE])
 def test_gradients(inflow: str) -> None:
-    """Of index and power by linear twist, against differences of trims."""
+    """Slopes of index and power by linear twist, against differences of trims."""
     tight = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
     step, before = 0.02, rotor.solve(_design(0.3, inflow, twist="linear:-12"))
     low, high = (
@@ -306,7 +306,7 @@ def test_where_there_are_no_hub_loads() -> None:
 
 
 def test_solution_has_hub_loads_with_their_band() -> None:
-    """Of a design whose blades do not bend as well: those of the same design with blades that do."""
+    """A design whose blades do not bend has those of its twin whose blades do."""
     stiff, bent = rotor.solve(rotor.make_design(mu=0.3)), _solved(0.3, LINE)
     loads, frequencies = stiff.hub_loads, bent.blade_frequencies
     assert loads is not None
@@ -348,7 +348,7 @@ class _March:
         self.size = size
 
     def start(self) -> Array:
-        """Of harmonic balance at ψ = 0: coordinates and rates, bending first."""
+        """State of harmonic balance at ψ = 0: coordinates and rates, bending first."""
         at, after = (waves_at(17, np.array([one])) for one in (0.0, 1e-6))
         q = np.concatenate([self.q, self.phi])
         return np.concatenate([(q @ at)[:, 0], (q @ (after - at))[:, 0] / 1e-6])
@@ -402,7 +402,7 @@ class _March:
 
 @pytest.mark.slow
 def test_time_marching() -> None:
-    """The same blade in time, from the trim: every mode moves the tip by the same to 0.1 mm in harmonics 0 to 6.
+    """Marched in time from the trim, every mode moves the tip as in the trim to 0.1 mm in harmonics 0 to 6.
 
     In steady flow: the march takes the forces at a point alone.
     """

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
 from rotor.aero.problem import build_problem

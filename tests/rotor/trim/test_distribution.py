@@ -71,7 +71,7 @@ def blended(solution: Solution, coefficient: Callable[..., np.ndarray]) -> np.nd
 
 
 def test_coefficients_are_those_of_the_section_data(flight: Solution, found: Distribution):
-    """The same look-up gives the solution's own C_l, so C_m is at the right angle and Mach number."""
+    """The look-up of C_m gives the solution's own C_l, so it is at the right angle and Mach number."""
     assert_allclose(found.cl, blended(flight, lambda table, alpha, mach: table(alpha, mach).cl), atol=1e-9)
     assert_allclose(found.cm, blended(flight, lambda table, alpha, mach: table.moment(alpha, mach)), atol=1e-12)
     assert -0.1 < found.cm[found.r > 0.5].mean() < 0.0

@@ -68,7 +68,7 @@ def test_no_effect_in_hover_and_where_the_section_balances_itself(given: dict[st
 
 
 TURN: dict[str, Any] = {"rotor": "gazelle", "mu": 0.337, "mass_kg": 2930.0}
-"""Of a SA349/2, C_T/σ 0.094: 513 kW were measured."""
+"""A turn of an SA349/2 at C_T/σ 0.094: 513 kW were measured."""
 
 
 def turn(changed: dict[str, Any]) -> Design:

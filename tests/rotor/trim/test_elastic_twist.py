@@ -237,7 +237,7 @@ def mean_tip(solution: Solution) -> float:
 
 
 def test_the_next_trim_uses_the_derivatives_of_the_last(evaluated: list[Factors]):
-    """The same answer without evaluating derivatives; a copy from another process comes without them."""
+    """As a cold start answers, without evaluating derivatives; a copy from another process comes without them."""
     start, near = solve(design(0.252), solve(design(0.25))).require(), design(0.254)
     alone = solve(near).require()
     for before, times in ((start, 0), (pickle.loads(pickle.dumps(start)), 1)):

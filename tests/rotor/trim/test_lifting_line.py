@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.section import UP, UT
 from rotor.columns.flight import disk_sums
 from rotor.design.design import Design

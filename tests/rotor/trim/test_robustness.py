@@ -139,7 +139,7 @@ def at_mass(design: Design, mass: float) -> Design:
 
 
 def test_the_trim_of_least_power_is_found():
-    """The same as from a lighter rotor, whose mass is raised step by step."""
+    """The trim that a lighter rotor reaches whose mass is raised step by step."""
     problem = build_problem(DEEP_STALL)
     first = newton(problem, first_guess(problem))
     assert first.converged

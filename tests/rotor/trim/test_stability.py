@@ -74,7 +74,7 @@ def uniform(offset: float = 0.0, mu: float = 0.0) -> Design:
 
 @dataclass(frozen=True)
 class Hand:
-    """The same blade by hand: Theodorsen with C = 1 about the quarter chord, small angles, hover, no induced flow.
+    """The blade by hand: Theodorsen with C = 1 about the quarter chord, small angles, hover, no induced flow.
 
     L = ½ρac U (Uθ − w' + bθ') + ρπb² (−w'' + Uθ' + ½bθ''), M = −½b ρπb² (…) − ½ρπb³ Uθ' − ⅛ρπb⁴ θ'', U = Ωr.
     These are the equations of pitch–flap flutter of Johnson, Helicopter Theory, ch. 12 (β and θ of a rigid blade).
@@ -87,7 +87,7 @@ class Hand:
     spring: float = SPRING
 
     def matrices(self) -> tuple[Array, Array, Array]:
-        """Of (β, θ), over Ω²."""
+        """Mass, damping and stiffness of (β, θ), over Ω²."""
         low, high = ROOT * self.radius, self.radius
         n = [(high ** (k + 1) - low ** (k + 1)) / (k + 1) for k in range(4)]
         b, q = 0.5 * CHORD, 0.5 * self.density * SLOPE * CHORD

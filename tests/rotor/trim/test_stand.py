@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import DiskFlow
 from rotor.aero.inflow.linear import LINEAR_MODELS, half_skew
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import build_problem
 from rotor.design.aircraft import Stand, read_stand
 from rotor.design.design import Design

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from patched import Patch
 
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.design.design import with_grid
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -92,7 +92,7 @@ def test_a_finer_grid_does_not_mend_it(panels: int, azimuths: int, wanted: tuple
 @pytest.mark.slow
 def test_twice_the_gradient_of_the_wake(patch: Patch):
     """As the page states it: HART II comes out better, the XV-15 worse."""
-    patch("rotor.aero.lifting_line.geometry.GRADIENT", 1.0)
+    patch("rotor.aero.lifting_line.GRADIENT", 1.0)
     for name, wanted, high in (("BL", 0.64, 0.033), ("MN", 0.91, 0.039)):
         solution = solve(CASES[name].design()).require()
         assert_allclose(agreement(CURVES[name, "cn_m2"], solution).correlation, wanted, atol=0.02)

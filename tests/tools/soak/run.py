@@ -92,13 +92,13 @@ async def _soak(
 
 
 def percentiles(values: Sequence[float]) -> dict[str, float]:
-    """Of delays [ms]; zeros where there are none."""
+    """Count and percentiles of delays [ms]; zeros where there are none."""
     p50, p95, worst = np.percentile(values, (50.0, 95.0, 100.0)).tolist() if values else (0.0, 0.0, 0.0)
     return {"count": len(values), "p50": p50, "p95": p95, "worst": worst}
 
 
 def memory(samples: Sequence[tuple[float, float]]) -> dict[str, float] | None:
-    """Of (time [s], resident memory [MB]) samples after settling; None for too few of them.
+    """Slope of (time [s], resident memory [MB]) samples after settling; None for too few of them.
 
     The slope is the median of those of all pairs (Theil–Sen), which single peaks do not move; `slope_low` the lower end
     of its 95 % confidence interval; start and end are medians over the first and the last tenth.

@@ -42,7 +42,7 @@ def encode(kind: str, **fields: Any) -> bytes:
 
 
 def _filled(value: Any, arrays: list[memoryview]) -> Any:
-    """The same with arrays where the metadata only counted them."""
+    """The value with arrays where the metadata only counted them."""
     if isinstance(value, dict):
         if "__binary_index" in value:
             return arrays[value["__binary_index"]]

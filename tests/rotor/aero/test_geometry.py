@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line import WakeCourse
 from rotor.arrays import Array
 
 COURSE = WakeCourse(0.25, 0.02, 0.015, 0.06, 0.02, -0.03, (1e-4, 1e-5))

@@ -11,10 +11,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.special import kv
 
-from rotor.aero.lifting_line import influence as kernels
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.lifting_line.influence import (
+from rotor.aero import lifting_line as kernels
+from rotor.aero.lifting_line import (
     LiftingLine,
+    WakeCourse,
     at_points,
     build_wake,
     influence,
@@ -204,7 +204,7 @@ def test_in_hover_every_azimuth_sees_the_same():
 FINE = LiftingLine(4, 0.15, 24, 24)
 FAST = WakeCourse(0.3, 0.02, 0.01, 0.0, 0.0, 0.0, (1e-4, 0.0))
 HALF_CHORD = 0.0322
-"""Of a UH-60A, over R."""
+"""Half chord of a UH-60A, over R."""
 PANEL = 16
 FREQUENCIES = (0.05, 0.1, 0.2)
 
