@@ -165,7 +165,7 @@ def report(solution: Solution) -> str:
         )
         lines += [
             f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
-            f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:.1f} % of the thrust"
+            f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust"
         ]
     if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
         lines.append(wrapped(f"caveat: {reason.sentence}", "  "))
