@@ -161,6 +161,7 @@ PRESSES: dict[str, Check] = {
     "azimuth": _number(-3600.0, 3600.0),
     "fly": _number(0.0, 100.0),
     "speed": _number(0.0, 1.0),
+    "land_at": _row(_radius, _radius),
     "pull": _either(_none, _number(-10.0, 10.0)),
     "wiped": _number(-1.0, 2.0),
     "covered": _row(_number(-10.0, 10.0), _number(-10.0, 10.0)),

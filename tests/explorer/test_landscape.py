@@ -10,12 +10,13 @@ from numpy.testing import assert_allclose
 from explorer.model.inputs import Inputs
 from explorer.model.units import SI
 from explorer.picture.landscape import HEIGHT, SIZE, Landscape, refined
-from explorer.tabs.optimise.landscape_panel import half_widths, paths_on, valley_words
+from explorer.tabs.optimise.landscape_panel import design_at, half_widths, paths_on, valley_words
 from explorer.tabs.optimise.map_panel import Map
 from explorer.tabs.optimise.search_run import SearchRun
 from explorer.workers.pool import JobEnded, JobProgress
 from explorer.workers.solver import MapTask, StartPower
 from rotor.design.design import Design
+from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
@@ -90,6 +91,16 @@ def test_the_flat_optimum_in_words():
 
 def progress(start: int, x: float, y: float, power: float) -> JobProgress:
     return JobProgress(Progress("search", start, 2, 1, (x, y), "", power, True, (x, y), power, 0.1))
+
+
+def test_a_place_on_the_map_is_a_design_of_the_concept():
+    """Rates of the two pieces, by differences of the twist; the ends of the map are the ends of the parameters."""
+    drawn = map_of(make_design(mu=0.2))
+    for place in ((0.0, 1.0), (0.25, 0.5)):
+        twist = design_at(drawn, place).twist
+        inner, outer = (float(np.diff(twist([r, r + 0.1]))[0]) / 0.1 for r in (0.3, 0.8))
+        wanted = [p.low + share * (p.high - p.low) for p, share in zip(drawn.parameters, place, strict=True)]
+        assert_allclose([inner, outer], wanted, atol=1e-9)
 
 
 def test_balls_roll_where_the_search_has_been():

@@ -5,7 +5,8 @@ The page moves balls and blade (`explorer/web/landscape.js`).
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -15,6 +16,7 @@ import viser
 from trimesh.visual.color import ColorVisuals
 
 from explorer.colours import START_COLOURS, colour_map, css, scene_theme
+from explorer.model.inputs import with_optimum
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices
@@ -64,6 +66,14 @@ def valley_words(drawn: Map, land: Landscape, units: Units) -> str:
     return f"±{number(half, digits)}{unit} for {units.watts(BAND * land.least, 1)}{flat}"
 
 
+def design_at(drawn: Map, place: Sequence[float]) -> Design:
+    """The design of a place on the map, 0…1 along both of its parameters."""
+    task, values = drawn.task, list(drawn.task.values)
+    for axis, p, share in zip(task.axes, drawn.parameters, place, strict=True):
+        values[axis] = p.low + share * (p.high - p.low)
+    return replace(task.design, twist=task.concept.twist(values))
+
+
 @dataclass(frozen=True, eq=False)
 class Path:
     """Path of one start: places on the map, 0…1, power and design, each the best so far."""
@@ -109,6 +119,7 @@ class LandscapePanel:
         self._land: Landscape | None = None
         self._shown = False
         context.bridge.on("landscape", lambda on: self._ask(bool(on)))
+        context.bridge.on("land_at", self._take)
         views.leave_landscape = lambda: self._ask(False)
 
     def show(self, state: SessionState, section: str, design: Design | None) -> None:
@@ -137,6 +148,12 @@ class LandscapePanel:
     def _ask(self, on: bool) -> None:
         self._refused = None if on or self._map.map is None else self._map.map.task
         self._context.wake()
+
+    def _take(self, place: list[float]) -> None:
+        """The surface was clicked at (x, y), 0…1: its design goes onto the sliders."""
+        drawn = self._map.map
+        if drawn is not None and self._shown and not self._context.held:
+            self._context.set_inputs(with_optimum(self._context.inputs(), design_at(drawn, place)))
 
     def _leave(self) -> None:
         if not self._shown:
@@ -184,7 +201,7 @@ class LandscapePanel:
                     f"{p.title.lower()} ±{number(half, 1 if p.angular else 2)} {p.shown_unit}"
                     for p, half in half_widths(drawn, land)
                 ),
-                "note": _note(drawn, paths, run),
+                "note": f"{_note(drawn, paths, run)} A click on the surface takes its design.",
             },
             landscape_labels=labels,
         )
@@ -338,14 +355,15 @@ def _water_label(drawn: Map, land: Landscape, units: Units) -> dict[str, Any]:
     # Before the valley, where it covers neither the balls nor their words.
     at = (centre + 2.2 * np.array([near_x, near_y, 0.0])).tolist()
     title = f"Blue: within {100 * BAND:g} % of the least power of the map."
-    return {"text": valley_words(drawn, land, units), "node": ROOT, "at": at, "kind": "water", "title": title}
+    words = valley_words(drawn, land, units).partition(":")[0]  # The card says that it is flat.
+    return {"text": words, "node": ROOT, "at": at, "kind": "water", "title": title}
 
 
 def _note(drawn: Map, paths: tuple[Path, ...], run: SearchRun | None) -> str:
     if not paths and run is not None:
         return "The search is under way." if run.under_way else "The last search was of another design or concept."
     if not paths:
-        return "Optimise with the same concept to see its starts roll."
+        return "A search with the same concept shows its starts roll here."
     others = [p.title.lower() for k, p in enumerate(drawn.task.concept.parameters) if k not in drawn.task.axes]
     if not others:
         return "Balls stand at the best design of each start so far."

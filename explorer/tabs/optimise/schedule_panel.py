@@ -44,7 +44,8 @@ class SchedulePanel(BackgroundWork):
         self.line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
         self._concept = gui.add_html("")
-        with gui.add_folder("Mission: µ and hours"):
+        with gui.add_folder("Mission"):
+            gui.add_html(tag("div.rxp-columns", tag("span", "µ"), tag("span", "hours")))
             self._rows = [
                 gui.add_vector2(
                     f"Leg {k + 1}",
