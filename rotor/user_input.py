@@ -1,8 +1,10 @@
 """Names and files that a user gives: files read within bounds and written where possible; errors in one sentence."""
 
+import csv
 import difflib
 import errno
 import importlib
+import io
 import logging
 import math
 import os
@@ -184,6 +186,14 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         with suppress(OSError):
             Path(part).unlink()
         raise
+
+
+def csv_text(rows: Iterable[Iterable[object]], heading: str = "") -> str:
+    """Rows as CSV, with the same line ends on every system, below a heading of comment lines."""
+    text = io.StringIO(heading)
+    text.seek(0, io.SEEK_END)
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def _umask() -> int:

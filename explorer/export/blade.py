@@ -7,8 +7,6 @@ whole geometry kernel, and every CAD program lofts curves.
 """
 
 import argparse
-import csv
-import io
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -37,7 +35,7 @@ from rotor import Design, Solution, load_design, make_design, solve
 from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import called, help_formatter, run_command
-from rotor.user_input import write_whole
+from rotor.user_input import csv_text, write_whole
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
@@ -72,13 +70,11 @@ def section_curves(design: Design) -> bytes:
     shape, vertices = _loft(design)
     count = len(shape.r)
     curves = vertices[: count * POINTS].reshape(count, POINTS, 3) + np.array([_hinge(design), 0.0, 0.0])
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(("section", "r_over_R", "x_m", "y_m", "z_m"))
+    rows: list[tuple[object, ...]] = [("section", "r_over_R", "x_m", "y_m", "z_m")]
     for k, (r, curve) in enumerate(zip(shape.r.tolist(), curves, strict=True)):
         for x, y, z in [*curve.tolist(), curve[0].tolist()]:
-            writer.writerow((k, f"{r:.6g}", f"{x:.6f}", f"{y:.6f}", f"{z:.6f}"))
-    return text.getvalue().encode("ascii")
+            rows.append((k, f"{r:.6g}", f"{x:.6f}", f"{y:.6f}", f"{z:.6f}"))
+    return csv_text(rows).encode("ascii")
 
 
 def flown_design(solution: Solution, psi: float) -> Design:

@@ -1,7 +1,5 @@
 """Where an exported file comes from, and solutions as CSV tables with units."""
 
-import csv
-import io
 import math
 import platform
 import re
@@ -23,6 +21,7 @@ from rotor.assets import commit
 from rotor.design.quantities import BESIDE
 from rotor.trim import DiskFields
 from rotor.units import KNOT
+from rotor.user_input import csv_text
 
 PROGRAM = "rotor explorer"
 _SHOWN = {"rotor-explorer": PROGRAM, "viser": "viser", "numpy": "NumPy", "scipy": "SciPy", "numba": "Numba"}
@@ -189,13 +188,10 @@ def _disk_fields(disk: DiskFields) -> list[str]:
 
 
 def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:
-    text = io.StringIO()
-    text.writelines(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([name for name, _ in columns])
+    heading = "".join(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
     table = np.stack([np.asarray(values, dtype=float).ravel() for _, values in columns], axis=1)
-    writer.writerows([_number(value) for value in row] for row in table.tolist())
-    return text.getvalue().encode("utf-8")
+    rows = ([_number(value) for value in row] for row in table.tolist())
+    return csv_text([[name for name, _ in columns], *rows], heading).encode("utf-8")
 
 
 def _number(value: float) -> str:

@@ -1,8 +1,6 @@
 """What several commands share: flags of design and search, tables as CSV files, and the progress of long commands."""
 
 import argparse
-import csv
-import io
 import json
 import math
 import os
@@ -32,7 +30,7 @@ from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.study.results import design_at
-from rotor.user_input import check_writable, parse_range, write_whole
+from rotor.user_input import check_writable, csv_text, parse_range, write_whole
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -152,14 +150,12 @@ def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> 
 
     The path - is stdout.
     """
-    text = io.StringIO()
-    text.write(heading)
-    csv.writer(text, lineterminator="\n").writerows(rows)
+    text = csv_text(rows, heading)
     if path == "-":
-        print(text.getvalue(), end="")
+        print(text, end="")
         return
     try:
-        write_whole(path, text.getvalue())
+        write_whole(path, text)
     except OSError as error:
         raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 

@@ -1,7 +1,6 @@
 """Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each."""
 
 import base64
-import csv
 import importlib
 import math
 from collections import Counter
@@ -24,6 +23,7 @@ from rotor.reproduce.report import (
 )
 from rotor.reproduce.runs import CachedFunction
 from rotor.units import typographic
+from rotor.user_input import csv_text
 
 _STYLE = {
     "font.size": 9.0,
@@ -301,12 +301,10 @@ def csv_name(report: Report, table: ReportTable) -> str:
 
 def write_csv(path: Path, report: Report, table: ReportTable) -> None:
     """One table with a heading of comments."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.write(f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n")
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(table.columns)
-        # Six significant digits are more than the accuracy of any.
-        writer.writerows([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)
+    heading = f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n"
+    # Six significant digits are more than the accuracy of any.
+    rows = ([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)
+    path.write_text(csv_text([table.columns, *rows], heading), encoding="utf-8", newline="")
 
 
 def write_all(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:

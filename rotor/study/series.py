@@ -3,9 +3,7 @@
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
 
-import csv
 import importlib
-import io
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -30,7 +28,7 @@ from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
-from rotor.user_input import check_suffix, write_whole
+from rotor.user_input import check_suffix, csv_text, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
@@ -95,9 +93,7 @@ class SweepTable:
     def to_csv(self, path: str | Path) -> None:
         """Write the table to a CSV file, with empty cells for what does not exist; ValueError for another suffix."""
         check_suffix(path, ".csv")
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows([self.columns, *self.rows])
-        write_whole(path, text.getvalue())
+        write_whole(path, csv_text([self.columns, *self.rows]))
 
     def to_dataframe(self) -> Any:
         """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""

@@ -7,7 +7,6 @@ names the test that recomputes it. `python -m rotor validate NAME --page DIR` sh
 it anew.
 """
 
-import csv
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import astuple, fields
@@ -16,6 +15,7 @@ from pathlib import Path
 
 from rotor.chart_svg import small_svg, svg
 from rotor.markup import tag
+from rotor.user_input import csv_text
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
@@ -80,7 +80,8 @@ def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
     order = list(KINDS)
     sets = sorted(sets, key=lambda data: order.index(data.rows[0].kind))
     rows = [[_plain(cell) for cell in astuple(row)] for data in sets for row in data.rows]
-    _write(folder / "trust.csv", rows)
+    text = csv_text([[field.name for field in fields(TrustRow)], *rows], _HEADING)
+    (folder / "trust.csv").write_text(text, encoding="utf-8", newline="")
     for data in sets:
         write_set(data, folder)
     path = folder / "validation.md"
@@ -188,11 +189,3 @@ def _picture(data: TrustSet, k: int) -> str:
 
 def _plain(cell: str | float | None) -> str:
     return cell if isinstance(cell, str) else "" if cell is None else f"{cell:.6g}"
-
-
-def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.write(_HEADING)
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([field.name for field in fields(TrustRow)])
-        writer.writerows(rows)
