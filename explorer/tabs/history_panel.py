@@ -1,4 +1,4 @@
-"""Undo, redo, the strip of steps as bars as high as their power, and the kept designs; a click goes to one."""
+"""Undo, redo, the strip of steps as bars by their power, and the kept designs; a click goes to one."""
 
 import math
 import threading
@@ -43,7 +43,8 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
     for k, step in enumerate(shown):
         number_of = first + k
         power = powers.get(step)
-        share = 0.5 if power is None or high - low < 1e-9 else (power - low) / (high - low)
+        # The square root keeps designs near the least apart where one step of the strip needs far more power.
+        share = 0.5 if power is None or high - low < 1e-9 else math.sqrt((power - low) / (high - low))
         height = _LOWEST + share * (_HEIGHT - _LOWEST)
         colour = NOW if number_of == present else THIS if number_of < present else BASELINE
         fill = "none" if power is None else colour
@@ -68,7 +69,7 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
 def caption(history: History) -> Markup:
     """Where in the history the page stands."""
     here = tag("span", f"Step {len(history.past) + 1} of {len(history.steps)}")
-    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "bar height: total power; click to go there"))
+    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "height: √ of power above least; click to go there"))
 
 
 def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:

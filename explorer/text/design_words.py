@@ -125,7 +125,7 @@ def inflow_words(design: Design) -> str:
 def physics_words(design: Design) -> str:
     """The effects that are switched off; with none, the losses included."""
     off = [f"no {switch.title.lower()}" for switch in switched_off(design.models)]
-    return ", ".join(off) or "tip and hub loss"
+    return ", ".join(off) or "tip and root loss"
 
 
 def twist_name(inputs: Inputs) -> str:

@@ -117,7 +117,7 @@ def _model_causes(a: Design, b: Design) -> list[str]:
     if a.models.low_speed != b.models.low_speed:
         causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} passage to hover at low speed")
     if a.models.loss_on != b.models.loss_on:
-        causes.append(f"tip and hub loss on the {b.models.loss_on}")
+        causes.append(f"tip and root loss on the {b.models.loss_on}")
     return causes
 
 

@@ -77,7 +77,7 @@ _SWITCHES = (
     ),
     _switch(
         "hub_loss",
-        "Hub loss",
+        "Root loss",
         "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
         "F_hub = 1.",
         "3.17",

@@ -1,5 +1,6 @@
 """Units: factors by hand, and sliders that read in pounds and feet without moving the design."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -39,7 +40,7 @@ def test_the_chosen_unit_comes_first(cruise: Solution):
 
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
-    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no hub loss"
+    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no root loss"
     assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
     assert flight_name(Inputs(climb_m_s=5.0)) == "µ 0.2, climb 5.0 m/s, 8.32 t"
     assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009342 lb"
@@ -54,6 +55,16 @@ def test_searches_and_history_in_horsepower(cruise: Solution):
         assert shown in history_view.kept_rows((KeptDesign(Inputs(), cruise),), None, units)
     kept = KeptDesign(Inputs(), cruise)
     assert "now 0 hp" in history_view.kept_rows((kept,), cruise, AVIATION)
+
+
+def test_the_strip_tells_two_designs_near_the_least_apart_beside_one_of_far_more_power():
+    steps = [Inputs(mass_t=mass) for mass in (8.0, 9.0, 10.0)]
+    history = History(steps[0], future=steps[:0:-1])
+    assert list(history.steps) == steps
+    shown = history_view.strip(history, dict(zip(steps, (894e3, 901e3, 3029e3), strict=True)))
+    least, near, far = (float(h) for h in re.findall(r'height="([\d.]+)"[^>]* stroke=', shown))
+    assert near - least > 1.5  # Pixels; 0.1 in proportion to power.
+    assert far > near + 20.0
 
 
 @pytest.mark.parametrize("name", ["mass_t", "altitude_m", "climb_m_s"])
