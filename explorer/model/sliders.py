@@ -100,8 +100,9 @@ class SliderSensitivity:
         return number(units.power[0].of(self.watts(units)), 1, sign=True)
 
     def unit_text(self, units: Units = SI) -> str:
-        """What belongs behind the number: `kW/°`, `kW/0.1 R`, `hp/200 lb`."""
-        return units.power[0].symbol + slider(self.name, units).per
+        """What belongs behind the number: `kW per °/R`, `kW/0.1 R`, `hp/200 lb`."""
+        shown = slider(self.name, units)
+        return units.power[0].symbol + (" per °/R" if shown.label.endswith("[°/R]") else shown.per)
 
 
 def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, SliderSensitivity]:

@@ -184,7 +184,7 @@ def report(schedule: Schedule) -> str:
         gain = schedule.in_flight_gain(concept.name)
         if gain is not None:
             sentence = (
-                f"{concept.title}: current design {gain.baseline / 1e3:.1f} kW, best fixed {gain.fixed / 1e3:.1f} kW, "
+                f"{concept.title}: starting design {gain.baseline / 1e3:.1f} kW, best fixed {gain.fixed / 1e3:.1f} kW, "
                 f"variable {gain.moving / 1e3:.1f} kW. Additional saving from variable twist {gain.gain / 1e3:.1f} kW "
                 f"({100 * gain.share:.2f} %)."
             )

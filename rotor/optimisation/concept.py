@@ -201,7 +201,7 @@ class OnTop:
 
     @property
     def explanation(self) -> str:
-        return f"Added to the twist of the current design. {self.base.explanation}"
+        return f"Added to the twist of the starting design. {self.base.explanation}"
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:

@@ -30,7 +30,7 @@ class Plan:
     """A schedule to compute, as a value: it pickles."""
 
     design: Design
-    """The current design; its twist is the baseline."""
+    """The starting design; its twist is the baseline."""
     concepts: tuple[Concept, ...]
     """Simplest first: the others start from their optima."""
     conditions: tuple[WeightedCondition, ...]
@@ -49,7 +49,7 @@ class Plan:
         check_index(self.design, Objective(self.quantity, self.conditions), self.limits)
 
     def design_at(self, condition: int | None) -> Design:
-        """The current design at a condition; None: at its own condition."""
+        """The starting design at a condition; None: at its own condition."""
         return self.design if condition is None else replace(self.design, condition=self.conditions[condition].flight)
 
 
@@ -68,7 +68,7 @@ class InFlightGain:
 
     concept: str
     baseline: float
-    """Mean power of the current design [W]."""
+    """Mean power of the starting design [W]."""
     fixed: float
     """Mean power of the best fixed blade [W]."""
     moving: float

@@ -187,7 +187,7 @@ def _where(run: SearchRun) -> str:
             return "Stopping …"
         case "running":
             if progress is None:
-                return "Trimming the current design …"
+                return "Trimming the starting design …"
             if progress.phase == "band":
                 return "Measuring the 0.1 % band"
             return f"Starting point {progress.start + 1} of {progress.starts}"
