@@ -123,8 +123,10 @@
     earns.hidden = !now;
     RX.again('power');
     if (!now) { earns.innerHTML = ''; return; }
+    const {pays} = RX.state;
     earns.toggleAttribute('data-faded', now.kind !== 'ready');
-    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span></div><svg role="img"></svg>
+    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span></div>
+      ${pays ? `<div class="rxf-earns-pays" data-explorer="pays" title="${text(pays)}">${text(pays)}</div>` : ''}<svg role="img"></svg>
       <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(now.mass_note)}">${text(now.mass)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
     if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
@@ -144,6 +146,7 @@
     svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
     svg.innerHTML = inside;
   });
+  RX.paint('pays', () => RX.again('earns'));
   // The card of power tells the one verdict, here and over the flight, against one blade.
   const told = () => {
     const now = RX.state.earns, place = now && part('power').querySelector('[data-explorer=verdict]');

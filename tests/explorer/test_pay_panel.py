@@ -98,7 +98,9 @@ def test_the_search_reports_the_line_first_and_says_why_there_is_none(server: vi
         return jobs[-1]
 
     pool = SimpleNamespace(submit=submit, stop=lambda job, quiet=False: job.silence() if quiet else None)
-    context: Any = SimpleNamespace(gui=server.gui, pool=pool, wake=lambda: None)
+    stage = dict[str, Any]()
+    bridge = SimpleNamespace(set=stage.update)
+    context: Any = SimpleNamespace(gui=server.gui, pool=pool, wake=lambda: None, bridge=bridge)
     panel, pair = PayPanel(context), ConditionPair(DESIGN, (0.0, 0.3))
 
     def shown(pair: ConditionPair | None = pair) -> str:
@@ -117,7 +119,9 @@ def test_the_search_reports_the_line_first_and_says_why_there_is_none(server: vi
     jobs[0].tell(JobEnded(answer()))
     assert not panel.running
     assert "find again" not in shown()
+    assert stage == {"pays": "None of 2 builds pays."}
     assert "find again" in shown(ConditionPair(DESIGN, (0.0, 0.2)))
+    assert stage == {"pays": None}  # It was told about other conditions.
     panel.begin()
     jobs[1].tell(JobEnded("No twist saves anything here."))
     assert "No twist saves anything here." in shown()

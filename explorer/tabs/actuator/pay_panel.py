@@ -73,6 +73,7 @@ class PayPanel(BackgroundWork):
 
     def __init__(self, context: TabContext) -> None:
         super().__init__(context.pool, context.wake, _LIMIT, _URGENCY, restarts=True)
+        self._bridge = context.bridge
         self._pair: ConditionPair | None = None
         """Conditions of the design on the sliders; None where it carries no actuator."""
         self._asked: ConditionPair | None = None
@@ -81,9 +82,8 @@ class PayPanel(BackgroundWork):
         self.line = _START
         with context.gui.add_folder("What would pay"):
             button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
-            self._html = context.gui.add_html("")
+            self._html = context.gui.add_html(_small("start", _START, ".rx-dim"))
         button.on_click(lambda _: self.begin())
-        self.refresh(None, None)
 
     def prepare(self) -> tuple[PayTask, Callable[[JobEvent], None], str]:
         """The search for the pair of conditions that is shown."""
@@ -95,6 +95,9 @@ class PayPanel(BackgroundWork):
     def refresh(self, pair: ConditionPair | None, verdict: Verdict | None) -> None:
         """Follow the design; `verdict` on its actuator, once there is one."""
         self._pair = pair
+        # The last sentence counts the builds that pay: it stands on the stage, as long as it is about what is shown.
+        answer = self._answer if self._asked == pair else None
+        self._bridge.set(pays=None if answer is None else answer.sentences[-1])
         if self._answer is not None:
             self._html.content = pay_panel(self._answer, verdict, stale=self._asked != pair)
             return
