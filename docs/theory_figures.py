@@ -100,7 +100,7 @@ def losses() -> str:
         Line(f"λ = {inflow}", r, loss_factor(r, inflow, 4, 0.13)[0], COLOURS[1 + k])
         for k, inflow in enumerate((0.03, 0.06))
     ]
-    return _chart("Tip and hub loss, four blades", RADIUS, "F", *series)
+    return _chart("Tip and root loss, four blades", RADIUS, "F", *series)
 
 
 def hover() -> str:

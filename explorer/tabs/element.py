@@ -131,7 +131,7 @@ class Probe:
     moment: float | None
     """Pitching moment as a load [N m per m]."""
     lift: float
-    """Normal to the flow, tip and hub loss taken off [N/m]."""
+    """Normal to the flow, tip and root loss taken off [N/m]."""
     drag: float
     """Along the flow [N/m]."""
     thrust: float

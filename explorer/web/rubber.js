@@ -244,14 +244,14 @@
     ray.setFromCamera({x: 2 * (clientX - box.left) / box.width - 1, y: 1 - 2 * (clientY - box.top) / box.height}, camera);
     const meet = name => {
       let mesh = null;
-      nodes[name]?.traverse(part => { if (part.isMesh && !part.isLineSegments2) mesh ??= part; });
+      nodes[name]?.traverse(one => { if (one.isMesh && !one.isLineSegments2) mesh ??= one; });
       const [hit] = mesh && lies(mesh) ? ray.intersectObject(mesh, false) : [];
       return hit && {name, mesh, uv: hit.uv, at: hit.point, far: hit.distance};
     };
     const hits = ['/lifted/skin', ...Array.from({length: 8}, (_, k) => `/rotor/blade_${k}`)].map(meet).filter(Boolean).sort((a, b) => a.far - b.far);
-    const disk = hits.length ? null : meet('/landscape/surface') ?? meet('/rotor/disk/field');
-    if (disk && !disk.name.startsWith('/rotor')) return {...disk, name: 'landscape'};
-    return hits[0] ?? (disk && Math.hypot(disk.uv.x - .5, disk.uv.y - .5) < .5 ? {name: 'disk'} : {name: ''});
+    const below = hits.length ? null : meet('/landscape/surface') ?? meet('/rotor/disk/field');
+    if (below && !below.name.startsWith('/rotor')) return {...below, name: 'landscape'};
+    return hits[0] ?? (below && Math.hypot(below.uv.x - .5, below.uv.y - .5) < .5 ? {name: 'disk'} : {name: ''});
   }
   function aim(at) {
     const now = at ? find(at) : {name: ''}, kind = /blade_0|lifted/.test(now.name) ? 'grab' : now.name ? 'crosshair' : 'move';
@@ -271,8 +271,8 @@
   addEventListener('click', event => {
     const on = page.hasAttribute('data-landscape') && viewer()?.canvas?.contains(event.target) && !turned(event) ? find(event) : null;
     if (on?.name !== 'landscape') return;
-    const {mesh, at} = on, {min, max} = mesh.geometry.boundingBox ?? (mesh.geometry.computeBoundingBox(), mesh.geometry.boundingBox), place = mesh.worldToLocal(at.clone());
-    RX.send('land_at', [(place.x - min.x) / (max.x - min.x), (place.y - min.y) / (max.y - min.y)]);
+    const {mesh, at} = on, {min, max} = mesh.geometry.boundingBox ?? (mesh.geometry.computeBoundingBox(), mesh.geometry.boundingBox), point = mesh.worldToLocal(at.clone());
+    RX.send('land_at', [(point.x - min.x) / (max.x - min.x), (point.y - min.y) / (max.y - min.y)]);
   });
   let pressedAt = [0, 0];
   const turned = event => Math.hypot(event.clientX - pressedAt[0], event.clientY - pressedAt[1]) > 5;

@@ -49,7 +49,7 @@ def no_effect(design: Design, name: str) -> str:
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
             return "tip loss is part of this wake"
         case "hub_loss" if not hovering and inflow.load_dependent:
-            return "hub loss is part of this wake"
+            return "root loss is part of this wake"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade element is in reverse flow at this speed"
         case "surface_drag" if design.rotor.blade.surface_drag == 1.0:

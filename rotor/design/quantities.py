@@ -247,7 +247,7 @@ _MODELS = (
     Quantity(
         "loss_on", "choice",
         "lift (flight) or inflow (thesis): what Prandtl's factors act on under linear inflow in forward flight",
-        place="models.loss_on", choices=LOSS_ON, key="loss_on", input="loss_on", title="Tip and hub loss",
+        place="models.loss_on", choices=LOSS_ON, key="loss_on", input="loss_on", title="Tip and root loss",
         hint="Prandtl's factors with linear inflow in forward flight: less lift at the ends of the blade, or more "
         "inflow. | 3.3",
     ),
