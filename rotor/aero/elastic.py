@@ -109,7 +109,9 @@ REVERSE_FLOW_DEG = (165.0, 172.0)
 
 @lru_cache(maxsize=32)
 @read_only
-def moment_table(table: SectionTable, only_mach: float | None) -> Array:
+def moment_table(
+    table: SectionTable, only_mach: float | None, reverse: tuple[float, float] = REVERSE_FLOW_DEG
+) -> Array:
     """C_m of a section about the quarter chord, (α cells, Mach cells, 4, 4); zero where its source has none.
 
     Near ±180° the air attaches to the trailing edge first and its force acts at the three-quarter chord, half a chord
@@ -123,7 +125,7 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     alpha = np.deg2rad(degrees)[:, None]
     flow, moment = held(alpha, mach), held.moment(alpha, mach)
     assert moment is not None
-    start, end = REVERSE_FLOW_DEG
+    start, end = reverse
     t = np.clip((np.abs(degrees) - start) / (end - start), 0.0, 1.0)[:, None]
     share = t * t * (3.0 - 2.0 * t)
     reversed_flow = -0.5 * (flow.cl * np.cos(alpha) + flow.cd * np.sin(alpha))

@@ -205,13 +205,12 @@ def test_assumptions_about_files_are_caveats():
     assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor", "no-blade-structure"]
 
 
-@pytest.mark.parametrize("page", ["docs/tutorials/own_rotor.md", "docs/rotor_file.md"])
+@pytest.mark.parametrize("page", ["docs/tutorials/mine.toml", "docs/rotor_file.md"])
 def test_the_examples_in_the_docs_are_rotor_files(page: str):
     text = (Path(__file__).parent.parent.parent.parent / page).read_text(encoding="utf-8")
-    found = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
-    assert found is not None
+    example = text if page.endswith(".toml") else re.findall(r"```toml\n(.*?)```", text, re.DOTALL)[0]
     files = {f"n23012_m0{k + 1}.txt": polar_file(POLARS[k]) for k in (1, 2, 3)}
-    assert solve(make_design(rotor=read(found[1], **files), mu=0.2)).converged
+    assert solve(make_design(rotor=read(example, **files), mu=0.2)).converged
 
 
 def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
