@@ -178,7 +178,7 @@ def test_each_slider_says_what_a_step_is_worth(watched: Watched):
         place = page.locator(f'[data-worth="{name}"]')
         # viser may be mounting the place anew: what stands there counts once something does.
         watched.until(place.inner_text)
-        assert re.search(r"[+−]\d+\.\d\s*(kW|hp)/|no effect", place.inner_text()), name
+        assert re.search(r"[+−]\d+\.\d\s*(kW|hp)(/| per )|no effect", place.inner_text()), name
         assert "changes power by" in (place.get_attribute("title") or "")
     mass = page.locator('[data-worth="mass_t"]').inner_text()
     assert re.fullmatch(r"saves\s*\+\d+\.\d\s*kW/100 kg", mass)  # A heavier aircraft needs more power.
