@@ -262,7 +262,7 @@ def test_a_worker_of_a_cluster_with_four_threads_computes_the_same_numbers(tmp_p
     file = few(tmp_path)
     expected = run_study(file, out=tmp_path / "here", workers=1)
     with (
-        distributed.LocalCluster(n_workers=1, threads_per_worker=4, processes=False, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=1, threads_per_worker=4, processes=False, dashboard_address=":0") as cluster,
         distributed.Client(cluster) as client,
     ):
         results = run_study(file, client.get_executor(), out=tmp_path / "dask")
