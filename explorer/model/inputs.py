@@ -81,8 +81,9 @@ INFLOW_MENUS = {
 def _twist(
     name: str, default: float, label: str, low: float = -30.0, high: float = 10.0, step: float = 0.1
 ) -> Quantity:
-    """Degrees, or degrees per radius."""
-    return Quantity(name, "number", default=default, input=name, slider=Slider(label, low, high, step))
+    """Degrees, or degrees per radius: the label says which."""
+    per = f" per {label.partition('[')[2].rstrip(']')}"
+    return Quantity(name, "number", default=default, input=name, slider=Slider(label, low, high, step, per=per))
 
 
 def _break(name: str, default: float, label: str = "Break point [r/R]") -> Quantity:

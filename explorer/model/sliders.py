@@ -101,8 +101,7 @@ class SliderSensitivity:
 
     def unit_text(self, units: Units = SI) -> str:
         """What belongs behind the number: `kW per °/R`, `kW/0.1 R`, `hp/200 lb`."""
-        shown = slider(self.name, units)
-        return units.power[0].symbol + (" per °/R" if shown.label.endswith("[°/R]") else shown.per)
+        return units.power[0].symbol + slider(self.name, units).per
 
 
 def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, SliderSensitivity]:

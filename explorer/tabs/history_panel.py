@@ -69,7 +69,7 @@ def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -
 def caption(history: History) -> Markup:
     """Where in the history the page stands."""
     here = tag("span", f"Step {len(history.past) + 1} of {len(history.steps)}")
-    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "height: √ of power above least; click to go there"))
+    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "a taller bar needs more power; click to go there"))
 
 
 def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:

@@ -84,8 +84,8 @@ def sensitivity_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units
     if sensitivity.name in inputs.idle:
         value = "no effect while both changes are 0"
     title = SLIDERS[sensitivity.name].label.partition(" [")[0]
-    step = slider(sensitivity.name, units).per.removeprefix("/").strip("()")
-    step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"
+    step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
+    step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
     sentence = (
         f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
         f"A {'higher' if way == 'up' else 'lower'} value saves power."

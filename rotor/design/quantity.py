@@ -50,7 +50,7 @@ class Slider:
     natural: float = 1.0
     """The step that an engineer thinks in, in the unit of the page's input."""
     per: str = "/°"
-    """What follows the power for a natural step."""
+    """What follows the power for a natural step: `/0.1 R`, ` per °/R`."""
     unit: str = ""
     """What a value is followed by in words, where it is not the unit of the name."""
     size: float = 1.0

@@ -89,8 +89,10 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
         f"Adv. ratio µ: 0.01 more changes power by {faster['value']} kW. A lower value saves power."
     )
     twist = sensitivity_row(inputs, SliderSensitivity("built_outer", -900.0), SI)
-    assert (twist["value"], twist["way"]) == ("−0.9", "up")
-    assert "1° more changes power by −0.9 kW. A higher value saves power." in twist["sentence"]
+    assert (twist["value"], twist["way"], twist["unit"]) == ("−0.9", "up", "kW per °/R")
+    bent = sensitivity_row(replace(inputs, law="quadratic"), SliderSensitivity("quadratic_curvature", -900.0), SI)
+    assert bent["unit"] == "kW per °/R²"
+    assert "1°/R more changes power by −0.9 kW. A higher value saves power." in twist["sentence"]
     climb = sensitivity_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
     assert "100 ft/min more changes power by +" in climb["sentence"]
     changed = replace(inputs, built_outer=-1.0)

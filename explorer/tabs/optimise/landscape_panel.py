@@ -55,14 +55,17 @@ def half_widths(drawn: Map, land: Landscape) -> list[tuple[Parameter, float]]:
     ]
 
 
-def valley_words(drawn: Map, land: Landscape, units: Units) -> str:
-    """How flat the optimum is: `±4°/R for 1 kW: a flat optimum`, of the parameter that may move most."""
+def valley_words(drawn: Map, land: Landscape, units: Units, verdict: bool = True) -> str:
+    """How flat the optimum is: `±4°/R for 1 kW: a flat optimum`, of the parameter that may move most.
+
+    Without the verdict it ends before the colon.
+    """
     halves = half_widths(drawn, land)
     angular = [half for half in halves if half[0].angular] or halves
     parameter, half = max(angular, key=lambda half: half[1])
     digits = 0 if parameter.angular and half >= 1.5 else 1 if parameter.angular else 2
     unit = parameter.shown_unit if parameter.shown_unit.startswith("°") else f" {parameter.shown_unit}"
-    flat = ": a flat optimum" if parameter.angular and half >= _FLAT else ""
+    flat = ": a flat optimum" if verdict and parameter.angular and half >= _FLAT else ""
     return f"±{number(half, digits)}{unit} for {units.watts(BAND * land.least, 1)}{flat}"
 
 
@@ -355,7 +358,7 @@ def _water_label(drawn: Map, land: Landscape, units: Units) -> dict[str, Any]:
     # Before the valley, where it covers neither the balls nor their words.
     at = (centre + 2.2 * np.array([near_x, near_y, 0.0])).tolist()
     title = f"Blue: within {100 * BAND:g} % of the least power of the map."
-    words = valley_words(drawn, land, units).partition(":")[0]  # The card says that it is flat.
+    words = valley_words(drawn, land, units, verdict=False)  # The card has it.
     return {"text": words, "node": ROOT, "at": at, "kind": "water", "title": title}
 
 
