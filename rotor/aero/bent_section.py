@@ -48,7 +48,7 @@ class BentData(NamedTuple):
     """By what an element stands for the blade inboard of the first as well, in E, G_w and G_v, (elements,)."""
 
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 def turned(c: Array, first: int) -> Array:

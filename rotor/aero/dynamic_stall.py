@@ -54,7 +54,7 @@ _LEAST_FINE = 96
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel."""
 _PI = math.pi
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 @_compile

@@ -15,7 +15,7 @@ _PI = math.pi
 INVERSE_ALPHA = 1.0 / ALPHA_STEP
 INVERSE_MACH = 1.0 / MACH_STEP
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 @_compile

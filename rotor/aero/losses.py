@@ -52,7 +52,7 @@ def loss_factor(
 _LARGEST = 40.0
 """f from which F is 1 and its slope 0 to rounding."""
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 @_compile

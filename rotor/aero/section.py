@@ -95,8 +95,8 @@ fix(NO_MOMENT)  # As those of a blade that twists: kernels are compiled for eith
 # Contraction (fused multiply-add) is the only deviation from strict IEEE arithmetic. The loops below run along one row
 # of azimuths and have no branches: so the compiler makes vector code of them, and four elements take about as long as
 # one. Only the look-up goes from element to element.
-_compile = compiled(error_model="numpy", fastmath={"contract"})
-_inline = compiled(error_model="numpy", fastmath={"contract"}, inline="always")
+_compile = compiled(error_model="numpy")
+_inline = compiled(error_model="numpy", inline="always")
 
 (_U, _K, _LIFT, _DRAG, _LIFT_A, _LIFT_M, _T_OVER, _P_OVER, _BACK, _BY_T, _BY_P, _BY_R, _ONE, _TWO) = range(14)
 """Rows of work: U, ½σU, F C_l, C_d, F ∂C_l/∂α, F ∂C_l/∂M, U_T/U², U_P/U², −U_T/U², ∂M/∂(U_T, U_P, U_R)."""

@@ -21,7 +21,7 @@ from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.engine.memory import Memory
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 class StallingData(NamedTuple):

@@ -39,7 +39,7 @@ SLOWEST = 0.1
 _PUSHED = (FZ, FX, M)
 """Forces that apparent mass adds to."""
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 
 class UnsteadyData(NamedTuple):

@@ -126,8 +126,8 @@ HOVER_PAIRS = (*((force, TH) for force in LOADED), (BALANCED, TH))
 _ROW = {pair: k for k, pair in enumerate(PAIRS)}
 _FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
-_inline = compiled(error_model="numpy", fastmath={"contract"}, inline="always")
+_compile = compiled(error_model="numpy")
+_inline = compiled(error_model="numpy", inline="always")
 
 
 def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:

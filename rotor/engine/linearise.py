@@ -28,7 +28,7 @@ from rotor.engine.memory import Memory
 from rotor.engine.terms import NOTHING, Shape, Structure, Terms, summed
 from rotor.engine.waves import WaveGrid
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+_compile = compiled(error_model="numpy")
 
 _sums = compiled(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})  # Sums in any order make vector code.
 

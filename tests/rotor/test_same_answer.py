@@ -1,6 +1,7 @@
 """An answer depends on its design alone: to the last bit in any order, in any process, in several threads at once."""
 
 import json
+import os
 import random
 import subprocess
 import sys
@@ -51,6 +52,19 @@ def test_thirty_designs_in_three_orders_and_in_four_threads() -> None:
     order = list(range(30))
     mixed = random.Random(1).sample(order, 30)
     check([(order, 1), (order[::-1], 1), (mixed, 1), (order, 4)])
+
+
+@pytest.mark.slow
+def test_the_run_that_compiles_has_the_bits_of_those_that_read_kept_code(tmp_path: Path) -> None:
+    stalling = "rotor.make_design(mu=0.3, inflow='drees', bending=True, dynamic_stall='on')"
+    line = f"import rotor; print(rotor.solve({stalling}).linear.point.x.tobytes().hex())"
+    kept = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    first, second = (
+        subprocess.run([sys.executable, "-c", line], cwd=ROOT, env=kept, capture_output=True, text=True, check=True)
+        for _ in range(2)
+    )
+    assert len(first.stdout) > 1000
+    assert first.stdout == second.stdout
 
 
 @pytest.mark.slow
