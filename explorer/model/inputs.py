@@ -1,4 +1,7 @@
-"""The rotors of the menu, the sliders and what is shown, as values; degrees, tonnes and knots end here."""
+"""The rotors of the menu, the sliders and what is shown, as values; degrees, tonnes and knots end here.
+
+One file, for the fields, their rows of the table of quantities and the design that they make change together.
+"""
 
 import math
 import re
