@@ -36,7 +36,7 @@ from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.landscape_panel import LandscapePanel
 from explorer.tabs.optimise.map_panel import MapPanel
-from explorer.tabs.optimise.optimise_panel import OptimisePanel
+from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
 from explorer.tabs.results import ResultsPanel, beside_labels
@@ -44,6 +44,7 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
+from explorer.text.readout import fineness
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
@@ -101,7 +102,7 @@ class Page:
             with tasks["Schedule"]:
                 self.schedule = SchedulePanel(context, self.optimise)
         with layout.in_mode("actuate"):
-            self.actuator = ActuatorPanel(context)
+            self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
             self.dial = TwistDial(context, self._grabbed, self.actuator.top)
         self.results = ResultsPanel(context)
@@ -118,9 +119,11 @@ class Page:
                 RotorUpload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
+        self.rival = Rival(context, address, problems, retired)
+        self.optimise.challenge = self.rival.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome)
+            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome, self._shared_lines)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)
@@ -141,6 +144,8 @@ class Page:
         bridge.on("aim", lambda _: self.camera.come_back())
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
+        if self.actuator.pay.on_stage:
+            layout.show_mode("actuate")
         self.file.begin(problems, retired)
         self.top.refresh()
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
@@ -224,6 +229,7 @@ class Page:
 
     def show_results(self, reading: Reading, state: SessionState) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
+        self.rival.show(state)
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
         self._landscape.show(state, self._tasks.now, reading.sliders)
@@ -325,7 +331,8 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh()
         self.schedule.refresh()
-        context.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
+        notice = self.schedule.notice() or self.optimise.notice(reading.sliders) or self.rival.notice()
+        context.bridge.set(notice=notice)
         self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
 
     def _prompt(self) -> None:
@@ -368,7 +375,15 @@ class Page:
         place, best = curve.place, curve.best
         if best is not None:
             best = {**best, "power": round(units.power[0].of(best["power"]), 2)}
+        if hand is not None and (other := self.rival.solution) is not None:
+            hand["rival"] = round(units.power[0].of(other.power.total), 2)
         self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
+
+    def _shared_lines(self) -> list[str]:
+        """What the picture to be shared says beside the design: the optimiser's power, the supposed actuator."""
+        other, units, supposed = self.rival.solution, self.context.units, self.actuator.pay.sentence
+        optimum = [] if other is None else [f"optimiser {units.watts(other.power.total, fineness(other.power))}"]
+        return optimum + ([f"actuator of {supposed}"] if supposed else [])
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(
@@ -390,6 +405,7 @@ class Page:
         self.schedule.land()
         self.optimise.withdraw()
         self.actuator.reset()
+        self.rival.begin(None)
         self.controls.set_inputs(self._opening)
 
 

@@ -157,13 +157,15 @@ def on_the_page() -> None:
         callbacks = SessionCallbacks(lambda: None, lambda: None, lambda: None)
         controls = DesignControls(server.gui, bridge, OPENING, PowerTracker(), callbacks)
         handle = controls._form._handles[NAME]
-        assert (handle.label, handle.min, handle.max, handle.visible) == ("Warmer [K]", -30.0, 30.0, True)
+        assert (handle.label, handle.min, handle.max) == ("Warmer [K]", -30.0, 30.0)
+        assert not handle.visible  # Folded while it stands at its default.
         handle.value = 10.0
         assert getattr(controls.inputs(), NAME) == 10.0
         warm = replace(OPENING, **{NAME: VALUE})
         controls.set_inputs(warm)
         assert handle.value == VALUE
         controls.refresh(warm, AVIATION)
+        assert handle.visible
         assert (handle.label, round(handle.value, 6)) == ("Warmer [°F]", 27.0)
         assert controls.inputs() == warm
         controls.refresh(warm, SI)

@@ -94,13 +94,13 @@ def test_notebooks_import_nothing_private(path: Path):
 
 
 def names_of_the_page() -> set[str]:
-    """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its HTML."""
+    """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its elements."""
     found = {row.title for row in BY_INPUT.values()} | {row.slider.label for row in BY_INPUT.values() if row.slider}
     page = ROOT / "explorer"
     for path in (*(page / "tabs").rglob("*.py"), *(page / "model").glob("*.py"), page / "page.py"):
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
         found |= {value for value in constants if isinstance(value, str)}
-    for path in (page / "web").glob("*.html"):
+    for path in (*(page / "web").glob("*.html"), *(page / "web").glob("*.js")):
         found |= set(re.findall(r">([^<>]+)<", text(path)))
     return found
 

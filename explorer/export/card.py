@@ -1,6 +1,7 @@
 """One picture of a design to be shared, of the size that pages show beside a link: blade, disk, two numbers, title."""
 
 import io
+from collections.abc import Sequence
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -33,9 +34,16 @@ _BLADE, _GOOD, _BAD = (220, 63, 38), (6, 112, 79), (188, 64, 11)
 
 
 def card_png(
-    solution: Solution, against: Solution, name: str, field: Field, colour_range: tuple[float, float], units: Units
+    solution: Solution,
+    against: Solution,
+    name: str,
+    field: Field,
+    colour_range: tuple[float, float],
+    units: Units,
+    lines: Sequence[str] = (),
 ) -> bytes:
-    """The picture as a PNG. `against`: the design compared with, its name `name`; its blade is drawn grey."""
+    """The picture as a PNG. `against`: the design compared with, its name `name`; its blade is drawn grey. `lines`:
+    what else it says, two at most."""
     picture = Image.new("RGB", (_FINER * SIZE[0], _FINER * SIZE[1]), "white")
     draw = ImageDraw.Draw(picture)
 
@@ -52,6 +60,8 @@ def card_png(
     ink = _DIM if abs(change) < 0.05 else _GOOD if change < 0.0 else _BAD
     write(48, 300, f"{change:+.1f} %".replace("-", "−"), 52, ink)
     write(48, 334, f"power against {name}", 22, _DIM)
+    for k, words in enumerate(lines):
+        write(48, 367 + 28 * k, words, 20, _DIM)
     png = disk_png(solution, field, colour_range, size=_FINER * 400, marks=ALL_MARKS)
     disk = Image.open(io.BytesIO(png)).convert("RGBA")
     picture.paste(disk, (_FINER * 770, _FINER * 20), disk)

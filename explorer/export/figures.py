@@ -176,7 +176,7 @@ def actuator_section(actuator: JudgedActuator | str, units: Units) -> Markup:
         "figure.chart",
         tag("figcaption", tag("b", "Balance of power"), unit),
         balance_bars(verdict, units),
-        tag("p", tag("b", fuel_words(verdict)), data_report="fuel"),
+        tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
     )
     flown = tag("p.note", flight) if isinstance(flight, str) else twist_over_flight(flight)
     return tag(

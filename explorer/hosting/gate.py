@@ -150,7 +150,7 @@ _radius, _hand = _number(0.0, 1.0), _word("start", "end")
 PRESSES: dict[str, Check] = {
     **dict.fromkeys(
         ("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard",
-         "halt", "land", "nearest", "aim"),
+         "halt", "land", "nearest", "aim", "beat", "rival_take", "rival_end"),
         _nothing,
     ),
     **dict.fromkeys(("along", "hold"), _flag),
@@ -160,12 +160,13 @@ PRESSES: dict[str, Check] = {
     "ride": _either(_word("off"), _row(_radius, _number(-3600.0, 3600.0)), _nothing),
     "azimuth": _number(-3600.0, 3600.0),
     "fly": _number(0.0, 100.0),
+    "suppose": _either(_word("on", "off"), _row(_number(0.0, 90.0), _number(0.001, 1e4))),
     "speed": _number(0.0, 1.0),
     "land_at": _row(_radius, _radius),
     "pull": _either(_none, _number(-10.0, 10.0)),
     "wiped": _number(-1.0, 2.0),
     "covered": _row(_number(-10.0, 10.0), _number(-10.0, 10.0)),
-    "difference": _word("on", "off"),
+    **dict.fromkeys(("difference", "more"), _word("on", "off")),
     "landscape": _word("on"),
     "view": _word("actuator", "3d", "disk", "blade", "top", "side"),
     "colours": _word("Rescale", "Default"),

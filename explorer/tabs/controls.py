@@ -60,7 +60,7 @@ class DesignControls:
         self._moving = threading.RLock()
         self._own: Inputs | None = None
         """The user's own inputs while the sliders show those of a preview."""
-        self._following = self._held = False
+        self._following = self._held = self._more = False
         self.pauses = Pauses()
         self._units = SI
         """Units of the sliders of mass, altitude and climb now."""
@@ -70,9 +70,10 @@ class DesignControls:
         form.menu("law", "Twist concept", _laws_of(start), start.law)
         self._sliders(_LAW_INPUTS, LAWS[start.law].inputs)
         self._speed = gui.add_html(_flight_heading(0.0, SI))
+        self._sliders(FLIGHT, _ALWAYS)
         self.stand = StandControls(gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state)
-        self._sliders(FLIGHT, FLIGHT)
         self.stand.add_sliders(start)
+        self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
                 if name not in CHOSEN:
@@ -90,6 +91,7 @@ class DesignControls:
         bridge.on("rotor", self._choose_rotor)
         bridge.on("flown", self._set_measured)
         bridge.on("speed", self._set_speed)
+        bridge.on("more", self._show_more)
 
     def inputs(self) -> Inputs:
         """What the widgets mean now, or what they meant before they followed a preview."""
@@ -160,7 +162,13 @@ class DesignControls:
             shown = inputs if self._own is None else self._special
         law, tested = LAWS[shown.law].inputs, inputs.stand is not None
         self._form.show({name: name in law for name in _LAW_INPUTS})
-        self._form.show({name: inputs.counts(row) and not (tested and row.in_place) for name, row in FLIGHT.items()})
+        counting = [name for name, row in FLIGHT.items() if inputs.counts(row) and not (tested and row.in_place)]
+        folded = [name for name in counting if name not in _ALWAYS and getattr(shown, name) == FLIGHT[name].default]
+        in_sight = set(counting) if self._more else set(counting) - set(folded)
+        self._form.show({name: name in in_sight for name in FLIGHT})
+        chosen = tested or shown.aircraft.isolated
+        self.stand.form.show({"trim": self._more or chosen})
+        self._fold.content = _fold(folded, self._more, chosen)
         self._form.disable({name: self._held or name in shown.idle for name in law})
         if self._own is None:
             self.stand.follow(inputs)
@@ -203,6 +211,11 @@ class DesignControls:
         self.pauses.moved(time.monotonic())
         self._changed()
 
+    def _show_more(self, wanted: str) -> None:
+        """Show what of the flight is at its default too, or fold it."""
+        self._more = wanted == "on"
+        self._changed()
+
     def _choose_rotor(self, name: str) -> None:
         """Another rotor of the menu, as it is built."""
         if not self._held and name in menu_titles(self.inputs().own_rotor):
@@ -236,6 +249,23 @@ def _flight_heading(speed: float, units: Units, tested: bool = False) -> Markup:
         tag("span.rx-num", words.partition(" · ")[0], title=words, data_explorer="speed"),
         data_ruled=True,
     )
+
+
+_ALWAYS = ("advance_ratio", "mass_t")
+"""Sliders of flight that are never folded."""
+
+
+def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
+    """The button that shows the sliders of flight at their defaults, by name, or folds them; `chosen`: the menu of the
+    test stand is in sight anyway."""
+    sliders = [form for name in folded if (form := FLIGHT[name].slider) is not None]
+    names = [form.label.partition(" [")[0].lower() for form in sliders]
+    names += [] if chosen else ["test stand"]
+    if not names:
+        return Markup()
+    words = "Fewer" if more else ", ".join(names).capitalize()
+    pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
+    return tag("button.rxp-fold", words, **pressed)
 
 
 _LAW_INPUTS = tuple(name for law in LAWS.values() for name in law.inputs)

@@ -5,7 +5,7 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import viser
@@ -97,8 +97,11 @@ class ExportPanel(Tab):
         scene: SceneController,
         history: HistoryPanel,
         actuator: Callable[[], Verdict | str],
+        lines: Callable[[], Sequence[str]],
     ) -> None:
-        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
+        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was. `lines`: what the
+        picture to be shared says beside power and change."""
+        self._lines = lines
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
         self._busy = threading.Lock()
         self._curves = PowerCurves()
@@ -163,7 +166,8 @@ class ExportPanel(Tab):
         pinned = state.pinned if state.pinned is not None and state.pinned.converged else None
         against, name = (state.baseline, baseline_title(solution.design)) if pinned is None else (pinned, "A")
         field = FIELDS[view.field]
-        picture = card_png(solution, against, name, field, self._scene.held_range(field), UNITS[view.units])
+        ends = self._scene.held_range(field)
+        picture = card_png(solution, against, name, field, ends, UNITS[view.units], self._lines())
         return _file(solution.design, "png", picture, "card")
 
     def _scene_page(self, state: SessionState) -> File:

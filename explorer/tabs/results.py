@@ -82,7 +82,7 @@ def sensitivity_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units
     way = {1: "up", -1: "down", 0: ""}[sensitivity.saving_direction]
     value = sensitivity.value_text(units) if way else "no effect"
     if sensitivity.name in inputs.idle:
-        value = "no effect while both changes are 0"
+        value = "no effect without a change of twist"
     title = SLIDERS[sensitivity.name].label.partition(" [")[0]
     step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
@@ -362,8 +362,9 @@ class ResultsPanel:
         ghost = ghost_twist(solution, reference.twist, psi) if same_size or not changed else None
         name = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
         names = {
-            "name": f"flown, ψ {state.view.azimuth_deg:.0f}°" if follows_azimuth(solution) else "flown",
-            "name_hint": "Jig twist and elastic twist, at the azimuth of the reference blade.",
+            "name": "flown",
+            "name_hint": "Jig twist and elastic twist, at the azimuth of the reference blade"
+            + (f", ψ {state.view.azimuth_deg:.0f}°." if follows_azimuth(solution) else "."),
             "ghost_name": name if changed else "jig",
             "ghost_hint": "The ghost has the same elastic twist: only the change of jig twist is seen."
             if changed

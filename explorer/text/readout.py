@@ -353,12 +353,18 @@ def balance(verdict: Verdict) -> list[tuple[str, float]]:
 
 def needs(verdict: Verdict, units: Units) -> str:
     """The power that an actuator needs over its flight, or saves, and how sure that is."""
-    net, unit, band = verdict.net_saving, units.power[0], verdict.net_band
+    net = verdict.net_saving
+    words = needs_words(net, verdict.net_band, units)
+    return words + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
+
+
+def needs_words(net: float, band: float | None, units: Units) -> str:
+    """A net saving [W] in words, with its band [W]."""
+    unit = units.power[0]
     digits = 0 if abs(unit.of(net)) >= 10.0 else 1  # Models do not agree to a tenth.
     size = unit.text(abs(net), digits)
     words = f"saves {size}" if net > 0.0 else f"needs {size} more"
-    sure = "" if band is None else f" (± {unit.text(band, digits)}: {sureness(net, band)})"
-    return words + sure + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
+    return words if band is None else f"{words} (± {unit.text(band, digits)}: {sureness(net, band)})"
 
 
 def mass_words(masses: MassBreakdown) -> str:
@@ -374,10 +380,9 @@ def fuel_used(verdict: Verdict) -> float | None:
     return None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
 
 
-def fuel_words(verdict: Verdict) -> str:
-    """Fuel used beyond that without the actuator, in words."""
-    used = fuel_used(verdict)
-    return "no source for fuel" if used is None else f"{number(used, 1, sign=True)} kg of fuel an hour"
+def fuel_words(saved: float | None) -> str:
+    """Fuel used beyond that without the actuator, in words. `saved`: [kg/s]; None: not known."""
+    return "no source for fuel" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg of fuel an hour"
 
 
 def pair_words(verdict: Verdict) -> str:

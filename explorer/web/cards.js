@@ -8,10 +8,10 @@
     const total = Math.max(now.parts.reduce((sum, one) => sum + Math.max(one.share, 0), 0), 1e-6);
     const bar = now.parts.map(one => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${one.part})"></div>`).join('')
       + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
-    const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
+    const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
     place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band || now.doubt)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span> <small data-explorer="within">${text(now.within)}</small></div>
-      <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>
+      ${now.since ? '' : '<div class="rxf-sub">total power</div>'}<div class="rxf-sub rxf-num" ${now.since ? '' : 'hidden'}><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>
       <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(now.doubt)}">${now.sure ? `${text(now.change_within)} %: ${text(now.sure)}` : ''}</div></div>
       <div class="rxf-rule"></div>
       ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)} <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>

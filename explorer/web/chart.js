@@ -20,15 +20,17 @@ window.Charts = (() => {
     const x = axis(one.x, left, width - right), y = axis(one.y, base, top);
     return {X: x.to, Y: y.to, atX: x.back, atY: y.back, left, right: width - right, top, base, width, height};
   }
-  const rows = (one, {Y, left, right}) => one.y.ticks.map(([v, word]) => `<path d="M${left} ${Y(v).toFixed(1)}H${right}" stroke="var(${v === 0 ? '--rx-faint' : '--rx-grid'})"/>
-    <text x="${left - 6}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end">${text(word)}</text>`).join('');
+  // Numbers between the ends of an axis wait, where there are many charts, for the pointer: `data-between`.
+  const between = (k, ticks) => k > 0 && k < ticks.length - 1 ? ' data-between' : '';
+  const rows = (one, {Y, left, right}) => one.y.ticks.map(([v, word], k) => `<path d="M${left} ${Y(v).toFixed(1)}H${right}" stroke="var(${v === 0 ? '--rx-faint' : '--rx-grid'})"/>
+    <text x="${left - 6}" y="${(Y(v) + 4).toFixed(1)}" text-anchor="end"${between(k, one.y.ticks)}>${text(word)}</text>`).join('');
   // A short name stands left of the first number, a long one in the middle below, between the ends where only these are told.
   const long = one => (one.x.label ?? '').length > 5, ends = one => one.x.ends;
   function axes(one, place) {
     const {X, left, right, base} = place, last = one.x.ticks.length - 1, low = base + 15;
     const columns = one.x.ticks.map(([v, word], k) => {
       const wide = k === last && X(v) + 3.5 * word.length > right + 8;
-      return `<text x="${(wide ? right + 8 : X(v)).toFixed(1)}" y="${low}" text-anchor="${ends(one) && !k ? 'start' : wide || (k === last && ends(one)) ? 'end' : 'middle'}">${text(word)}</text>`;
+      return `<text x="${(wide ? right + 8 : X(v)).toFixed(1)}" y="${low}" text-anchor="${ends(one) && !k ? 'start' : wide || (k === last && ends(one)) ? 'end' : 'middle'}"${between(k, one.x.ticks)}>${text(word)}</text>`;
     });
     const name = long(one) ? `<text x="${(left + right) / 2}" y="${low + (ends(one) ? 0 : 15)}" text-anchor="middle" data-axis>${text(one.x.label)}</text>`
       : `<text x="${left - 9}" y="${low}" text-anchor="end" data-axis>${text(one.x.label)}</text>`;

@@ -123,9 +123,11 @@
     earns.hidden = !now;
     RX.again('power');
     if (!now) { earns.innerHTML = ''; return; }
-    const {pays} = RX.state;
-    earns.toggleAttribute('data-faded', now.kind !== 'ready');
-    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span></div>
+    const {pays, suppose} = RX.state;
+    earns.toggleAttribute('data-faded', now.kind !== 'ready' && !suppose);
+    earns.toggleAttribute('data-suppose', Boolean(suppose));
+    if (suppose) return breakEven(suppose, pays);
+    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span><button class="rxf-push" data-do="suppose" data-value="on" title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
       ${pays ? `<div class="rxf-earns-pays" data-explorer="pays" title="${text(pays)}">${text(pays)}</div>` : ''}<svg role="img"></svg>
       <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(now.mass_note)}">${text(now.mass)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
@@ -146,7 +148,71 @@
     svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
     svg.innerHTML = inside;
   });
-  RX.paint('pays', () => RX.again('earns'));
+  for (const name of ['pays', 'suppose']) RX.paint(name, () => RX.again('earns'));
+
+  // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
+  let held = null, told_at = 0, queued = 0;
+  const driven = ({series}, {X, Y}) => {
+    const {x, y} = series.find(one => one.dashes), end = y.length - 1;
+    return y[end] === null ? '' : `<text x="${X(x[end]).toFixed(1)}" y="${(Y(y[end]) + 13).toFixed(1)}" text-anchor="end">half goes to the drive</text>`;
+  };
+  // A name that would lie on another stands below or beside its point, or waits for the pointer.
+  function apart(svg) {
+    const taken = [...svg.querySelectorAll('g > title ~ circle')].map(dot => [+dot.getAttribute('cx') - 5, +dot.getAttribute('cy') + 5, 10]);
+    for (const word of svg.querySelectorAll('[data-name]')) {
+      const dot = word.parentNode.querySelector('circle').getBBox(), wide = word.getBBox().width, x = dot.x + dot.width / 2, y = dot.y + dot.height / 2;
+      const places = [[x - wide / 2, y - 8], [x - wide / 2, y + 18], [x + 9, y + 4], [x - wide - 9, y + 4], [x, y - 8], [x, y + 18]].filter(([left]) => left > earns.place.left);
+      const free = places.find(([left, low]) => taken.every(one => left > one[0] + one[2] + 3 || left + wide + 3 < one[0] || Math.abs(low - one[1]) > 12));
+      if (!free) { word.remove(); continue; }
+      taken.push([...free, wide]);
+      word.setAttribute('text-anchor', 'start');
+      word.setAttribute('x', free[0].toFixed(1));
+      word.setAttribute('y', free[1].toFixed(1));
+    }
+  }
+  function breakEven(now, pays) {
+    const focused = earns.contains(document.activeElement) && document.activeElement.dataset.supposed !== undefined;
+    earns.innerHTML = `<div class="rxf-head"><b>What would pay</b><span class="rxf-dim">range of twist, mass of all blades</span><button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
+      <div class="rxf-num rxf-supposed" data-kind="${now.kind}" data-explorer="supposed">${text(now.words)}</div><svg></svg>${now.note || pays ? `<div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(pays)}">${text([now.note, pays].filter(Boolean).join(' '))}</div>` : ''}`;
+    const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight;
+    if (!now.chart || width < 100 || height < 40) return;
+    const place = Charts.frame(now.chart, width, height, {bottom: 32}), [x, y] = held?.at ?? now.at, {left, right, top, base} = place;
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.innerHTML = `${Charts.axes(now.chart, place)}${Charts.inside(now.chart, place)}${width > 420 ? driven(now.chart, place) : ''}<text x="${right - 6}" y="${base - 4}" text-anchor="end" data-pays>pays</text>${width > 420 ? `<text x="${right - 6}" y="${top + 12}" text-anchor="end" data-costs>mass costs more than twist saves</text>` : ''}
+      <circle data-supposed data-kind="${now.kind}" cx="${clamp(place.X(x), left, right)}" cy="${clamp(place.Y(y), top, base)}" r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${x}" aria-valuetext="${text(now.words)}"><title>Drag: range of twist and mass of all blades</title></circle>`;
+    earns.place = place;
+    apart(svg);
+    if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
+  }
+  const suppose = (twist, mass) => {
+    const {left, right, top, base, atX, atY, X, Y} = earns.place;
+    const px = clamp(X(twist), left + 1, right), py = clamp(Y(mass), top, base), dot = earns.querySelector('[data-supposed]');
+    dot?.setAttribute('cx', px);
+    dot?.setAttribute('cy', py);
+    clearTimeout(queued);
+    queued = setTimeout(() => { told_at = performance.now(); RX.send('suppose', [atX(px), atY(py)]); }, Math.max(0, 60 - (performance.now() - told_at)));
+    return [atX(px), atY(py)];
+  };
+  earns.addEventListener('pointerdown', event => {
+    if (event.button || !event.target.closest('[data-supposed]')) return;
+    event.preventDefault();
+    event.target.focus({preventScroll: true});
+    held = {at: RX.state.suppose.at};
+  });
+  addEventListener('pointermove', event => {
+    if (!held || !earns.place) return;
+    const box = earns.querySelector('svg').getBoundingClientRect(), {atX, atY} = earns.place;
+    held.at = suppose(atX(event.clientX - box.left), atY(event.clientY - box.top));
+  });
+  for (const name of ['pointerup', 'pointercancel']) addEventListener(name, () => { held = null; });
+  earns.addEventListener('keydown', event => {
+    const step = event.target.dataset?.supposed !== undefined && {ArrowLeft: [-.1, 1], ArrowRight: [.1, 1], ArrowDown: [0, 1 / 1.05], ArrowUp: [0, 1.05]}[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const [x, y] = RX.state.suppose.at, many = event.shiftKey ? 5 : 1;
+    RX.state.suppose.at = suppose(x + many * step[0], y * step[1] ** many);
+  });
   // The card of power tells the one verdict, here and over the flight, against one blade.
   const told = () => {
     const now = RX.state.earns, place = now && part('power').querySelector('[data-explorer=verdict]');

@@ -47,10 +47,10 @@
       inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${cut.r}"`);
       if (k < now.cuts.length - 1 && (k % 2 || k === now.cuts.length - 2)) return;  // Every other section has numbers, none beside the tip's.
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
-        <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${cut.r.toFixed(2)}</text>`;
+        <text x="${o[0]}" y="${height - 1}" text-anchor="middle" data-between>${cut.r.toFixed(2)}</text>`;
     });
     // What the two rows of numbers are.
-    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">r/R</text>`;
+    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
     const spoken = now.cuts.map(cut => `${signed(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b><button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${now.times}${now.times > 1 ? ', as in the scene' : ''}</button>
       <div class="rxf-key"><span title="${text(now.name_hint)}"><i></i>${text(now.name)}</span>${now.ghost ? `<span title="${text(now.ghost_hint)}"><i data-ghost></i>${text(now.ghost_name)}</span>` : ''}<span>root ← r/R → tip</span></div></div>

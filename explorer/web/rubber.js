@@ -2,7 +2,7 @@
 // plan of the disk (plan.js), with a scale of power above. Jig twist, drawn four times; the server moves the sliders.
 (() => {
   const {text, part} = RX, place = part('rubber'), disk = part('plan'), page = document.documentElement, DEGREE = Math.PI / 180;
-  const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75, SCALE = 74;
+  const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75, SCALE = 92;
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const lerp = (a, b, t) => a + (b - a) * t, ease = t => t * t * (3 - 2 * t), clamp = (v, low, high) => Math.min(Math.max(v, low), Math.max(low, high));
   const signed = v => Charts.signed(v) + '°';
@@ -179,7 +179,7 @@
   function scale(one) {
     const hand = RX.state.hand, {box} = one.layout;
     if (!hand) return '';
-    const {now, before: start, digits} = hand, best = hand.best?.power, told = [now, start, best ?? start], left = box.x + 28, right = box.x + box.w - 28, y = box.y + 40;
+    const {now, before: start, digits, rival} = hand, best = hand.best?.power, told = [now, start, best ?? start, rival ?? start], left = box.x + 28, right = box.x + box.w - 28, y = box.y + 40;
     const ends = one.ends_kw ??= [start, start], room = Math.max(.025 * Math.abs(start), 12);
     if (Math.min(...told) < ends[0] + .3 * room) ends[0] = Math.min(...told) - room;
     if (Math.max(...told) > ends[1] - .3 * room) ends[1] = Math.max(...told) + 2 * room;
@@ -192,6 +192,7 @@
       const one_side = named.length < 2 ? 'middle' : k ? 'start' : 'end', edge = X(v) + (one_side === 'start' ? -5 : one_side === 'end' ? 5 : 0);
       out += `<path d="M${X(v)} ${y - 7}v14" stroke="${colour}" stroke-width="${name === 'least' ? 4 : 2}" stroke-linecap="round"/><text x="${clamp(edge, left + 60, right - 60)}" y="${y + 33}" text-anchor="${one_side}" style="fill:${colour};font-weight:620">${name} ${Charts.fixed(v, digits)}</text>`;
     });
+    if (rival !== undefined) out += `<path d="M${X(rival)} ${y - 7}v14" stroke="var(--rx-accent)" stroke-width="4" stroke-linecap="round"/><text x="${clamp(X(rival), left + 60, right - 60)}" y="${y + 50}" text-anchor="middle" style="fill:var(--rx-accent);font-weight:620">optimiser ${Charts.fixed(rival, digits)}</text>`;
     const gone = RX.state.power?.problem ? 'opacity=".35"' : '', colour = `var(--rx-${hand.kind || 'ink'})`;
     return out + `<g ${gone}><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/><text x="${clamp(x, left + 50, right - 60)}" y="${y - 21}" text-anchor="middle" class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan><tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan></text></g>`;
   }

@@ -105,24 +105,35 @@
   // at most two a second.
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const near = angle => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
-  const step = now => {
-    if (!motion) return;
-    requestAnimationFrame(step);
-    if (seat || (!heard && !spin)) return;
-    const passed = Math.min((now - before) / 1000, 0.5);
-    if (spin && (!heard || now - heard.at > 400)) {  // By itself; drawn in software, in few steps.
-      if (calm.matches || (!sharp && passed < 0.25)) return;
-      before = now;
-      show(psi += spin * Math.min(passed, sharp ? 0.1 : 0.5));
-      return;
-    }
+  const LATE = 400;  // [ms] After which nothing more is expected of the server.
+  let stepping = false;
+  // Frames are asked for only while something turns; in software, where each keeps the processors busy, no rotor turns by itself.
+  const follows = now => heard && !(heard.still && now - heard.at > LATE);
+  const turning = now => motion && !seat && (follows(now) || (spin && sharp && !calm.matches));
+  const go = () => {
+    const now = performance.now();
+    if (stepping || !turning(now)) return;
+    stepping = true;
     before = now;
-    const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3);
+    requestAnimationFrame(step);
+  };
+  const step = now => {
+    stepping = turning(now);
+    if (!stepping) return;
+    requestAnimationFrame(step);
+    const passed = Math.max(0, Math.min((now - before) / 1000, 0.5)), own = Math.min(passed, 0.1);
+    before = now;
+    if (!follows(now)) { show(psi += spin * own); return; }
+    const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3), last = psi;
     if (calm.matches) {
-      if (Math.abs(near(aim - psi)) < Math.PI / 6 || now - stepped < 500) return;
+      heard.still = Math.abs(near(aim - psi)) < Math.PI / 6;
+      if (heard.still || now - stepped < 500) return;
       psi = aim;
       stepped = now;
-    } else psi += rate * Math.min(passed, 0.1) + near(aim - psi - rate * Math.min(passed, 0.1)) * Math.min(1, 5 * passed);
+    } else {
+      psi += rate * own + near(aim - psi - rate * own) * Math.min(1, 5 * passed);
+      heard.still = Math.abs(psi - last) < 1e-4;
+    }
     show(psi);
   };
 
@@ -166,12 +177,13 @@
     },
     glow(wanted) { lit = wanted; light(); },
     // Turn at this rate [rad/s] while nothing is heard of the azimuth; 0: no more.
-    spin(wanted) { spin = wanted; },
+    spin(wanted) { spin = wanted; go(); },
     dress(wanted) { surfaces = wanted; },
     move(next) {
       const begins = !motion;
       motion = next;
-      if (begins) { heard = mark = null; rate = 0; before = performance.now(); requestAnimationFrame(step); }
+      if (begins) { heard = mark = null; rate = 0; }
+      go();
     },
     turn(angle) {
       const at = performance.now();
@@ -180,6 +192,7 @@
       if (!mark) mark = {psi: angle, at};
       else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
       heard = {psi: angle, at};
+      go();
     },
     // The reference blade at ψ, and the camera behind and above its section so far out [m]; `leave` flies back.
     ride(angle, out, radius) {
@@ -217,6 +230,8 @@
     },
     stop() { motion = heard = mark = null; },
     get psi() { return psi; },
+    // Whether a graphics card draws; null: not known yet.
+    get sharp() { return sharp; },
   };
-  setInterval(() => { dress(); light(); }, 500);
+  setInterval(() => { dress(); light(); go(); }, 500);
 })()

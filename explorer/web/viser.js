@@ -63,6 +63,17 @@
     queueMicrotask(() => { editing = false; });
   }
 
+  // The client draws once a second in case something has changed without a word. Where software draws, that alone keeps a
+  // processor busy, which the answers wait for: there it is every fifth time, unless a drawing was asked for just before.
+  const BEAT = 1000, LATELY = 3000;  // [ms]
+  const every = window.setInterval;
+  let drawAsked = 0;
+  window.setInterval = (call, delay, ...rest) => {
+    if (delay !== BEAT) return every.call(window, call, delay, ...rest);
+    let beats = 0;
+    return every.call(window, () => { if (beats++ % 5 === 0 || window.rotorScene?.sharp !== false || performance.now() - drawAsked < LATELY) call(...rest); }, delay);
+  };
+
   let sender = null;
   window.addEventListener('rx-answered', () => { if (kept && sender) sendKept(sender()); });
 
@@ -72,6 +83,8 @@
     let send = next.sendMessage;
     sender = () => send;
     const paced = message => message.type === 'GuiUpdateMessage' ? pace(message, () => send) : send(message);
+    let draw = next.requestRender;
+    Object.defineProperty(next, 'requestRender', {configurable: true, get: () => { drawAsked = performance.now(); return draw; }, set: other => { draw = other; }});
     next.sendAfterEdits = message => { sendKept(send); send(message); };
     Object.defineProperty(next, 'sendMessage', {get: () => send && paced, set: other => {
       send = other;

@@ -22,7 +22,7 @@ from rotor.actuator.harmonic import DynamicTwist, EffectInFlight, dynamic_twist,
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, PaySearch, break_even, pay_sentence, what_would_pay
+from rotor.actuator.pay import BreakEven, PaySearch, Supposed, break_even, pay_sentence, suppose, what_would_pay
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.stopped import Failure, failure, one_blade
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -46,6 +46,7 @@ __all__ = (
     "PiezoPly",
     "Placement",
     "Programme",
+    "Supposed",
     "TorqueTube",
     "Verdict",
     "actuator_stability",
@@ -66,6 +67,7 @@ __all__ = (
     "programmes",
     "standard_flight",
     "steady_room",
+    "suppose",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",

@@ -92,7 +92,7 @@ def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
         pytest.fail(f"the focus never leaves the page: {reached[-3:]}")
     assert [one for one in reached if not one["seen"]] == []
     names = [one["name"] for one in reached]
-    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Δ outboard [°/R]", "Altitude [m]", "Model"]
+    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Δ outboard [°/R]", "Mass [t]", "Model"]
     assert [name for name in names if name in order] == [
         "Explore",
         "Settings",
@@ -100,7 +100,7 @@ def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
         "Turn the rotor",
         "tip",
         *["Δ outboard [°/R]"] * 2,  # The slider and its number.
-        *["Altitude [m]"] * 2,
+        *["Mass [t]"] * 2,
         "Model",
     ]
 

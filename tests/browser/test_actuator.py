@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
+from playwright.sync_api import expect
 from watched import WAIT, Watched
 
 pytestmark = pytest.mark.browser
@@ -179,3 +180,32 @@ def test_twist_at_n_per_rev_moves_power_link_and_blades(watched: Watched):
     watched.until(lambda: "twist_per_rev=3:1:30" in page.url)
     page.keyboard.press("Control+z")
     watched.until(lambda: page.evaluate("() => RX.state.dial.now") == [])
+
+
+def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
+    """Red where the chosen one stands, green below the line; link and shared picture keep it."""
+    page = watched.page
+    page.get_by_role("button", name="What would pay?").click()
+    page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
+    dot = page.locator("[data-supposed]")
+    expect(dot).to_have_attribute("data-kind", "loss", timeout=VERDICT)
+    box, chart = dot.bounding_box(), page.locator(".rxf-earns svg").bounding_box()
+    assert box is not None
+    assert chart is not None
+    page.mouse.move(box["x"] + 10.0, box["y"] + 10.0)
+    page.mouse.down()
+    page.mouse.move(chart["x"] + 0.6 * chart["width"], chart["y"] + 0.66 * chart["height"], steps=8)
+    page.mouse.up()
+    expect(dot).to_have_attribute("data-kind", "gain", timeout=VERDICT)
+    watched.reads("supposed", r"saves \d.* \(± \d.*: (sure|likely)\), .* of fuel an hour")
+    page.wait_for_function("() => /[&?]i=[0-9.]+,[0-9.]+/.test(location.search)", timeout=VERDICT)
+    twist = float(dot.get_attribute("aria-valuenow") or "nan")
+    dot.focus()
+    page.keyboard.press("ArrowRight")
+    watched.until_changed(lambda: dot.get_attribute("aria-valuenow"), str(twist))
+    assert float(dot.get_attribute("aria-valuenow") or "nan") > twist
+    address = page.url
+    page.goto(address)  # As a colleague gets it: it opens where the dot stands.
+    page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
+    page.get_by_role("button", name="Power it needs").click()
+    page.wait_for_function("() => !RX.state.suppose && !location.search.includes('i=')", timeout=VERDICT)

@@ -1,6 +1,7 @@
 """The optimiser in a real browser: to the end and applied, stopped, two at once, a worker killed; map and schedule."""
 
 import os
+import re
 import signal
 import time
 from collections.abc import Iterator
@@ -144,6 +145,52 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
     watched.page.wait_for_function("() => RX.state.notice === null")
     watched.says("total-power", before)
     assert session.page.controls.inputs() == START
+
+
+def test_the_optimiser_is_beaten_by_hand_and_its_blade_is_in_the_link(
+    page: tuple[Watched, Session], browser: "Browser", app: App
+):
+    watched, session = page
+    watched.choose("Concept", "Two segments")
+    optimise(watched, session)
+    until(watched, "done")
+    press(watched, "Beat it by hand")
+    words = said(watched, r"Optimiser \d+\.\d kW, yours \d+\.\d ± \d+\.\d kW more")
+    assert session.page.controls.inputs() == START
+    watched.press("Inboard", "PageDown", 2)
+    watched.answered()
+    watched.until(lambda: gap(said(watched, "more|less")) != gap(words))
+    nearer = watched.at_rest(lambda: notice(watched))
+    watched.until(lambda: "o=" in watched.page.evaluate("() => location.search"))
+    other = opened(browser, watched.page.url, size=(1280, 900), query="")
+    try:
+        assert gap(said(other, "more|less")) == pytest.approx(gap(nearer), abs=0.11)
+        other.press("Adv. ratio", "ArrowRight", 1)  # In another flight there is nothing to compare.
+        other.page.wait_for_function("() => RX.state.notice === null")
+        other.press("Adv. ratio", "ArrowLeft", 1)
+        said(other, "more|less")
+        other.page.locator("[data-do=rival_take]").click()
+        said(other, "yours the same")
+    finally:
+        other.close()
+    press(watched, "End")
+    watched.page.wait_for_function("() => RX.state.notice === null && !location.search.includes('o=')")
+
+
+def notice(watched: Watched) -> str:
+    """The bar over the scene."""
+    return str(watched.page.evaluate("() => RX.state.notice?.text ?? ''"))
+
+
+def said(watched: Watched, words: str) -> str:
+    """What it says, once it matches."""
+    watched.until(lambda: re.search(words, notice(watched)))
+    return notice(watched)
+
+
+def gap(words: str) -> float:
+    """[kW] that one's own blade needs more."""
+    return float(re.split(r"yours | ±", words)[1])
 
 
 def test_the_best_linear_twist_has_its_ranges_in_flight_and_in_hover(page: tuple[Watched, Session]):

@@ -306,6 +306,7 @@ def test_the_view_along_the_blade_rides_with_it(watched: Watched):
 def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched):
     page = watched.page
     page.keyboard.press("1")
+    watched.until(lambda: stands(watched, "3d"))  # A busy machine begins the flight late.
     before = watched.at_rest(lambda: eye(watched).round(2).tolist())
     page.get_by_role("button", name="Ride along").click()
     card = page.locator("[data-explorer=ride]")

@@ -92,3 +92,25 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
         document.dispatchEvent(new Event('visibilitychange'));
     })"""
     assert watched.page.evaluate(heard)
+
+
+def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
+    """The client draws every second, which keeps a processor busy there: every fifth time is enough; no rotor turns."""
+    counted = """() => new Promise(done => {
+        const {scene} = __viserMutable, own = scene.onAfterRender;
+        let drawn = 0;
+        scene.onAfterRender = (...all) => { drawn += 1; own.apply(scene, all); };
+        setTimeout(() => { scene.onAfterRender = own; done(drawn); }, 10000);
+    })"""
+    watched.mode("actuate")
+    watched.answered()
+    drawn = [watched.page.evaluate(counted)]
+    while drawn[-1] > 4 and len(drawn) < 12:  # Until answers of the background have come.
+        drawn.append(watched.page.evaluate(counted))
+    assert 1 <= drawn[-1] <= 4, drawn
+    # It turns when the server says so, and then rests again.
+    turned = watched.page.evaluate("() => { const at = rotorScene.psi + 1; rotorScene.turn(at); return at; }")
+    watched.page.wait_for_function("at => Math.abs(rotorScene.psi - at) < 0.01", arg=turned)
+    watched.page.wait_for_timeout(3000)
+    assert watched.page.evaluate(counted) <= 5
+    watched.mode("explore")

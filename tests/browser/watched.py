@@ -63,16 +63,24 @@ class Watched:
         named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
         return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
 
+    def unfold(self, label: str) -> None:
+        """Show a control of flight that is folded while it stands at its default."""
+        if label.startswith(("Altitude", "Climb", "Rotor speed", "Load factor", "Flight or test")):
+            self.page.evaluate("() => RX.send('more', 'on')")
+            self.row(label).wait_for()
+
     def press(self, label: str, key: str, times: int = 1) -> None:
         self.row(label).get_by_role("slider").focus()
         for _ in range(times):
             self.page.keyboard.press(key)
 
     def choose(self, label: str, option: str) -> None:
+        self.unfold(label)
         self.row(label).locator("input").first.click()
         self.page.get_by_role("option", name=option, exact=True).click()
 
     def type(self, label: str, value: float) -> None:
+        self.unfold(label)
         self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
         self.page.keyboard.press("Enter")
 

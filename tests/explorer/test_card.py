@@ -13,8 +13,8 @@ from rotor import Solution, make_design, solve
 FIELD = FIELDS["Angle of attack"]
 
 
-def card(solution: Solution, against: Solution) -> Image.Image:
-    return Image.open(io.BytesIO(card_png(solution, against, "as built", FIELD, (-4.0, 14.0), SI)))
+def card(solution: Solution, against: Solution, *lines: str) -> Image.Image:
+    return Image.open(io.BytesIO(card_png(solution, against, "as built", FIELD, (-4.0, 14.0), SI, lines)))
 
 
 def test_shows_disk_blade_and_change():
@@ -33,3 +33,16 @@ def test_shows_disk_blade_and_change():
     # Nothing touches the edges.
     assert (pixels[[0, -1]] == 255).all()
     assert (pixels[:, [0, -1]] == 255).all()
+
+
+def test_further_lines_stand_between_power_and_blade():
+    """The longest that a page says: it does not reach the disk, and the second does not reach the blade."""
+    built = solve(make_design(mu=0.3))
+    supposed = "actuator of 12.3° for 1200 kg needs 1234 kW more (± 123 kW: likely)"
+    plain, told = (
+        np.asarray(card(built, built, *lines).convert("RGB")).astype(int)
+        for lines in ((), ("optimiser 1,234 kW", supposed))
+    )
+    rows, columns = np.nonzero((plain != told).any(axis=-1))
+    assert 340 < rows.min() < rows.max() < 408
+    assert 40 < columns.min() < columns.max() < 770

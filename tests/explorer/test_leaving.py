@@ -52,12 +52,12 @@ async def comparing(visitor: Visitor) -> None:
     await send(visitor, "difference", "on")
 
 
-async def searching(visitor: Visitor) -> None:
+async def searching(visitor: Visitor, patience: float = 240.0) -> None:
     await send(visitor, "mode", "optimise")
-    await visitor.until(lambda: visitor.frame["bar"]["mode"] == "optimise")
-    await visitor.idle()
+    await visitor.until(lambda: visitor.frame["bar"]["mode"] == "optimise", patience)
+    await visitor.until(lambda: visitor.shows("Optimise"), patience)
     await visitor.move("Optimise", True)
-    await visitor.until(lambda: visitor.frame.get("notice") is not None)
+    await visitor.until(lambda: visitor.frame.get("notice") is not None, patience)
 
 
 async def asking_for_other_models(visitor: Visitor) -> None:

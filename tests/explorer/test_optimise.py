@@ -254,8 +254,9 @@ def test_the_best_start_has_the_power_of_the_optimum(run: SearchRun):
     assert run.optimum.best is not None
     assert best.best[-1] == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert SI.watts(run.optimum.best.power, 1) in search_text.headline(run)
-    assert all(f"Start {start.number}:" in search_text.headline(run) for start in run.starts())
     equal = [one.number for one in run.starts() if one.gap is not None and one.gap < 50.0]
+    listed = [f"Start {start.number}:" in search_text.headline(run) for start in run.starts()]
+    assert listed == [len(equal) < 3] * 3  # Where all agree the chart says so.
     one, several, every = f"start {best.number} is best", f"{len(equal)} of 3 starts are best", "all 3 starts agree"
     assert starts_chart(run, SI).value == (one, several, every)[len(equal) - 1]
 

@@ -96,7 +96,7 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     climb = sensitivity_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
     assert "100 ft/min more changes power by +" in climb["sentence"]
     changed = replace(inputs, built_outer=-1.0)
-    for now, words in ((inputs, "no effect while both changes are 0"), (changed, "no effect")):
+    for now, words in ((inputs, "no effect without a change of twist"), (changed, "no effect")):
         nothing = sensitivity_row(now, SliderSensitivity("built_division", 0.0), SI)
         assert (nothing["value"], nothing["way"]) == (words, "")
     sizes = [sensitivity_row(inputs, SliderSensitivity("mass_t", slope), SI)["size"] for slope in (3e4, 9e4, 9e5)]

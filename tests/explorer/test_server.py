@@ -144,11 +144,16 @@ class TestControls:
         assert not controls._form._handles["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
-        controls.refresh(Inputs(law="two"), SI)
-        shown = {name for name in SLIDERS if controls._form._handles[name].visible}
-        assert shown == {"two_inner", "two_outer", "two_division", *FLIGHT}
-        controls.refresh(Inputs(preset="thesis", law="two"), SI)
-        assert not controls._form._handles["climb_m_s"].visible
+        def shown(inputs: Inputs) -> set[str]:
+            controls.refresh(inputs, SI)
+            return {name for name in SLIDERS if controls._form._handles[name].visible}
+
+        law = {"two_inner", "two_outer", "two_division"}
+        assert shown(Inputs(law="two")) == {*law, "advance_ratio", "mass_t"}
+        assert shown(Inputs(law="two", climb_m_s=2.0)) == {*law, "advance_ratio", "mass_t", "climb_m_s"}
+        controls._show_more("on")
+        assert shown(Inputs(law="two")) == {*law, *FLIGHT}
+        assert "climb_m_s" not in shown(Inputs(preset="thesis", law="two"))
 
 
 class TestScene:

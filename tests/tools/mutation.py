@@ -25,8 +25,8 @@ OWN = {
 """Tests that are asked first, by a word in the name of the term."""
 TESTS = (
     *(file for files in OWN.values() for file in files), f"{TRIM}invariants.py", f"{TRIM}lifting_line.py",
-    f"{AERO}radial_flow_swirl_sweep.py", f"{AERO}switches.py", "tests/rotor/engine/test_linearised.py",
-    "tests/rotor/files/test_flown_rotors.py",
+    f"{AERO}radial_flow_swirl_sweep.py", f"{AERO}switches.py", f"{AERO}unsteady_section.py",
+    "tests/rotor/engine/test_linearised.py", "tests/rotor/files/test_flown_rotors.py",
 )  # fmt: skip
 """Those that compare trims with theory, identities and other methods."""
 SURVIVORS = {"inflow/local_momentum.py:153": "only where the search for the inflow of a point begins"}

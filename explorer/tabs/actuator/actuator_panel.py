@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from explorer.sharing.share import Address
 from explorer.tabs.actuator import actuator_words as words
 from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
@@ -39,7 +40,8 @@ _IDLE = 2.5
 class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
-    def __init__(self, context: TabContext) -> None:
+    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
+        """`address` may hold a supposed actuator; `problems` as in `PayPanel`."""
         self._context = context
         self._touched = False
         self._blade = LiftedScene(context.client, context.bridge)
@@ -66,7 +68,7 @@ class ActuatorPanel:
         context.bridge.on("pull", self._pull)
         self._pulled = (0.0,) * MOST_SEGMENTS, 0.0
         """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
-        self._pay = PayPanel(context)
+        self.pay = PayPanel(context, address, problems)
         self.inputs = self._controls.inputs
         self.top = self._controls.now.order
 
@@ -76,7 +78,7 @@ class ActuatorPanel:
         self._flights.stop()
         self._modes.stop()
         self._blade.stop()
-        self._pay.stop()
+        self.pay.stop()
 
     @property
     def fits(self) -> bool:
@@ -119,11 +121,10 @@ class ActuatorPanel:
             self._blade.release(self._radius)
             self._drawn = self.fitted = None
             self.show_problem(str(error))
-            self._pay.refresh(None, None)
+            self.pay.refresh(None)
             return
         self._controls.arrange(inputs, installed)
         alone = self._undriven.solve(design) if inputs.driven else None
-        self._draw(inputs, installed, design, psi, solution, alone or solution)
         self._controls.now.content = words.now_panel(inputs, installed, solution)
         self._controls.section.content = words.section_svg(installed, inputs.drive_shares(installed))
         self._controls.bar.content = words.voltage_bar(installed.actuator)
@@ -131,7 +132,9 @@ class ActuatorPanel:
         self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
         self._before = now
         verdict = self._show_verdict(inputs, installed, question, design)
-        self._pay.refresh(question.pair, verdict)
+        answers = map(self._verdicts.answer, tasks)
+        self.pay.refresh(question.pair, [answer for answer in answers if isinstance(answer, Verdict)])
+        self._draw(inputs, installed, design, psi, solution, alone or solution)
         fixed = None if verdict is None else verdict.baseline.fixed_twist
         twist = design.twist if inputs.against == "as-built" else fixed
         against = f"the {AGAINST[inputs.against][0].lower()}{AGAINST[inputs.against][1:]}"
@@ -198,11 +201,11 @@ class ActuatorPanel:
             self._blade.release(self._radius)
             self._drawn = None
             return
-        frame = (inputs, solution.design, psi if design.elastic else 0.0)
+        frame = (inputs, solution.design, psi if design.elastic else 0.0, self.pay.pays)
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi))
+        picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi), pays=self.pay.pays)
         with self._context.client.atomic():
             self._blade.hold(self._radius)
             self._blade.show(picture)

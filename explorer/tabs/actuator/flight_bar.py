@@ -143,7 +143,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
         "where": where,
         "bars": [*(_bar(*part, units) for part in parts), _bar("in all", -verdict.net_saving, units, total=True)],
         "against": reference(verdict).removeprefix("the "),
-        "fuel": fuel_words(verdict),
+        "fuel": fuel_words(verdict.fuel_saving),
         "fuel_kind": "" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         "fuel_note": " ".join(text for text in verdict.caveats if "uel" in text),
         "mass": f"{number(masses.aircraft)} kg on board",

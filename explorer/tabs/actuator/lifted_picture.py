@@ -104,11 +104,17 @@ def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwis
 
 
 def lifted_picture(
-    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, flown: FlownTwist | None = None
+    inputs: ActuatorInputs,
+    installed: InstalledActuator,
+    design: Design,
+    flown: FlownTwist | None = None,
+    *,
+    pays: bool = False,
 ) -> LiftedPicture:
     """The blade with the actuator's part of its twist `TIMES` as large; `design` is without actuator.
 
-    With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage.
+    With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage. `pays`: a supposed
+    actuator does, and what is driven lights green.
     """
     rotor = design.rotor
     blade = lifted.lifted_blade(installed, rotor)
@@ -132,6 +138,7 @@ def lifted_picture(
         driven = part.segment >= 0
         name = f"drive_{sum(key.startswith('drive') for key in solids)}" if driven else part.role
         light = glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
+        light = _PAYS if driven and pays else light
         solids[name] = Solid(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
         if part.role in ("ply", "laminate"):
             fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
@@ -159,6 +166,7 @@ def lifted_picture(
 
 
 _NONE = np.zeros((0, 2, 3))
+_PAYS: tuple[Rgb, float] = (0, 150, 60), 0.6
 
 
 def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:

@@ -1,26 +1,44 @@
-"""What would pay: the break-even line of this rotor, where the present actuator stands, and the builds nearest to it.
+"""What would pay: the break-even line of this rotor on the stage, where real actuators and a supposed one stand, and in
+the rail the builds nearest to it.
 
-Worked out in the background when asked for, and kept until the design or the flight conditions are others.
+Worked out in the background when asked for, and kept until the design or the flight conditions are others. The
+supposed actuator is dragged (`explorer/web/flight.js`) and stays in the address; what it saves is read off the line
+until its own trims are known.
 """
 
 import math
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from explorer.model.units import number
-from explorer.tabs.background import BackgroundWork
+from explorer.model.units import SI, Units, number
+from explorer.sharing.share import Address
+from explorer.tabs.background import BackgroundWork, Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import hint
+from explorer.text.readout import fuel_words, needs, needs_words
 from explorer.workers.pool import JobEnded, JobEvent, JobProgress
-from rotor.actuator import BreakEven, ConditionPair, PaySearch, Verdict, break_even, pay_sentence, what_would_pay
+from rotor.actuator import (
+    BreakEven,
+    ConditionPair,
+    PaySearch,
+    Supposed,
+    Verdict,
+    break_even,
+    pay_sentence,
+    suppose,
+    what_would_pay,
+)
 from rotor.actuator.pay import Candidate, search_sentence
-from rotor.chart import Axis, Band, Chart, Line, Points, Series
+from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
 from rotor.markup import Markup, tag
 from rotor.processes import Stop, Tell
+from rotor.trim.doubt import sureness
 
 _LIMIT = 300.0
 """Longest time of a search [s], which takes ten on an idle machine."""
@@ -32,6 +50,13 @@ _URGENCY = 4
 """Asked for by hand, so before the verdicts on the other actuators."""
 _NO_BLADE = "This blade carries no actuator, as the sentence above says: choose the UH-60A, or change the build."
 _COMPUTING = "Trimming the break-even line, then material, layers, span and stiffness…"
+SUPPOSED = "i"
+"""Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
+MOST_TWIST, MOST_MASS = 90.0, 1e4
+"""Largest twist [°] and mass [kg] of a supposed actuator that a link may hold."""
+_PLACE = re.compile(",".join([r"\d{1,5}(?:\.\d{1,4})?"] * 2), re.ASCII)
+_STILL = 0.25
+"""How long the supposed actuator must stand before it is trimmed [s]."""
 
 
 @dataclass(frozen=True)
@@ -71,15 +96,27 @@ class PayTask:
 class PayPanel(BackgroundWork):
     """One client's, where the context stands."""
 
-    def __init__(self, context: TabContext) -> None:
+    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
+        """`problems` get a title and a sentence where the address cannot be read."""
         super().__init__(context.pool, context.wake, _LIMIT, _URGENCY, restarts=True)
-        self._bridge = context.bridge
+        self._context, self._address, self._bridge = context, address, context.bridge
         self._pair: ConditionPair | None = None
         """Conditions of the design on the sliders; None where it carries no actuator."""
         self._asked: ConditionPair | None = None
         self._answer: PayAnswer | None = None
         """To what was asked last."""
+        self._lines = PoolAnswers(context.pool, _URGENCY, context.wake)
+        self._trims = PoolAnswers(context.pool, _URGENCY, context.wake)
+        self._place = address.read(SUPPOSED, place_of, None, "Not the supposed actuator of the link", problems)
+        """Range of twist [°] and mass of all blades [kg]; None until it is dragged."""
+        self.on_stage = self._place is not None
+        """Whether the stage shows the line in place of the balance of power."""
+        self.pays = False
+        """Whether the supposed actuator pays: its blade lights green."""
+        self.sentence = ""
+        """What it saves, for a picture; empty where none is shown."""
         self.line = _START
+        context.bridge.on("suppose", self._suppose)
         with context.gui.add_folder("What would pay"):
             button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
             self._html = context.gui.add_html(_small("start", _START, ".rx-dim"))
@@ -92,17 +129,72 @@ class PayPanel(BackgroundWork):
         self._asked, self._answer = self._pair, None
         return PayTask(self._pair), partial(self._hear, self._pair), _COMPUTING
 
-    def refresh(self, pair: ConditionPair | None, verdict: Verdict | None) -> None:
-        """Follow the design; `verdict` on its actuator, once there is one."""
+    def stop(self) -> None:
+        """The browser has left."""
+        super().stop()
+        self._lines.stop()
+        self._trims.stop()
+
+    def refresh(self, pair: ConditionPair | None, verdicts: Sequence[Verdict] = ()) -> None:
+        """Follow the design; `verdicts` on actuators, as far as there are any, the chosen one's first."""
         self._pair = pair
         # The last sentence counts the builds that pay: it stands on the stage, as long as it is about what is shown.
         answer = self._answer if self._asked == pair else None
-        self._bridge.set(pays=None if answer is None else answer.sentences[-1])
+        self._bridge.set(pays=None if answer is None else answer.sentences[-1], suppose=self._stage(verdicts))
         if self._answer is not None:
-            self._html.content = pay_panel(self._answer, verdict, stale=self._asked != pair)
+            self._html.content = pay_panel(self._answer, stale=self._asked != pair)
             return
         kind = "computing" if self.running else "start" if self.line == _START else "problem"
         self._html.content = _small(kind, self.line, ".rx-dim" if kind == "start" else "")
+
+    def _suppose(self, value: Any) -> None:
+        """The stage shows the line or no longer, or the supposed actuator is dragged to [°, kg]."""
+        if self._context.held:
+            return
+        if isinstance(value, str):
+            self.on_stage = value == "on"
+        else:
+            self._place = round(value[0], 2), float(f"{value[1]:.3g}")
+        place = self._place if self.on_stage else None
+        self._address[SUPPOSED] = None if place is None else "{:g},{:g}".format(*place)
+        self._context.wake()
+
+    def _stage(self, verdicts: Sequence[Verdict]) -> dict[str, Any] | None:
+        """What the page draws; None where it shows the balance of power."""
+        self.pays, self.sentence, pair = False, "", self._pair
+        if not self.on_stage or pair is None:
+            return None
+        task = Call(break_even, (pair,))
+        self._lines.ask((task,), _STILL)
+        even = self._lines.answer(task)
+        if not isinstance(even, BreakEven) or not even.worthwhile:
+            words = even or "Trimming the break-even line…"
+            return {"words": words if isinstance(words, str) else pay_sentence(words), "kind": ""}
+        degrees, mass = self._place or _first_place(even, verdicts)
+        twist = math.radians(degrees)
+        question = Call(suppose, (pair, even.rates_at(twist), mass))
+        self._trims.ask((question,), _STILL)
+        found, units = self._trims.answer(question), self._context.units
+        trimmed = found if isinstance(found, Supposed) else None
+        saving = even.net(twist, mass) if trimmed is None else trimmed.saving
+        # Neither colour where the sign cannot be told.
+        told = trimmed is None or trimmed.band is None or sureness(saving, trimmed.band) != "cannot be told"
+        kind = "" if not told else "gain" if saving > 0.0 else "loss"
+        self.pays = kind == "gain"
+        size = f"{number(degrees, 1)}° for {number(mass, 0 if mass >= 10.0 else 1)} kg"
+        self.sentence = f"{size} {needs_words(saving, None if trimmed is None else trimmed.band, units)}"
+        more = " …" if trimmed is None else f", {fuel_words(trimmed.fuel_saving)}"
+        most = even.mass_allowed(twist)
+        note = f"With this twist it pays up to {number(most, 0 if most >= 10.0 else 1)} kg, less what its drive takes."
+        if isinstance(found, str):
+            note = found
+        return {
+            "chart": as_json(mass_chart(even, verdicts, units)),
+            "at": [degrees, mass],
+            "words": self.sentence + more,
+            "note": note,
+            "kind": kind,
+        }
 
     def _hear(self, pair: ConditionPair, news: JobEvent) -> None:
         if pair is not self._asked:
@@ -114,19 +206,35 @@ class PayPanel(BackgroundWork):
                 self._ended_without(news)
 
 
+def place_of(text: str) -> tuple[float, float]:
+    """Twist [°] and mass [kg] of a link; ValueError with one sentence for anything else."""
+    parts = list(map(float, text.split(","))) if _PLACE.fullmatch(text) else []
+    if not parts or parts[0] > MOST_TWIST or not 0.0 < parts[1] <= MOST_MASS:
+        raise ValueError(f"The supposed actuator {text[:40]!r} is not a twist in degrees and a mass in kg: write 4,12.")
+    return parts[0], parts[1]
+
+
+def _first_place(even: BreakEven, verdicts: Sequence[Verdict]) -> tuple[float, float]:
+    """Where the supposed actuator stands at first: at the chosen one, to be dragged from there to where it pays."""
+    if verdicts and verdicts[0].installed.masses.aircraft:
+        return math.degrees(verdicts[0].installed.attainable), verdicts[0].installed.masses.aircraft
+    return math.degrees(0.5 * float(even.twists[-1])), 2.0 * float(even.masses[-1])
+
+
 def _small(kind: str, text: str, look: str = "") -> Markup:
     return tag(f"div.rx{look}.rx-small", text, data_explorer="pay", data_kind=kind)
 
 
-def pay_panel(answer: PayAnswer, verdict: Verdict | None, *, stale: bool = False) -> Markup:
-    """Sentences, both charts and the nearest builds."""
+def pay_panel(answer: PayAnswer, *, stale: bool = False) -> Markup:
+    """Sentences, the chart of drive power and the nearest builds."""
     lead, *more = answer.sentences
     earlier = "Of an earlier design or pair of conditions: find again."
     charts = []
     if answer.even.worthwhile:
-        drawn = {"pay-mass": mass_chart(answer.even, verdict), "pay-drive": drive_chart(answer.even)}
-        charts = [tag("div", chart_box(chart, _HEIGHT), data_explorer=name) for name, chart in drawn.items()]
-        charts.append(tag("div.rx-dim", "Earns: what its twist saves over what it costs."))
+        charts = [
+            tag("div", chart_box(drive_chart(answer.even), _HEIGHT), data_explorer="pay-drive"),
+            tag("div.rx-dim", "Earns: what its twist saves over what it costs."),
+        ]
     return tag(
         "div.rx.rx-small.rx-faded" if stale else "div.rx.rx-small",
         tag("div.rx-dim", earlier) if stale else None,
@@ -159,15 +267,16 @@ _LINE, _PAYS = "#1c7ed6", "#0ca678"
 _HEIGHT = 130.0
 
 
-def mass_chart(even: BreakEven, verdict: Verdict | None) -> Chart:
-    """Break-even mass over twist, with the present actuator as a point; mass on a logarithmic scale.
+def mass_chart(even: BreakEven, verdicts: Sequence[Verdict] = (), units: Units = SI) -> Chart:
+    """Break-even mass over twist, with actuators as points at their own reach and mass; mass is logarithmic.
 
-    The point stands at the linear twist that saves as much over the best fixed blade as the actuator's own twist does,
-    with its stiffness counted: tip twist alone does not say what a shape is worth.
+    The line knows no blade structure: what fitting a real one costs beyond its mass is said in its words.
     """
-    largest, mass = float(even.masses[-1]), 0.0 if verdict is None else verdict.installed.masses.aircraft
-    x_most = 1.08 * math.degrees(float(even.twists[-1]))
-    y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 2.0 * max(mass, largest)
+    largest = float(even.masses[-1])
+    real = sorted(verdicts, key=lambda verdict: -verdict.installed.masses.aircraft)
+    places = [(math.degrees(one.installed.attainable), one.installed.masses.aircraft) for one in real]
+    x_most = 1.08 * max(math.degrees(float(even.twists[-1])), *(degrees for degrees, _ in places), 0.0)
+    y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 3.0 * max(largest, *(mass for _, mass in places), 0.0)
     fine = np.linspace(0.0, float(even.twists[-1]), 60)[1:].tolist()
     x, allowed = [*map(math.degrees, fine), x_most], [*(even.mass_allowed(twist) for twist in fine), largest]
     half = [even.mass_allowed(twist, 0.5 * even.ideal_saving) for twist in fine]
@@ -176,19 +285,19 @@ def mass_chart(even: BreakEven, verdict: Verdict | None) -> Chart:
         Line("no drive power", x, allowed, _LINE),
         Line("driven", x[:-1], [mass_kg if mass_kg >= y_range[0] else math.nan for mass_kg in half], _LINE, "4 3"),
     ]
-    if verdict is not None:
+    for verdict, (degrees, mass) in zip(real, places, strict=True):
         name = verdict.installed.actuator.id.replace("_", " ")
-        worth = math.degrees(even.twist_for(verdict.baseline.fixed.power - verdict.optimum.power))
-        words = f"{name}: worth {worth:.1f}°, {mass:.0f} kg; {'pays' if verdict.net_saving > 0.0 else 'does not pay'}"
-        colour = _PAYS if verdict.net_saving > 0.0 else "var(--rx-bad)"
-        series.append(Points(name, (worth,), (mass or y_range[0],), colour, size=4.5, words=(words,)))
+        words = f"{name}: {degrees:.1f}° for {mass:.0f} kg on this blade {needs(verdict, units)}"
+        colour = _PAYS if verdict.pays else "var(--rx-bad)"
+        place = (degrees,), (max(mass, y_range[0]),)
+        series.append(Points("", *place, colour, size=4.5, words=(words,), names=(name,)))
     return Chart(
         "Mass that pays",
         Axis("range of linear twist [°]", (0.0, x_most)),
         Axis("kg, all blades", y_range, log=True),
         tuple(series),
-        note="Driven: half of what unlimited twist saves goes to the drive. Point: the linear twist that saves as much "
-        "as this actuator, its stiffness counted.",
+        note="Driven: half of what unlimited twist saves goes to the drive. Points: real actuators at the reach of "
+        "their tip; what fitting them to this blade costs besides is in their words.",
     )
 
 

@@ -4,9 +4,13 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
+from explorer.model.session_state import SessionState
+from explorer.model.units import UNITS
+from explorer.sharing.share import Address, code_of, design_from
 from explorer.tabs.background import FRAME, BackgroundWork, Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
@@ -16,13 +20,13 @@ from explorer.tabs.optimise.search_run import OBJECTIVES, TRACES, SearchRequest,
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEvent
-from explorer.workers.solver import SearchTask
-from rotor import Design
+from explorer.workers.solver import BaselineCache, SearchTask
+from rotor import Design, Solution
 from rotor.chart import Chart
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
 from rotor.markup import Markup, tag
-from rotor.optimisation import CONCEPTS, WeightedCondition
+from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
 
@@ -38,6 +42,15 @@ _NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
 """Sliders that only some searches have."""
 
 
+RIVAL = "o"
+"""Name in the address of the optimum to be beaten by hand."""
+
+
+def is_rival(rival: Design, present: Design) -> bool:
+    """Whether the two differ in nothing but the jig twist."""
+    return replace(present, twist=rival.twist) == rival
+
+
 class OptimisePanel(BackgroundWork):
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
@@ -49,6 +62,8 @@ class OptimisePanel(BackgroundWork):
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self.run: SearchRun | None = None
         """The last search; None before the first."""
+        self.challenge: Callable[[Design], None] = lambda optimum: None
+        """Called with an optimum that is to be beaten by hand."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
         form = self.form = Form(gui, lambda name, by_hand: context.wake() if by_hand else None)
@@ -82,6 +97,7 @@ class OptimisePanel(BackgroundWork):
         self._again.on_click(lambda _: self._replay())
         bridge.on("apply", lambda _: self._close(True))
         bridge.on("discard", lambda _: self._close(False))
+        bridge.on("beat", lambda _: self._beat())
         bridge.on("halt", lambda _: self.halt())
         context.controls.optimise_button.on_click(lambda _: self._begin_from_rail())
         context.keyboard.bind("optimise", self.toggle)
@@ -210,7 +226,23 @@ class OptimisePanel(BackgroundWork):
             return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
         if len(run.frames) < 2:
             return None
-        return {"text": "Previewing optimum", "actions": [("apply", "Apply"), ("discard", "Discard")]}
+        beat = [("beat", "Beat it by hand")] if self._beatable(run) else []
+        return {"text": "Previewing optimum", "actions": [("apply", "Apply"), *beat, ("discard", "Discard")]}
+
+    @staticmethod
+    def _beatable(run: SearchRun) -> bool:
+        """Whether power on the page is what was searched for, and the twist alone was moved."""
+        asked, start = run.search.objective, run.search.design
+        least_power = asked is None or asked == at_condition(start, "total")
+        return least_power and run.frames[-1].design != start and is_rival(run.frames[-1].design, start)
+
+    def _beat(self) -> None:
+        """The blade before the search again, to be twisted by hand against what was found."""
+        run = self.run
+        if run is not None and not run.under_way and len(run.frames) > 1 and self._beatable(run):
+            self._close(False)
+            self._context.layout.show_mode("explore")
+            self.challenge(run.frames[-1].design)
 
     def _replay(self) -> None:
         if self.run is not None:
@@ -234,6 +266,57 @@ class OptimisePanel(BackgroundWork):
         if self.run is not None:
             self.run.scrub(round(cursor))
             self._context.wake()
+
+
+class Rival:
+    """One session's. The design is kept, never its power: whoever opens the link computes it again."""
+
+    def __init__(
+        self, context: TabContext, address: Address, problems: list[tuple[str, str]], tell: Callable[[str], None]
+    ) -> None:
+        """`problems` get a title and a sentence where the address cannot be read; `tell` as in `design_from`."""
+        self._context, self._address, self._solved = context, address, BaselineCache()
+        self._design = address.read(
+            RIVAL, lambda code: design_from(code, tell), None, "Not the optimiser's design of the link", problems
+        )
+        self._now: tuple[SessionState, Solution] | None = None
+        """What is shown, and the optimiser's trim beside it; None without one."""
+        context.bridge.on("rival_take", lambda _: self._take())
+        context.bridge.on("rival_end", lambda _: self.begin(None))
+
+    def begin(self, design: Design | None) -> None:
+        """Measure what follows against this optimum; None: against none."""
+        self._design, self._now = design, None
+        try:
+            self._address[RIVAL] = None if design is None else code_of(design)
+        except ValueError:
+            self._address[RIVAL] = None  # No address holds a rotor of one's own.
+        self._context.wake()
+
+    def show(self, state: SessionState) -> None:
+        """Follow a converged state: in another flight, with another model or rotor there is nothing to compare."""
+        self._now, rival = None, self._design
+        if rival is not None and is_rival(rival, state.solution.design):
+            other = self._solved.solve(rival)
+            if other.converged:
+                self._now = state, other
+
+    @property
+    def solution(self) -> Solution | None:
+        """The optimiser's trim in the present flight; None without one."""
+        return None if self._now is None else self._now[1]
+
+    def notice(self) -> dict[str, Any] | None:
+        """The bar over the scene."""
+        if self._now is None:
+            return None
+        state, other = self._now
+        words = text.comparison(state.solution, other, UNITS[state.view.units])
+        return {"text": words, "actions": [("rival_take", "Take its twist"), ("rival_end", "End")]}
+
+    def _take(self) -> None:
+        if self._design is not None and not self._context.held:
+            self._context.set_inputs(with_optimum(self._context.inputs(), self._design))
 
 
 def _boxed(picture: Markup, words: str) -> Markup:

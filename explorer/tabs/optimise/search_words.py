@@ -10,12 +10,13 @@ from explorer.charts.strip import role_line
 from explorer.colours import NOW, START_COLOURS, THIS, css
 from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun, StartTrace
-from rotor import Optimum
+from rotor import Optimum, Solution, doubt
 from rotor.chart import Axis, Chart, Line
 from rotor.design import PiecewiseLinearTwist
 from rotor.markup import Content, Markup, tag
 from rotor.optimisation import Concept
 from rotor.optimisation.concepts import Handle
+from rotor.trim.doubt import decimals
 
 _WIDTH, _HEIGHT, _EDGE = 272, 62, 8
 _MIDDLE, _AMPLITUDE = 28, 15
@@ -112,7 +113,7 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
         tag("b", units.watts(min(ends), 1), data_explorer="best"),
         tag("em", None if change is None else units.watts(change, 1, sign=True), class_=kind),
         tag("div.rx-dim", mean, _against_start(min(ends), run.start_power)),
-        tag("div.rxp-starts", rows),
+        tag("div.rxp-starts", rows) if _agreement(starts) != _all_agree(starts) else None,
         data_explorer="starts",
     )
 
@@ -145,10 +146,14 @@ def _agreement(starts: tuple[StartTrace, ...]) -> str:
     """Which of the starts are best, as far as the digits that the page shows tell them apart."""
     best = [start.number for start in starts if start.gap is not None and start.gap < _EQUAL]
     if len(best) == len(starts) > 1:
-        return f"all {len(starts)} starts agree"
+        return _all_agree(starts)
     if len(best) > 1:
         return f"{len(best)} of {len(starts)} starts are best"
     return f"start {best[0]} is best" if best else ""
+
+
+def _all_agree(starts: tuple[StartTrace, ...]) -> str:
+    return f"all {len(starts)} starts agree"
 
 
 def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tuple[float, float]:
@@ -306,3 +311,17 @@ def moved_on() -> Markup:
     """The sliders no longer hold the starting design of the search."""
     words = "The sliders have changed. Apply takes the optimum."
     return tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
+
+
+def comparison(own: Solution, other: Solution, units: Units) -> str:
+    """One's own power against the optimiser's, with the band of the difference."""
+    unit = units.power[0]
+    said = f"Optimiser {units.watts(other.power.total, 1)}"
+    change = own.power.total - other.power.total
+    if abs(change) < _EQUAL:
+        return f"{said}, yours the same"
+    band = doubt(own, other)
+    within = unit.of(band.change_band or 0.0)
+    digits = max(decimals(within), 1)
+    amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)} {unit.symbol}"
+    return f"{said}, yours {amount} {'more' if change > 0.0 else 'less'}: {band.sureness}"

@@ -34,6 +34,7 @@ GOOD: dict[str, list[Any]] = {
     "stop": [3, "3"], "guess": ["0"], "drawer": ["", "share"],
     "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]], "idle": [[7, False]],
     "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]], "undo": [None, 5], "view": ["disk"],
+    "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
 }  # fmt: skip
 HOSTILE: list[Any] = [
     math.nan, math.inf, -math.inf, 1e308, -1e300, 10**400, "", "x" * 200, "NaN", "１", "nowhere", None, True, [], {},

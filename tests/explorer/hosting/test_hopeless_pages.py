@@ -38,13 +38,11 @@ async def keep_searching(visitor: Visitor) -> None:
 
 
 async def measure(address: str) -> tuple[float, float]:
-    """Median delay of a page alone, and beside three that search [s]."""
+    """Median delay of a page beside three that search, and how long one search takes beside the other two [s]."""
     frames: list[float] = []
     page = Visitor(lambda vertices: frames.append(time.monotonic()))
     await page.open(address)
     await page.until(lambda: page.text("status") == "converged", 60.0)
-    await asyncio.sleep(1.0)
-    alone = await drag(page, frames, 2.0)
     others = [Visitor(query=f"?{share.DESIGN}={share.code_of(HOPELESS)}") for _ in range(3)]
     for other in others:
         await other.open(address)
@@ -52,23 +50,28 @@ async def measure(address: str) -> tuple[float, float]:
         await other.until(lambda other=other: bool(other.text("status")), 60.0)
     searches = [asyncio.create_task(keep_searching(other)) for other in others]
     beside = await drag(page, frames, 4.0)
-    for search in searches:
-        search.cancel()
+    searches.pop().cancel()
+    begun = time.monotonic()
+    await others[-1].move("Δ inboard [°/R]", -7.0)
+    await others[-1].idle(wholly=False)
+    search = time.monotonic() - begun
+    for task in searches:
+        task.cancel()
     assert all(other.text("status") != "converged" for other in others)
     assert not any(other.notices for other in others)
     for visitor in (page, *others):
         await visitor.close()
-    return alone, beside
+    return beside, search
 
 
 @pytest.mark.slow
 def test_others_keep_their_frame_rate_beside_three_hopeless_pages():
-    """Where a search for a trim kept its turn to the end, a frame took 85 times as long as alone.
+    """A frame does not wait until a search has ended: both are measured at once, for other programs may be busy.
 
-    Three tries, for another program may take the processors meanwhile.
+    That only one search computes at a time is tested in `test_newest_wins`, without a clock.
     """
     tries: list[tuple[float, float]] = []
     with server() as (address, _):
-        while len(tries) < 3 and not any(beside < 4.0 * alone + 0.15 for alone, beside in tries):
+        while len(tries) < 3 and not any(beside < search / 3 for beside, search in tries):
             tries.append(asyncio.run(measure(address)))
-    assert any(beside < 4.0 * alone + 0.15 for alone, beside in tries), tries
+    assert any(beside < search / 3 for beside, search in tries), tries

@@ -19,6 +19,7 @@ from rotor.actuator.pay import (
     break_even,
     pay_sentence,
     search_sentence,
+    suppose,
     what_would_pay,
     with_mass,
 )
@@ -55,6 +56,27 @@ def test_on_the_line_nothing_is_saved_and_nothing_lost(rotor: str, k: int):
     assert_allclose(flown(even, k, 0.0), even.fixed_power - even.gross[k], atol=0.1)
     assert_allclose(flown(even, k, float(even.masses[k])), even.fixed_power, atol=0.1)
     assert even.net(float(even.twists[k]), float(even.masses[k])) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_supposed_actuator_is_trimmed_and_has_a_band():
+    """Between the points of the line, against trims from nothing; nothing saves nothing, surely."""
+    even = line()
+    twist, mass = 0.3 * float(even.twists[-1]), 0.5 * float(even.masses[-1])
+    found = suppose(even.pair, even.rates_at(twist), mass)
+    powers = [
+        solve(with_mass(replace(design, twist=LinearTwist(rate)), mass)).power.total
+        for design, rate in zip(even.pair.designs(), even.rates_at(twist), strict=True)
+    ]
+    assert found.saving == pytest.approx(even.fixed_power - float(np.mean(powers)), abs=0.1)
+    assert found.saving == pytest.approx(even.net(twist, mass), abs=0.03 * even.ideal_saving)
+    assert found.fuel_saving is not None
+    assert found.fuel_saving * found.saving > 0.0
+    assert found.band is not None
+    assert found.band > 0.0
+    nothing = suppose(even.pair, even.rates_at(0.0), 0.0)
+    assert nothing.saving == pytest.approx(0.0, abs=0.1)
+    assert nothing.band == pytest.approx(0.0, abs=1.0)
+    assert even.rates_at(2.0 * float(even.twists[-1])) == even.rates_at(float(even.twists[-1]))
 
 
 def test_mass_costs_what_momentum_theory_says():

@@ -95,10 +95,10 @@ class Visitor:
         self.widgets[uuid]["value"] = value
         await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
 
-    async def idle(self, patience: float = 240.0) -> None:
-        """Wait until the server computes nothing more for this page, as `RX.idle(true)` does."""
+    async def idle(self, patience: float = 240.0, wholly: bool = True) -> None:
+        """Wait until all edits are answered and, wholly, nothing more is computed for this page, as `RX.idle` does."""
         uuid = next(uuid for uuid, widget in self.widgets.items() if widget.get("label") == BRIDGE)
-        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": json.dumps([1, "idle", [1, True]])})
+        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": json.dumps([1, "idle", [1, wholly]])})
         await self.until(lambda: self.frame.get("idle") == 1, patience)
 
     def find(self, label: str) -> str:
@@ -107,6 +107,9 @@ class Visitor:
             if widget.get("label") == label and widget.get("visible", True):
                 return uuid
         raise LookupError(f"No widget {label!r} is shown.")
+
+    def shows(self, label: str) -> bool:
+        return any(widget.get("label") == label and widget.get("visible", True) for widget in self.widgets.values())
 
     def text(self, part: str) -> str:
         """Text or kind of an element that the page marks with `data-explorer`; empty where there is none."""
@@ -173,11 +176,14 @@ class Visitor:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
 
 
-def ran(work: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
-    """The outcome of visitors' work, on a thread of its own: where a browser is open, this one has a loop already."""
+def ran(work: Callable[[], Coroutine[Any, Any, Result]], patience: float = 240.0) -> Result:
+    """The outcome of visitors' work, on a thread of its own: where a browser is open, this one has a loop already.
+
+    TimeoutError after `patience` [s].
+    """
 
     async def bounded() -> Result:
-        async with asyncio.timeout(240.0):
+        async with asyncio.timeout(patience):
             return await work()
 
     with ThreadPoolExecutor(1) as thread:
