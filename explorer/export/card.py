@@ -1,8 +1,9 @@
-"""One picture of a design to be shared, of the size that pages show beside a link: blade, disk, two numbers, title."""
+"""Pictures of a design: one to be shared, of the size that pages show beside a link, with blade, disk, two numbers and
+title; and the view of the page with title and scale."""
 
 import io
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -29,8 +30,12 @@ _WIDER = 2.0
 """Times its chord that it is drawn with, so that the twist is seen."""
 _FINER = 2
 """Pixels drawn for one that is kept, each way."""
+Ink = tuple[int, int, int]
+_NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
 _INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
 _BLADE, _GOOD, _BAD = (220, 63, 38), (6, 112, 79), (188, 64, 11)
+_STRIP = 112
+"""[px] above the view of the page, and below it."""
 
 
 def card_png(
@@ -46,11 +51,7 @@ def card_png(
     what else it says, two at most."""
     picture = Image.new("RGB", (_FINER * SIZE[0], _FINER * SIZE[1]), "white")
     draw = ImageDraw.Draw(picture)
-
-    def write(x: float, y: float, words: str, height: float, ink: tuple[int, int, int] = _INK, anchor: str = "ls"):
-        font = ImageFont.truetype(_font(), _FINER * height)
-        draw.text((_FINER * x, _FINER * y), words, ink, font, anchor=anchor)
-
+    write = partial(_write, draw, _FINER)
     design = solution.design
     write(48, 78, title_words(design), 34)
     write(48, 116, flight_words(design, units), 22, _DIM)
@@ -66,17 +67,54 @@ def card_png(
     disk = Image.open(io.BytesIO(png)).convert("RGBA")
     picture.paste(disk, (_FINER * 770, _FINER * 20), disk)
     write(970, 436, "tail", 16, _DIM, "ms")
-    bar = Image.fromarray(np.repeat(colour_map(field.colours, 256)[None, :, :3], 1, axis=0))
-    picture.paste(bar.resize((_FINER * 300, _FINER * 12)), (_FINER * 820, _FINER * 470))
-    for percent, words in bar_ticks(*colour_range):
-        write(820 + 3.0 * float(percent), 500, words, 16, _DIM, "ms")
-    write(970, 462, field.label, 18, _INK, "ms")
+    _scale(picture, write, (820, 470), 300, field, colour_range, times=_FINER)
     for law, grey in ((against.design.twist, True), (design.twist, False)):
         _draw_blade(draw, solution, law, grey)
     write(48, 606, f"Twist × {_TIMES:g}, chord × {_WIDER:g}; grey: {name}", 16, _DIM)
     out = io.BytesIO()
     picture.resize(SIZE, Image.Resampling.LANCZOS).save(out, "PNG", optimize=True)
     return out.getvalue()
+
+
+def view_png(
+    scene: Array, solution: Solution, field: Field | None, colour_range: tuple[float, float], units: Units, dark: bool
+) -> bytes:
+    """What the page shows as a PNG: `scene` (rows, columns, 3) of 0…255, between title, flight and power above it and
+    the scale of the disk below it; without a scale where `field` is None."""
+    rows, columns = scene.shape[:2]
+    below = 0 if field is None else _STRIP
+    picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
+    picture.paste(Image.fromarray(np.asarray(scene, dtype=np.uint8)[..., :3]), (0, _STRIP))
+    write = partial(_write, ImageDraw.Draw(picture), 1)
+    ink, dim = (_PALE, _GHOST) if dark else (_INK, _DIM)
+    write(40, 52, title_words(solution.design), 32, ink)
+    write(40, 90, flight_words(solution.design, units), 22, dim)
+    write(columns - 40, 72, units.watts(solution.power.total, fineness(solution.power)), 52, ink, "rs")
+    if field is not None:
+        _scale(picture, write, (columns // 2 - 250, _STRIP + rows + 50), 500, field, colour_range, ink, dim)
+    out = io.BytesIO()
+    picture.save(out, "PNG")
+    return out.getvalue()
+
+
+def _write(
+    draw: ImageDraw.ImageDraw, times: int, x: float, y: float, words: str, height: float, ink: Ink = _INK,
+    anchor: str = "ls",
+) -> None:  # fmt: skip
+    """Words at a place, in pixels of which `times` are drawn for one that is kept."""
+    draw.text((times * x, times * y), words, ink, ImageFont.truetype(_font(), times * height), anchor=anchor)
+
+
+def _scale(
+    picture: Image.Image, write: Callable[..., None], place: tuple[int, int], width: int, field: Field,
+    colour_range: tuple[float, float], ink: Ink = _INK, dim: Ink = _DIM, times: int = 1,
+) -> None:  # fmt: skip
+    """A field's colours from a place to the right, its name above and numbers below."""
+    (x, y), colours = place, colour_map(field.colours, 256)[None, :, :3]
+    picture.paste(Image.fromarray(colours).resize((times * width, times * 12)), (times * x, times * y))
+    for percent, words in bar_ticks(*colour_range):
+        write(x + 0.01 * width * float(percent), y + 30, words, 16, dim, "ms")
+    write(x + width // 2, y - 8, field.label, 18, ink, "ms")
 
 
 @cache

@@ -92,6 +92,11 @@ class FittedCamera:
         if self._view is not None and self._view != "blade" and self._following:
             self.aim(self._view)
 
+    @property
+    def covered(self) -> tuple[float, float]:
+        """Fractions of the canvas that cards cover from above and from below."""
+        return self._cover.above, self._cover.below
+
     def leave_free(self, above: float, below: float) -> None:
         """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""
         cover = Cover(min(max(above, 0.0), _MOST_COVERED), min(max(below, 0.0), _MOST_COVERED))

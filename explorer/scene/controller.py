@@ -288,6 +288,11 @@ class SceneController:
         if self.camera is not None:
             self.camera.aim(view, eased)
 
+    @property
+    def covered(self) -> tuple[float, float]:
+        """Parts of the canvas behind cards, above and below."""
+        return (0.0, 0.0) if self.camera is None else self.camera.covered
+
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""
         return self._ranges.get(field.title, (field.low, field.high))

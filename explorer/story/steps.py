@@ -218,7 +218,7 @@ STEPS: tuple[LectureStep, ...] = (
         "hover_twist", step_text("hover_twist"), replace(_LINEAR, advance_ratio=0.0), _twist(-16.0),
         Shot(30.0, 33.0, *_DISK),
         (("induced_a", "induced power, A"), ("induced_b", "induced power, B"), ("induced_percent", "from A to B")),
-        bounds=(0.02, 0.12), against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
+        bounds=(0.02, 0.12), against=replace(_LINEAR, linear=0.0, advance_ratio=0.0), field="Total inflow λ",
     ),
     LectureStep(
         "linear_inflow", step_text("linear_inflow"), replace(_LINEAR, inflow="pitt-peters"), _twist(-12.0),
@@ -235,7 +235,7 @@ STEPS: tuple[LectureStep, ...] = (
             "Fuselage drag", (1.0, 0.0), lambda inputs, on: replace(inputs, fuselage=on > 0.5),
             lambda on: "as it is" if on > 0.5 else "none", 0, "switch",
         ),
-        Shot(76.0, 9.0, *_LONG), (*_POWERS[1:], ("tilt", "shaft tilt, forward")),
+        Shot(70.0, 24.0, *_LONG), (*_POWERS[1:], ("tilt", "shaft tilt, forward")),
         bounds=(-0.005, 0.005), against=replace(_LINEAR, linear=-4.0, advance_ratio=0.35), field="Thrust dT/dr",
     ),
     LectureStep(
@@ -256,6 +256,7 @@ STEPS: tuple[LectureStep, ...] = (
     LectureStep(
         "fixed_or_moving", step_text("fixed_or_moving"), _LINEAR, _fly(SPEEDS, 0.0, "Speed"),
         Shot(24.0, 18.0, *_BLADE), _POWERS, bounds=(0.01, 0.05), against=replace(_LINEAR, linear=-12.0),
+        field="Total inflow λ",
     ),
     LectureStep(
         "power_or_vibration", step_text("power_or_vibration"), replace(_UH60A, advance_ratio=0.3, bending=True),

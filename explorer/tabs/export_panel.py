@@ -1,6 +1,5 @@
 """The Export folder: shapes, tables, the disk as a drawing, a picture of the view, the 3D scene and the report."""
 
-import io
 import logging
 import math
 import threading
@@ -9,12 +8,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import viser
-from PIL import Image
 
 from explorer.charts.plots import PowerCurves
 from explorer.charts.svg import disk_svg
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
-from explorer.export.card import card_png
+from explorer.export.card import card_png, view_png
 from explorer.export.contents import ReportEntry, judged_actuator, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
@@ -152,13 +150,16 @@ class ExportPanel(Tab):
         return _file(solution.design, "svg", drawing, "disk", field.title)
 
     def _view_picture(self, state: SessionState) -> File:
-        """The scene as the page's camera sees it; what the frame draws over it is not in the picture."""
-        client = self._context.client
+        """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
+        client, view = self._context.client, state.view
         height = round(_WIDTH / client.camera.aspect)
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
-        png = io.BytesIO()
-        Image.fromarray(pixels).save(png, "PNG")
-        return _file(state.solution.design, "png", png.getvalue(), "view", f"{_WIDTH}x{height}")
+        above, below = self._scene.covered
+        seen = pixels[round(above * height) : height - round(below * height)]
+        field = None if self._context.layout.mode == "actuate" else shown_field(view, state.pinned)
+        ends = (0.0, 1.0) if field is None else self._scene.held_range(field)
+        png = view_png(seen, state.solution, field, ends, UNITS[view.units], view.dark)
+        return _file(state.solution.design, "png", png, "view")
 
     def _card(self, state: SessionState) -> File:
         """Blade, disk, power, change and title in one picture, to be shared with the link."""

@@ -6,7 +6,7 @@
   rotorWipe.heard(share => { clearTimeout(wiped); wiped = setTimeout(() => RX.send('wiped', share), 60); });
   const name = () => {
     const {lecture, steps, bar} = RX.state, step = lecture && steps?.[lecture.at];
-    rotorWipe.name(`A: ${step?.a || bar?.pinned?.title || ''}`, `B: ${step?.b || 'on the sliders'}`);
+    rotorWipe.name(`A: ${step?.a || bar?.pinned?.title || ''}`, step?.b ? `B: ${step.b}` : 'B');
   };
   RX.paint('wipe', on => { name(); rotorWipe.set(on); });
   RX.paint('wiped', share => rotorWipe.set(RX.state.wipe === true, share));

@@ -5,7 +5,7 @@ import io
 import numpy as np
 from PIL import Image
 
-from explorer.export.card import SIZE, card_png
+from explorer.export.card import SIZE, card_png, view_png
 from explorer.model.units import SI
 from explorer.picture.fields import FIELDS
 from rotor import Solution, make_design, solve
@@ -46,3 +46,20 @@ def test_further_lines_stand_between_power_and_blade():
     rows, columns = np.nonzero((plain != told).any(axis=-1))
     assert 340 < rows.min() < rows.max() < 408
     assert 40 < columns.min() < columns.max() < 770
+
+
+def test_the_view_stands_between_title_and_scale():
+    """The scene is in it as it was; a stage without the disk has no scale."""
+    solution, scene = solve(make_design(mu=0.3)), np.random.default_rng(1).integers(0, 255, (400, 1920, 3))
+    for field, dark, paper in ((FIELD, False, 255), (None, True, 17)):
+        png = view_png(scene, solution, field, (-4.0, 14.0), SI, dark)
+        pixels = np.asarray(Image.open(io.BytesIO(png))).astype(int)
+        below = pixels[512:]
+        assert np.array_equal(pixels[112:512], scene)
+        assert pixels[0, 0, 0] == paper
+        assert len(below) == (0 if field is None else 112)
+        assert len(np.unique(below.reshape(-1, 3), axis=0)) > 200 or field is None
+        # Words left and right above it, and nothing at the edges.
+        inked = np.nonzero((pixels[:112] != pixels[0, 0]).any(axis=(0, 2)))[0]
+        assert 40 <= inked.min() < 300
+        assert 1600 < inked.max() <= 1880
