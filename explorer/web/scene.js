@@ -124,14 +124,14 @@
     const passed = Math.max(0, Math.min((now - before) / 1000, 0.5)), own = Math.min(passed, 0.1);
     before = now;
     if (!follows(now)) { show(psi += spin * own); return; }
-    const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3), last = psi;
+    const since = (now - heard.at) / 1000, going = since < 0.3 ? rate : 0, aim = heard.psi + rate * Math.min(since, 0.3), last = psi;
     if (calm.matches) {
       heard.still = Math.abs(near(aim - psi)) < Math.PI / 6;
       if (heard.still || now - stepped < 500) return;
       psi = aim;
       stepped = now;
     } else {
-      psi += rate * own + near(aim - psi - rate * own) * Math.min(1, 5 * passed);
+      psi += going * own + near(aim - psi - going * own) * Math.min(1, 5 * passed);
       heard.still = Math.abs(psi - last) < 1e-4;
     }
     show(psi);
@@ -188,8 +188,8 @@
     turn(angle) {
       const at = performance.now();
       if (!heard) psi = angle;
-      // Messages come in bursts: the rate is taken over a quarter of a second.
-      if (!mark) mark = {psi: angle, at};
+      // Messages come in bursts: the rate is taken over a quarter of a second. After a rest it begins anew.
+      if (!mark || at - heard.at > 2 * LATE) { mark = {psi: angle, at}; rate = 0; }
       else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
       heard = {psi: angle, at};
       go();

@@ -25,7 +25,7 @@ _FAULTS = """() => {
     const rects = pieces(e);
     if (!rects.length) continue;
     const height = Math.max(...rects.map(r => r.bottom)) - Math.min(...rects.map(r => r.top));
-    if (height > 1.75 * Math.min(...rects.map(r => r.height)) && !e.querySelector('br, small'))
+    if (height > 1.75 * Math.max(...rects.map(r => r.height)) && !e.querySelector('br, small'))
       faults.add(`${name(e)}: on more than one line`);
     const style = getComputedStyle(e);  // An ellipsis is wanted where the whole text is a hover away.
     if (style.textOverflow === 'ellipsis' && (e.closest('[title]') || e.closest('#rx'))) continue;

@@ -107,6 +107,7 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     undo = page.evaluate("() => RX.state.bar.undo")
     page.keyboard.press("g")
     page.wait_for_function("() => RX.state.rubber?.by === 'key'")
+    watched.drawn()  # Keys are heard from the frame on that shows it.
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
     watched.until(lambda: value(watched, "Outboard") > -3.0)

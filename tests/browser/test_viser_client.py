@@ -108,9 +108,16 @@ def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
     while drawn[-1] > 4 and len(drawn) < 12:  # Until answers of the background have come.
         drawn.append(watched.page.evaluate(counted))
     assert 1 <= drawn[-1] <= 4, drawn
-    # It turns when the server says so, and then rests again.
-    turned = watched.page.evaluate("() => { const at = rotorScene.psi + 1; rotorScene.turn(at); return at; }")
-    watched.page.wait_for_function("at => Math.abs(rotorScene.psi - at) < 0.01", arg=turned)
+    # It turns when the server says so, goes on at that rate for a moment, and then rests again.
+    turn = """async () => {
+        const at = rotorScene.psi + 1;
+        rotorScene.turn(at - 0.3);
+        await new Promise(done => setTimeout(done, 300));
+        rotorScene.turn(at);
+        return at;
+    }"""
+    turned = watched.page.evaluate(turn)
+    watched.page.wait_for_function("at => rotorScene.psi > at - 0.01", arg=turned)
     watched.page.wait_for_timeout(3000)
     assert watched.page.evaluate(counted) <= 5
     watched.mode("explore")
