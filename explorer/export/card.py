@@ -34,6 +34,8 @@ Ink = tuple[int, int, int]
 _NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
 _INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
 _BLADE, _GOOD, _BAD = (220, 63, 38), (6, 112, 79), (188, 64, 11)
+_SKY = (243, 246, 250), (25, 31, 41)
+"""Behind the view of the page, light and dark."""
 _STRIP = 112
 """[px] above the view of the page, and below it."""
 
@@ -79,12 +81,14 @@ def card_png(
 def view_png(
     scene: Array, solution: Solution, field: Field | None, colour_range: tuple[float, float], units: Units, dark: bool
 ) -> bytes:
-    """What the page shows as a PNG: `scene` (rows, columns, 3) of 0…255, between title, flight and power above it and
-    the scale of the disk below it; without a scale where `field` is None."""
+    """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
+    above it and the scale of the disk below it; without a scale where `field` is None."""
     rows, columns = scene.shape[:2]
     below = 0 if field is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
-    picture.paste(Image.fromarray(np.asarray(scene, dtype=np.uint8)[..., :3]), (0, _STRIP))
+    drawn = Image.fromarray(np.asarray(scene, dtype=np.uint8), "RGBA")
+    picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
+    picture.paste(drawn, (0, _STRIP), drawn)
     write = partial(_write, ImageDraw.Draw(picture), 1)
     ink, dim = (_PALE, _GHOST) if dark else (_INK, _DIM)
     write(40, 52, title_words(solution.design), 32, ink)

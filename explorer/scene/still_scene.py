@@ -61,8 +61,8 @@ def _parts(page: str) -> dict[str, str]:
     return match.groupdict()
 
 
-_ASPECT = 16.0 / 9.0
-"""Aspect ratio of the window that the camera is fitted to."""
+_ASPECT = 1.4
+"""Aspect ratio that the camera is fitted to: in windows down to it the words beside the disk are whole."""
 _PIXELS = 640
 """Along each edge of the disk's picture: a file should be small."""
 

@@ -14,6 +14,7 @@
   RX.paint('lecture', step => {
     const begins = step && !page.hasAttribute('data-lecture');
     page.toggleAttribute('data-lecture', Boolean(step));
+    page.toggleAttribute('data-guess', Boolean(step) && step.answer === null);
     place.hidden = !step;
     if (begins || !step) {
       RX.openRail(!step && innerWidth <= 860);  // Full-bleed, until the controls are asked for.
