@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from explorer.colours import colour_map
@@ -79,14 +80,19 @@ def card_png(
 
 
 def view_png(
-    scene: Array, solution: Solution, field: Field | None, colour_range: tuple[float, float], units: Units, dark: bool
+    scene: NDArray[np.uint8],
+    solution: Solution,
+    field: Field | None,
+    colour_range: tuple[float, float],
+    units: Units,
+    dark: bool,
 ) -> bytes:
     """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
     above it and the scale of the disk below it; without a scale where `field` is None."""
     rows, columns = scene.shape[:2]
     below = 0 if field is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
-    drawn = Image.fromarray(np.asarray(scene, dtype=np.uint8), "RGBA")
+    drawn = Image.fromarray(scene)
     picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
     picture.paste(drawn, (0, _STRIP), drawn)
     write = partial(_write, ImageDraw.Draw(picture), 1)

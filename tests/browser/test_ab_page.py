@@ -43,6 +43,7 @@ CLOSE_NOTIFICATION = """() => {
 """As the page closes viser's remark on drawing in software, five seconds after it appears."""
 
 
+@pytest.mark.slow
 def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched = visit(size=(1500, 940))
     page = watched.page

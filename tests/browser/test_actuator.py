@@ -182,6 +182,7 @@ def test_twist_at_n_per_rev_moves_power_link_and_blades(watched: Watched):
     watched.until(lambda: page.evaluate("() => RX.state.dial.now") == [])
 
 
+@pytest.mark.slow
 def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     """Red where the chosen one stands, green below the line; link and shared picture keep it."""
     page = watched.page

@@ -101,6 +101,7 @@ def pause(watched: Watched) -> None:
     watched.answered()
 
 
+@pytest.mark.slow
 def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(watched: Watched):
     page = watched.page
     watched.answered()

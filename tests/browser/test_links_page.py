@@ -31,6 +31,7 @@ def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
     )
 
 
+@pytest.mark.slow
 def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     watched = visit()
     page = watched.page

@@ -147,6 +147,7 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
     assert session.page.controls.inputs() == START
 
 
+@pytest.mark.slow
 def test_the_optimiser_is_beaten_by_hand_and_its_blade_is_in_the_link(
     page: tuple[Watched, Session], browser: "Browser", app: App
 ):

@@ -41,6 +41,7 @@ def test_the_strip_has_three_charts_with_axes(watched: Watched):
     watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
 
 
+@pytest.mark.slow
 def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.answered(wholly=True)
     page, slider = watched.page, watched.row("Adv. ratio").get_by_role("slider")
@@ -102,6 +103,7 @@ def test_sliders_of_twist_and_speed_move_power_blade_and_disk(watched: Watched):
     assert not watched.text("speed").startswith("159 km/h")
 
 
+@pytest.mark.slow
 def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
     disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
@@ -162,6 +164,7 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
 
 
+@pytest.mark.slow
 def test_the_card_says_how_sure_the_change_is(watched: Watched):
     """Beside the power its band, below its change that of the change; what they consist of under *How far to trust*."""
     page = watched.page

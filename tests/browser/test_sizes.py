@@ -27,7 +27,7 @@ def found(watched: Watched) -> tuple[dict[str, list[str]], int]:
     ("width", "height", "least"),
     [
         (390, 844, 370),
-        (820, 1180, 500),
+        pytest.param(820, 1180, 500, marks=pytest.mark.slow),
         pytest.param(1180, 820, 360, marks=pytest.mark.slow),
         pytest.param(1280, 720, 400, marks=pytest.mark.slow),
         pytest.param(1500, 940, 600, marks=pytest.mark.slow),

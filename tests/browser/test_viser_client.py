@@ -94,6 +94,7 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
     assert watched.page.evaluate(heard)
 
 
+@pytest.mark.slow
 def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
     """The client draws every second, which keeps a processor busy there: every fifth time is enough; no rotor turns."""
     counted = """() => new Promise(done => {

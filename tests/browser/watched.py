@@ -64,12 +64,16 @@ class Watched:
         return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
 
     def unfold(self, label: str) -> None:
-        """Show a control of flight that is folded while it stands at its default."""
+        """Show a control that is folded at first."""
+        if label == "Starting points" and not self.row(label).is_visible():
+            self.page.get_by_text("Limits and starts", exact=True).click()
+            self.row(label).wait_for()
         if label.startswith(("Altitude", "Climb", "Rotor speed", "Load factor", "Flight or test")):
             self.page.evaluate("() => RX.send('more', 'on')")
             self.row(label).wait_for()
 
     def press(self, label: str, key: str, times: int = 1) -> None:
+        self.unfold(label)
         self.row(label).get_by_role("slider").focus()
         for _ in range(times):
             self.page.keyboard.press(key)

@@ -50,7 +50,7 @@ def test_further_lines_stand_between_power_and_blade():
 
 def test_the_view_stands_between_title_and_scale():
     """The scene is in it as it was; a stage without the disk has no scale."""
-    solution, scene = solve(make_design(mu=0.3)), np.random.default_rng(1).integers(0, 255, (400, 1920, 4))
+    solution, scene = solve(make_design(mu=0.3)), np.random.default_rng(1).integers(0, 255, (400, 1920, 4), np.uint8)
     scene[..., 3] = 255
     scene[:100, :, 3] = 0  # The sky.
     for field, dark, paper in ((FIELD, False, 255), (None, True, 17)):

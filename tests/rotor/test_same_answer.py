@@ -41,6 +41,7 @@ def check(orders: list[tuple[list[int], int]]) -> None:
         assert [number for number in first if first[number] != other[number]] == []
 
 
+@pytest.mark.slow
 def test_a_few_designs_in_two_orders_and_in_threads() -> None:
     check([([*FEW], 1), ([*FEW[::-1]], 4)])
 

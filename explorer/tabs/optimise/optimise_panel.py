@@ -76,14 +76,14 @@ class OptimisePanel(BackgroundWork):
         form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
         form.slider("first", Slider("Break 1 [r/R]", 0.2, 0.6, 0.01), first.first, entry=where)
         form.slider("second", Slider("Break 2 [r/R]", 0.65, 0.95, 0.01), first.second, entry=where)
-        form.slider("starts", Slider("Starting points", 1, TRACES, 1), first.starts)
-        with gui.add_folder("Limits", expand_by_default=False):
+        with gui.add_folder("Limits and starts", expand_by_default=False):
             form.box("limit_stall", "Limit stall", False)
             form.slider("stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit")
             form.box("limit_change", "Limit change of twist", False)
             form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
             form.box("limit_index", "Limit vibration", False)
             form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
+            form.slider("starts", Slider("Starting points", 1, TRACES, 1), first.starts)
         self.add_buttons(gui, "Optimise", "Stop", ("optimise", "stop"))
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))

@@ -9,6 +9,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[3]
 ROW = """
     Quantity(
@@ -36,6 +38,7 @@ MEANING = {
 """By file: what stands there, and what takes its place. Nothing else knows of the quantity."""
 
 
+@pytest.mark.slow
 def test_one_row_and_its_meaning_are_found_everywhere(tmp_path: Path):
     for name in ("explorer", "assets"):
         (tmp_path / name).symlink_to(ROOT / name)
