@@ -28,7 +28,7 @@ hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatabl
 providers._get_local_constants = providers.Constants  # pyright: ignore[reportPrivateImportUsage]
 
 
-ONE_PROCESS = {"test_wheel", "test_chapter_4"}
+ONE_PROCESS = {"test_wheel", "test_chapter_4", "test_lecture"}
 """Files whose slow tests share what takes long to make: with `--dist loadgroup` one process makes it, once."""
 
 

@@ -33,7 +33,7 @@ from rotor import Rotor, Solution, solve
 from rotor.chart import Axis, Band, Chart, Line, Series, as_json, bar_ticks
 from rotor.markup import end_of, with_title
 from rotor.terminal import called, help_formatter, run_command
-from rotor.user_input import write_whole
+from rotor.user_input import check_writable, write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""
@@ -247,8 +247,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    text = story_html(view=ViewState(dark=options.dark, units=options.units), quiet=not sys.stderr.isatty())
     target = Path(options.out) / "story.html" if Path(options.out).is_dir() else Path(options.out)
+    check_writable(target)  # Not after a minute.
+    text = story_html(view=ViewState(dark=options.dark, units=options.units), quiet=not sys.stderr.isatty())
     try:
         write_whole(target, text)
     except OSError as error:

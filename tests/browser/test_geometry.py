@@ -11,7 +11,7 @@ from explorer.app import App
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 # What is seen beyond the left or right edge of the box it belongs to, by more than a pixel and a half.
 _LEAVES = """([outer, inner]) => {
@@ -69,13 +69,10 @@ _NARROW_CHARTS = """() => [...document.querySelectorAll('.rxf-chart')].filter(e 
   .map(e => e.dataset.name)"""
 
 _PARTS = ['[data-explorer="total-power"]', ".rxf-sub", ".rxf-since", ".rxf-why", ".rxf-parts dl", ".rxf-chip"]
-MORE_SIZES = [(390, 844), (1920, 1080), (1500, 940), (1024, 768), (768, 1024)]
+SIZES = [(1280, 720), (390, 844), (1920, 1080), (1500, 940), (1024, 768), (768, 1024)]
 
 
-@pytest.fixture(
-    params=[(1280, 720), *(pytest.param(one, marks=pytest.mark.slow) for one in MORE_SIZES)],
-    ids=lambda size: f"{size[0]}x{size[1]}",
-)
+@pytest.fixture(params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
 def size(request: pytest.FixtureRequest) -> tuple[int, int]:
     return request.param
 
@@ -201,7 +198,6 @@ def _the_bar_of_a_preview_stays_on_the_stage(watched: Watched) -> None:
     page.wait_for_selector(".rxf-notice", state="hidden")
 
 
-@pytest.mark.slow
 def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watched, size: tuple[int, int]):
     watched, page, rail = sized, sized.page, sized.page.locator("[data-dock-region=right]")
     page.keyboard.press("t")

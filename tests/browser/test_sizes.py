@@ -23,15 +23,10 @@ def found(watched: Watched) -> tuple[dict[str, list[str]], int]:
     return {name: now[name] for name in CLEAN}, now["disk"] or 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("width", "height", "least"),
-    [
-        (390, 844, 370),
-        pytest.param(820, 1180, 500, marks=pytest.mark.slow),
-        pytest.param(1180, 820, 360, marks=pytest.mark.slow),
-        pytest.param(1280, 720, 400, marks=pytest.mark.slow),
-        pytest.param(1500, 940, 600, marks=pytest.mark.slow),
-    ],
+    [(390, 844, 370), (820, 1180, 500), (1180, 820, 360), (1280, 720, 400), (1500, 940, 600)],
 )
 def test_nothing_lies_over_anything(visit: Visit, width: int, height: int, least: int):
     watched = visit(size=(width, height))

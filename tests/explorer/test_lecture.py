@@ -107,6 +107,7 @@ class TestSteps:
         for part in step.text.parts:
             assert not re.search(r"\d", NAMED.sub("", part).replace("UH-60A", "")), part
 
+    @pytest.mark.slow
     def test_every_name_has_a_number(self, step: LectureStep, facts: dict[str, Facts]):
         wanted = {name for part in step.text.parts for name in NAMED.findall(part)}
         assert wanted <= set(facts[step.name].numbers)
@@ -120,6 +121,7 @@ class TestSteps:
         named = [name for part in step.text.parts for name in re.findall(r"\*\*(.+?)\*\*", part)]
         assert named == [step.control.label]
 
+    @pytest.mark.slow
     def test_each_place_of_the_control_is_another_design_that_trims(self, step: LectureStep, facts: dict[str, Facts]):
         stops = facts[step.name].stops
         assert len({stop.inputs.design() for stop in stops}) == len(stops) == len(step.control.values)
@@ -127,11 +129,13 @@ class TestSteps:
             assert solve(stop.inputs.design()).converged
             assert stop.against is None or solve(stop.against.design()).converged
 
+    @pytest.mark.slow
     def test_each_answer_can_be_told_from_the_others(self, step: LectureStep, facts: dict[str, Facts]):
         assert len(set(step.text.options)) == len(step.text.options) == len(step.bounds) + 1
         assert list(step.bounds) == sorted(step.bounds)
         assert 0 <= facts[step.name].right < len(step.text.options)
 
+    @pytest.mark.slow
     def test_the_chart_has_a_dot_for_each_place(self, step: LectureStep, facts: dict[str, Facts]):
         """On its line, so that what is seen and what is drawn agree."""
         chart, stops = facts[step.name].chart, facts[step.name].stops
@@ -144,6 +148,7 @@ class TestSteps:
             for (x, y), line in zip(stop.dots, chart.lines, strict=False):
                 assert line.y[chart.x.index(x)] == pytest.approx(y)
 
+    @pytest.mark.slow
     def test_the_large_numbers_are_there(self, step: LectureStep, facts: dict[str, Facts]):
         stop = facts[step.name].stops[step.control.start]
         b = solved(stop.inputs)
@@ -166,6 +171,7 @@ class TestSteps:
 class TestAnswers:
     """The right answers, and numbers of their texts, against what is known from elsewhere."""
 
+    @pytest.mark.slow
     def test_the_right_ones(self, facts: dict[str, Facts]):
         """That of `trim` by momentum theory: far from hover induced power falls as 1/µ; at µ 0.3 to well below half."""
         right = {"trim": 0, "hover_twist": 1, "linear_inflow": 0, "responding_wake": 1, "fast_twist": 0,
@@ -175,6 +181,7 @@ class TestAnswers:
         (_, weak), (_, strong) = facts["fast_twist"].stops[1].dots
         assert weak < strong
 
+    @pytest.mark.slow
     def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, Facts]):
         """The band over inflow models is that of `python -m rotor ladder`, row by row."""
         found = facts["fixed_or_moving"]
@@ -183,6 +190,7 @@ class TestAnswers:
         assert (numbers["gain_low"].value, numbers["gain_high"].value) == (min(gains), max(gains))
         assert min(gains) <= numbers["gain"].value <= max(gains) < 0.01
 
+    @pytest.mark.slow
     def test_moving_saves_what_the_trims_say(self, facts: dict[str, Facts]):
         """The mean over the designs of the control, trimmed anew; their twists are rounded to a hundredth."""
         stops = facts["fixed_or_moving"].stops
@@ -192,6 +200,7 @@ class TestAnswers:
         )
         assert 1.0 - moving / fixed == pytest.approx(facts["fixed_or_moving"].numbers["gain"].value, abs=2e-5)
 
+    @pytest.mark.slow
     def test_the_front_trades_power_for_vibration(self, facts: dict[str, Facts]):
         found = facts["power_or_vibration"]
         powers, (line,) = found.chart.x, found.chart.lines
@@ -205,6 +214,7 @@ class TestAnswers:
         assert b.hub_loads is not None
         assert b.hub_loads.index / a.hub_loads.index - 1.0 == pytest.approx(line.y[-1], abs=1e-4)
 
+    @pytest.mark.slow
     def test_the_ply_costs_more_than_it_saves(self, facts: dict[str, Facts]):
         """Its mass at the power that a kilogram costs is more than what its twist saves."""
         numbers = facts["piezoelectric_ply"].numbers
@@ -213,6 +223,7 @@ class TestAnswers:
         assert carried > numbers["gross"].value
         assert numbers["attainable"].value < numbers["required"].value
 
+    @pytest.mark.slow
     def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, Facts]):
         step = BY_TITLE["What two segments add"]
         best = optimise(step.begin().design(), "two-segment-free")
@@ -271,6 +282,7 @@ class TestBeside:
         flown = replace(step.inputs, advance_ratio=0.3, tip_loss=False)
         assert beside(step.against, step.inputs, flown) == replace(flown, reverse_flow=False)
 
+    @pytest.mark.slow
     def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, Facts]):
         stop = facts["power_or_vibration"].stops[0]
         against = beside(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))

@@ -52,6 +52,7 @@ def shown(key: str) -> list[float]:
     return [value(cell) for cell in rows()[key] if re.search(r"\d", cell)]
 
 
+@pytest.mark.slow
 def test_what_it_moves_saves_and_weighs():
     here = verdict()
     degrees = {"reach": here.attainable, "derated": here.attainable_derated, "required": here.required,

@@ -150,6 +150,7 @@ def test_bad_input_is_one_sentence(call, words: str):
         call()
 
 
+@pytest.mark.slow
 def test_front_command(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     path = tmp_path / "front.csv"
     flags = ["front", "--mu", "0.3", "--bending", "--inflow", LINEAR, "--points", "2", "--csv", str(path)]

@@ -167,6 +167,7 @@ CAUSES: tuple[tuple[str, str, Callable[[], bool]], ...] = (
 """File, the words that name a cause or its size, and what they say, computed."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("file", "words", "holds"), CAUSES, ids=[words for _, words, _ in CAUSES])
 def test_a_sentence_that_names_a_cause_is_true(file: str, words: str, holds: Callable[[], bool]):
     text = " ".join((ROOT / file).read_text(encoding="utf-8").split())

@@ -38,6 +38,7 @@ def test_each_rung_changes_something(name: str):
     assert abs(after / before - 1.0) > 1e-4
 
 
+@pytest.mark.slow
 def test_the_moves_add_up_and_the_best_is_a_least(ladder: Ladder):
     first, last = ladder.steps[0], ladder.steps[-1]
     moved = sum(one.moves[-1].in_ladder for one in ladder.steps if one.moves)
@@ -53,6 +54,7 @@ def test_the_moves_add_up_and_the_best_is_a_least(ladder: Ladder):
     assert all(-1e-9 <= one.moving.gain < 0.02 for one in ladder.steps)
 
 
+@pytest.mark.slow
 def test_the_ladder_on_the_command_line(ladder: Ladder, capsys: pytest.CaptureFixture[str]):
     assert main(["ladder", "--mu", "0,0.35", "--processes", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
