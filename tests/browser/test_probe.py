@@ -178,6 +178,7 @@ WATCH_PLAY = """seconds => new Promise(done => {
 """Pixels across the screen between the label and the probe on the blade as it was drawn last, in each frame."""
 
 
+@pytest.mark.slow
 def test_the_label_stays_by_its_ring_while_the_rotor_plays(watched: Watched):
     page = watched.page
     click_disk(watched, 0.8, 200.0)

@@ -84,6 +84,7 @@ def test_on_a_tablet_optimise_shows_its_controls_and_its_search(visit: Visit):
     assert found(watched)[0] == CLEAN
 
 
+@pytest.mark.slow
 def test_what_is_measured_can_fail(visit: Visit):
     page = visit(size=(820, 1180)).page
     page.evaluate("() => document.querySelector('.rxf-views').style.cssText = 'left: 20px; top: 20px; right: auto'")

@@ -72,6 +72,7 @@ def test_what_it_moves_saves_and_weighs():
         assert rows()[f"limit-{limit.name}"] == ["met" if limit.ok else "exceeded"]
 
 
+@pytest.mark.slow
 def test_the_flight_is_that_of_fly():
     flight = fly(verdict())
     legs = re.findall(r"<tr><td>[^<]*</td>(.*?)<td class=\"link\">", page())

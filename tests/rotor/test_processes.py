@@ -155,6 +155,7 @@ time.sleep(60.0)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_processes_end_with_a_parent_that_was_killed(number: int):
     """The one in the midst of a call too; nothing is said of what a semaphore left."""

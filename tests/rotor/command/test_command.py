@@ -78,6 +78,7 @@ def test_without_hub_loads_a_caveat_says_why(capsys: pytest.CaptureFixture[str])
         assert words in out
 
 
+@pytest.mark.slow
 def test_distribution(capsys: pytest.CaptureFixture[str]):
     answer = solved(capsys, "--mu", "0.2", "--distribution")
     assert list(answer) == [*KEYS, "distribution", *VIBRATION]

@@ -95,6 +95,7 @@ def test_what_has_none():
     assert heavy.limit == ""
 
 
+@pytest.mark.slow
 def test_the_command(capsys: pytest.CaptureFixture[str]):
     flags = ["envelope", "--mu", "0.2", "--twist", "linear:-10", "--inflow=drees", "--elements=16", "--azimuths=32"]
     assert main(flags) == 0
