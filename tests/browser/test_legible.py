@@ -44,6 +44,7 @@ def test_text_is_large_and_dark_enough(browser: "Browser", app: "App", scheme: L
 
 def test_what_is_measured_can_fail(visit: Visit):
     page = visit().page
+    page.wait_for_selector("#rx-veil", state="hidden")
     look = "position: fixed; inset: 0 auto auto 0; background: #fff; color: #999; font-size: 11px"
     page.evaluate("html => document.body.insertAdjacentHTML('beforeend', html)", f'<p style="{look}">too small</p>')
     now = found(page)
