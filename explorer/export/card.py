@@ -82,15 +82,14 @@ def card_png(
 def view_png(
     scene: NDArray[np.uint8],
     solution: Solution,
-    field: Field | None,
-    colour_range: tuple[float, float],
+    scale: tuple[Field, tuple[float, float]] | None,
     units: Units,
     dark: bool,
 ) -> bytes:
     """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
-    above it and the scale of the disk below it; without a scale where `field` is None."""
+    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk."""
     rows, columns = scene.shape[:2]
-    below = 0 if field is None else _STRIP
+    below = 0 if scale is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
     drawn = Image.fromarray(scene)
     picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
@@ -100,8 +99,8 @@ def view_png(
     write(40, 52, title_words(solution.design), 32, ink)
     write(40, 90, flight_words(solution.design, units), 22, dim)
     write(columns - 40, 72, units.watts(solution.power.total, fineness(solution.power)), 52, ink, "rs")
-    if field is not None:
-        _scale(picture, write, (columns // 2 - 250, _STRIP + rows + 50), 500, field, colour_range, ink, dim)
+    if scale is not None:
+        _scale(picture, write, (columns // 2 - 250, _STRIP + rows + 50), 500, *scale, ink, dim)
     out = io.BytesIO()
     picture.save(out, "PNG")
     return out.getvalue()

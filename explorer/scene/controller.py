@@ -293,6 +293,14 @@ class SceneController:
         """Parts of the canvas behind cards, above and below."""
         return (0.0, 0.0) if self.camera is None else self.camera.covered
 
+    @property
+    def scale(self) -> tuple[Field, Range] | None:
+        """The quantity on the disk of the scene and the ends of its colours; None where no such disk is in sight."""
+        drawn = self._drawn
+        if drawn is None or not self.scene.shows_disk:
+            return None
+        return _field(drawn.view, drawn.pinned), drawn.colour_range
+
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""
         return self._ranges.get(field.title, (field.low, field.high))

@@ -189,6 +189,11 @@ class Scene:
         self._behind = behind
         self._set_visible()
 
+    @property
+    def shows_disk(self) -> bool:
+        """Whether the coloured disk is in sight."""
+        return self._seen and not self._behind
+
     def set_alone(self, alone: bool) -> None:
         """Whether the rotor is tested alone, without an airframe."""
         if alone != self._alone:

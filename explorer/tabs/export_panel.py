@@ -156,9 +156,7 @@ class ExportPanel(Tab):
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
         above, below = self._scene.covered
         seen = pixels[round(above * height) : height - round(below * height)]
-        field = None if self._context.layout.mode == "actuate" else shown_field(view, state.pinned)
-        ends = (0.0, 1.0) if field is None else self._scene.held_range(field)
-        png = view_png(seen, state.solution, field, ends, UNITS[view.units], view.dark)
+        png = view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark)
         return _file(state.solution.design, "png", png, "view")
 
     def _card(self, state: SessionState) -> File:

@@ -102,14 +102,16 @@ def test_the_disk_is_a_drawing(watched: Watched, tmp_path: Path):
 
 
 @pytest.mark.slow
-def test_the_view_is_a_picture_of_the_scene_between_the_cards(watched: Watched, tmp_path: Path):
+def test_the_view_is_a_picture_of_the_scene_between_the_cards(watched: Watched, app: App, tmp_path: Path):
     with Image.open(saved(watched, "View as PNG", tmp_path)) as picture:
         size = watched.page.locator("canvas").first.bounding_box()
         assert size is not None
         assert picture.width == 1920
         # Title and scale stand above and below; what cards cover is not in it.
-        scene = picture.height - 2 * 112
-        assert 0.1 < scene / (picture.width * size["height"] / size["width"]) < 1.0
+        above, below = app.sessions[-1].page.scene.covered
+        assert above > 0.0
+        whole = picture.width * size["height"] / size["width"]
+        assert picture.height - 2 * 112 == pytest.approx((1.0 - above - below) * whole, rel=0.02)
         pixels = np.asarray(picture.convert("RGB")).astype(int)
     bar = np.ptp(pixels[-62:-50, 715:1205], axis=-1)
     assert (bar > 30).mean() > 0.5, "the colours of the scale"

@@ -53,15 +53,15 @@ def test_the_view_stands_between_title_and_scale():
     solution, scene = solve(make_design(mu=0.3)), np.random.default_rng(1).integers(0, 255, (400, 1920, 4), np.uint8)
     scene[..., 3] = 255
     scene[:100, :, 3] = 0  # The sky.
-    for field, dark, paper in ((FIELD, False, 255), (None, True, 17)):
-        png = view_png(scene, solution, field, (-4.0, 14.0), SI, dark)
+    for scale, dark, paper in (((FIELD, (-4.0, 14.0)), False, 255), (None, True, 17)):
+        png = view_png(scene, solution, scale, SI, dark)
         pixels = np.asarray(Image.open(io.BytesIO(png))).astype(int)
         below = pixels[512:]
         assert np.array_equal(pixels[212:512], scene[100:, :, :3])
         assert np.ptp(pixels[112:212], axis=(0, 1)).max() == 0
         assert pixels[0, 0, 0] == paper
-        assert len(below) == (0 if field is None else 112)
-        assert len(np.unique(below.reshape(-1, 3), axis=0)) > 200 or field is None
+        assert len(below) == (0 if scale is None else 112)
+        assert len(np.unique(below.reshape(-1, 3), axis=0)) > 200 or scale is None
         # Words left and right above it, and nothing at the edges.
         inked = np.nonzero((pixels[:112] != pixels[0, 0]).any(axis=(0, 2)))[0]
         assert 40 <= inked.min() < 300

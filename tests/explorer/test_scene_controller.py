@@ -104,6 +104,26 @@ class TestCoarseAndFine:
         assert math.degrees(math.atan2(hub[1], hub[0])) == pytest.approx(120.0)
 
 
+class TestScale:
+    def test_it_is_that_of_the_disk_that_is_drawn(self, page: Page, fast: Solution, changed: Solution):
+        """B − A by itself, but each as it is where A is wiped over B; none where no disk is in sight."""
+        field, view = FIELDS[VIEW.field], replace(VIEW, difference=True)
+        assert page.controller.scale is None
+        page.controller.draw(fast, view, None, changed)
+        page.controller.draw_finely()
+        difference = page.controller.scale
+        assert difference is not None
+        assert difference[0].note
+        assert difference[1] == page.controller.held_range(difference[0]) != (field.low, field.high)
+        page.controller.draw(fast, replace(view, wipe=True), None, changed)
+        assert page.controller.scale == (field, (field.low, field.high))
+        page.controller.set_seen(False)
+        assert page.controller.scale is None
+        page.controller.set_seen(True)
+        page.controller.set_behind(True)
+        assert page.controller.scale is None
+
+
 class TestLook:
     def test_near_the_blade_airframe_and_words_make_room(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
