@@ -1,6 +1,5 @@
-"""Charts and disks with matplotlib, which is imported only when something is drawn."""
+"""Charts and disks with matplotlib, an extra of the installation: it is imported when something is drawn."""
 
-import importlib
 from typing import Any
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy as np
 from rotor.arrays import Array
 from rotor.chart import Band, Chart, Line
 from rotor.units import typographic
+from rotor.user_input import extra_module
 
 _BESIDE: dict[str, dict[str, Any]] = {
     "above": {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"},
@@ -17,10 +17,14 @@ _BESIDE: dict[str, dict[str, Any]] = {
 _MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 
 
+def drawing_module(name: str = "matplotlib.figure") -> Any:
+    """A module of matplotlib; MissingExtra, one sentence with the remedy, where that is not installed."""
+    return extra_module(name, "plot", "a picture")
+
+
 def new_axes(**options: Any) -> Any:
     """Axes in a new pyplot figure."""
-    pyplot: Any = importlib.import_module("matplotlib.pyplot")
-    return pyplot.subplots(**options)[1]
+    return drawing_module("matplotlib.pyplot").subplots(**options)[1]
 
 
 def plot_disk(r: Array, psi: Array, values: Array, label: str, ax: Any = None) -> Any:

@@ -34,7 +34,7 @@ def extra_module(name: str, extra: str, what: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise  # The module is there, and something else is missing.
-        raise MissingExtra(f"{what} needs {error.name}: pip install 'rotor-explorer[{extra}]'") from None
+        raise MissingExtra(f"{what} needs {name.partition('.')[0]}: pip install 'rotor-explorer[{extra}]'") from None
 
 
 LARGEST = 4 * 2**20

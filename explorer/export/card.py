@@ -3,6 +3,7 @@ title; and the view of the page with title and scale."""
 
 import io
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -111,7 +112,7 @@ def _write(
     anchor: str = "ls",
 ) -> None:  # fmt: skip
     """Words at a place, in pixels of which `times` are drawn for one that is kept."""
-    draw.text((times * x, times * y), words, ink, ImageFont.truetype(_font(), times * height), anchor=anchor)
+    draw.text((times * x, times * y), words, ink, ImageFont.truetype(font_path(), times * height), anchor=anchor)
 
 
 def _scale(
@@ -127,12 +128,15 @@ def _scale(
 
 
 @cache
-def _font() -> str:
-    """A font with µ, × and the narrow spaces of numbers: matplotlib brings it; it is not imported for that."""
+def font_path() -> str:
+    """A font with Greek letters, × and the minus, which that of Pillow lacks: what matplotlib brings, which is not
+    imported for that, or one of the system. ValueError where there is none."""
     spec = find_spec("matplotlib")
-    assert spec is not None
-    assert spec.origin is not None
-    return str(Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
+    brought = () if spec is None else (str(Path(str(spec.origin)).parent / "mpl-data/fonts/ttf/DejaVuSans.ttf"),)
+    for name in (*brought, "DejaVuSans.ttf", "LiberationSans-Regular.ttf", "Arial.ttf", "arial.ttf"):
+        with suppress(OSError):
+            return str(ImageFont.truetype(name).path)
+    raise ValueError("No font for the words of a picture: install DejaVu Sans, or pip install 'rotor-explorer[plot]'.")
 
 
 def _draw_blade(draw: ImageDraw.ImageDraw, solution: Solution, law: TwistLaw, grey: bool) -> None:

@@ -59,6 +59,7 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
+    from rotor.plots import drawing_module
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
     from rotor.reproduce.page import write_all, write_report, written
     from rotor.reproduce.report import Report
@@ -66,6 +67,7 @@ def run(args: argparse.Namespace) -> int:
     from rotor.units import typographic
     from rotor.validation.page import SETS, write_trust
 
+    drawing_module()  # Missing, it is said before the searches.
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
     processes = processes_from(args)

@@ -1,7 +1,6 @@
 """`validate`: our number beside every measured point of rotors that were tested."""
 
 import argparse
-import importlib
 import json
 import sys
 from dataclasses import asdict
@@ -9,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command
-from rotor.plots import draw_chart
+from rotor.plots import draw_chart, drawing_module
 from rotor.terminal import wrapped
 from rotor.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
@@ -44,6 +43,8 @@ def run(args: argparse.Namespace) -> int:
 
     Of a set without a target every point counts.
     """
+    if args.plot:
+        drawing_module()  # Missing, it is said before the trims.
     names = args.sets or [*SETS, *FIELDS]
     known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
     for name in names:
@@ -178,9 +179,8 @@ def verdict(comparison: Comparison) -> str:
 
 def draw(comparison: Comparison, folder: Path) -> Path:
     """Measured points with their scatter, and ours, as `SET.png`."""
-    pictures: Any = importlib.import_module("matplotlib.figure")
     measured = comparison.measured
-    figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")
+    figure: Any = drawing_module().Figure(figsize=(7.0, 4.5), layout="constrained")
     draw_chart(comparison_chart([comparison]), figure.subplots()).set_title(
         f"{measured.title}\n{verdict(comparison)}", fontsize="medium"
     )

@@ -1,7 +1,6 @@
 """Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each."""
 
 import base64
-import importlib
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -12,7 +11,7 @@ from typing import Any
 from rotor.assets import asset_path
 from rotor.chart import Chart
 from rotor.markup import Content, Markup, document, group, tag
-from rotor.plots import draw_chart
+from rotor.plots import draw_chart, drawing_module
 from rotor.reproduce.catalogue import DRAWINGS, CatalogueEntry, find_entry
 from rotor.reproduce.misprints import misprint_table
 from rotor.reproduce.report import (
@@ -61,8 +60,6 @@ def draw(report: Report, folder: Path) -> None:
     if not panels:
         return
     legend_below = _same_key(panels)
-    matplotlib: Any = importlib.import_module("matplotlib")
-    figure_module: Any = importlib.import_module("matplotlib.figure")
     count = len(panels)
     across = count if count <= 3 else 3 if count % 3 == 0 else 2
     down = math.ceil(count / across)
@@ -70,8 +67,8 @@ def draw(report: Report, folder: Path) -> None:
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
     if count == 1 and panels[0].y.names:
         width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
-    with matplotlib.rc_context(_STYLE):
-        figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
+    with drawing_module("matplotlib").rc_context(_STYLE):
+        figure: Any = drawing_module().Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
             place = axes[k // across][k % across]

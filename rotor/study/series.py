@@ -3,7 +3,6 @@
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
 
-import importlib
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -28,7 +27,7 @@ from rotor.trim.hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
-from rotor.user_input import check_suffix, csv_text, write_whole
+from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
@@ -96,11 +95,8 @@ class SweepTable:
         write_whole(path, csv_text([self.columns, *self.rows]))
 
     def to_dataframe(self) -> Any:
-        """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""
-        try:
-            pandas: Any = importlib.import_module("pandas")
-        except ModuleNotFoundError:
-            raise ImportError("pandas is not installed: pip install pandas, or use .columns and .rows") from None
+        """The table as a pandas DataFrame; MissingExtra with the remedy where pandas is missing."""
+        pandas = extra_module("pandas", "pandas", "a data frame")
         return pandas.DataFrame(list(self.rows), columns=list(self.columns))
 
 

@@ -1,11 +1,13 @@
 """The picture to be shared: its size, and that it shows the design."""
 
 import io
+from types import SimpleNamespace
 
 import numpy as np
-from PIL import Image
+import pytest
+from PIL import Image, ImageFont
 
-from explorer.export.card import SIZE, card_png, view_png
+from explorer.export.card import SIZE, card_png, font_path, view_png
 from explorer.model.units import SI
 from explorer.picture.fields import FIELDS
 from rotor import Solution, make_design, solve
@@ -33,6 +35,25 @@ def test_shows_disk_blade_and_change():
     # Nothing touches the edges.
     assert (pixels[[0, -1]] == 255).all()
     assert (pixels[:, [0, -1]] == 255).all()
+
+
+def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatch):
+    """A base installation: the font is found by its name, and where there is none, a sentence says so."""
+    real, asked = ImageFont.truetype, []
+
+    def truetype(name: str, *more: float) -> SimpleNamespace:
+        asked.append(name)
+        if name != "Arial.ttf":
+            raise OSError(name)
+        return SimpleNamespace(path="/fonts/Arial.ttf")
+
+    monkeypatch.setattr("explorer.export.card.find_spec", lambda _: None)
+    monkeypatch.setattr(ImageFont, "truetype", truetype)
+    assert font_path.__wrapped__() == "/fonts/Arial.ttf"
+    monkeypatch.setattr(ImageFont, "truetype", lambda *_: real("no such font"))
+    with pytest.raises(ValueError, match="install DejaVu Sans, or pip install"):
+        font_path.__wrapped__()
+    assert asked[0] == "DejaVuSans.ttf"
 
 
 def test_further_lines_stand_between_power_and_blade():

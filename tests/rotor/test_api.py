@@ -262,7 +262,7 @@ class TestSweep:
         monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows, columns: (rows, columns)))
         assert table.to_dataframe() == (list(table.rows), list(table.columns))
         monkeypatch.setitem(sys.modules, "pandas", None)
-        with pytest.raises(ImportError, match="pip install pandas"):
+        with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install 'rotor-explorer\[pandas\]'"):
             table.to_dataframe()
 
 

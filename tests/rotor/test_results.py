@@ -1,6 +1,8 @@
 """What notebooks and tables get of results: rotor files by path, twist as numbers, xarray, short representations."""
 
+import re
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,9 +11,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
+import rotor.command.validate
+from rotor.__main__ import main
 from rotor.design.twist import parse_twist
 from rotor.trim.adjoint import power_gradient
 
+WANTS = "a picture needs matplotlib: pip install 'rotor-explorer[plot]'"
 QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}
 
 
@@ -28,6 +33,23 @@ def test_a_chart_over_knots_has_knots():
     axes = rotor.plot_power(rotor.sweep(rotor.make_design(**QUICK), speed_kt=[60, 90]))
     assert axes.get_xlabel() == "Airspeed [kt]"
     assert_allclose(axes.get_lines()[0].get_xdata(), [60.0, 90.0])
+
+
+def test_a_picture_without_matplotlib_is_one_sentence(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+):
+    """The commands say it before they compute."""
+    solution = rotor.solve(rotor.make_design(**QUICK))
+    monkeypatch.setattr(rotor.command.validate, "compare", None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    for name in ("matplotlib.figure", "matplotlib.pyplot"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    with pytest.raises(ImportError, match=re.escape(WANTS)):
+        solution.plot()
+    for words in (["validate", "xv15-hover", "--plot", str(tmp_path)], ["reproduce", str(tmp_path / "out")]):
+        assert main(words) == 2
+        assert capsys.readouterr().err.endswith(f"{WANTS}\n")
+    assert not (tmp_path / "out").exists()
 
 
 def test_gradient_along_a_twist_law():
