@@ -75,8 +75,6 @@ class Page:
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
-        self._followed: Reading | None = None
-        """What all tabs but the actuator's have followed."""
         self._theme()
         client.gui.set_panel_label("Rotor explorer")
         context = self.context = TabContext(client, shared.pool, callbacks)
@@ -247,8 +245,9 @@ class Page:
 
     def follow(self, reading: Reading, state: SessionState) -> None:
         """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
-        self._followed = reading
-        if not self._actuator_in_frame and self.layout.mode == "actuate":
+        if self.layout.mode != "actuate":
+            self.actuator.rest()
+        elif not self._actuator_in_frame:
             self._show_actuator(reading, state.solution)
         for tab in self.tabs:
             tab.show(state)
@@ -273,8 +272,6 @@ class Page:
         self.draw_finely(state)
         self.keep(state)
         self.history.solve_waiting(stop)
-        if self._followed is not None and not self._actuator_in_frame and self.layout.mode != "actuate":
-            self._show_actuator(self._followed, state.solution)
         self.results.solve_deferred(stop)
         self.vibration.solve_deferred(stop)
         self.waterfall.solve_steps(stop)

@@ -74,6 +74,11 @@
     return every.call(window, () => { if (beats++ % 5 === 0 || window.rotorScene?.sharp !== false || performance.now() - drawAsked < LATELY) call(...rest); }, delay);
   };
 
+  // What comes for the scene would wait for the next frame, and what follows from it for the one after: it is taken at once.
+  // And the client goes on to draw for a quarter of a second after each request. Where software draws, the next answer would
+  // wait for those frames: there it is one, and another when all has settled; what React changes asks for its own.
+  const SETTLED = 250;  // [ms]
+
   let sender = null;
   window.addEventListener('rx-answered', () => { if (kept && sender) sendKept(sender()); });
 
@@ -83,8 +88,20 @@
     let send = next.sendMessage;
     sender = () => send;
     const paced = message => message.type === 'GuiUpdateMessage' ? pace(message, () => send) : send(message);
-    let draw = next.requestRender;
-    Object.defineProperty(next, 'requestRender', {configurable: true, get: () => { drawAsked = performance.now(); return draw; }, set: other => { draw = other; }});
+    let draw = next.requestRender, draining = false, tail = 0;
+    const request = () => {
+      drawAsked = performance.now();
+      if (!draining) {
+        draining = true;
+        try { next.drainMessageQueue?.(); } finally { draining = false; }
+      }
+      const once = window.rotorScene?.sharp === false && next.scene?.__r3f?.root?.getState?.().invalidate;
+      if (!once) return draw();
+      once();
+      clearTimeout(tail);
+      tail = later.call(window, once, SETTLED);
+    };
+    Object.defineProperty(next, 'requestRender', {configurable: true, get: () => request, set: other => { draw = other; }});
     next.sendAfterEdits = message => { sendKept(send); send(message); };
     Object.defineProperty(next, 'sendMessage', {get: () => send && paced, set: other => {
       send = other;

@@ -120,7 +120,7 @@ class Stage:
             gui=server.gui,
             wake=lambda: None,
         )
-        self.controls = ActuatorControls(server.gui, lambda _: None, lambda: self.bar.leave_to_hand())
+        self.controls = ActuatorControls(server.gui, lambda: None, lambda: self.bar.leave_to_hand())
         self.bar = FlightBar(self.context, self.controls)
 
     def _drag(self, inputs: Inputs) -> None:

@@ -131,8 +131,8 @@ _DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 class ActuatorControls:
     """Widgets and the charts and texts between them, from top to bottom."""
 
-    def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None], driven: Callable[[], None]) -> None:
-        """`moved`: something changed, by a hand or not. `driven`: a hand moved a voltage."""
+    def __init__(self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]) -> None:
+        """`moved`: something changed. `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
         start = ActuatorInputs()
         form = self.form = Form(gui, self._heard)
@@ -226,4 +226,4 @@ class ActuatorControls:
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in _DRIVES:
             self._driven()
-        self._moved(by_hand)
+        self._moved()

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from explorer.sharing.share import Address
 from explorer.tabs.actuator import actuator_words as words
@@ -43,7 +44,6 @@ class ActuatorPanel:
     def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
         """`address` may hold a supposed actuator; `problems` as in `PayPanel`."""
         self._context = context
-        self._touched = False
         self._blade = LiftedScene(context.client, context.bridge)
         self.lifted = False
         """Whether the blade is wanted outside the rotor."""
@@ -52,6 +52,8 @@ class ActuatorPanel:
         self._radius = 1.0
         # Verdicts come behind searches, maps and schedules.
         self._verdicts = PoolAnswers(context.pool, 5, context.wake)
+        self._others = PoolAnswers(context.pool, 6, context.wake)
+        """Verdicts on the actuators that are not chosen."""
         self._verdict: Verdict | None = None
         """The last one that was shown."""
         self._undriven = solver.BaselineCache()
@@ -62,7 +64,7 @@ class ActuatorPanel:
         """Modes of the blade with the actuator and without, worked out behind all else."""
         self.fitted: Fitted | None = None
         """The actuator on the blade for the dial of n/rev; None where it cannot be built."""
-        self._controls = ActuatorControls(context.gui, self._moved, lambda: self._flight_bar.leave_to_hand())
+        self._controls = ActuatorControls(context.gui, context.wake, lambda: self._flight_bar.leave_to_hand())
         self._flight_bar = FlightBar(context, self._controls)
         context.bridge.on("against", lambda _: self._controls.other_baseline())
         context.bridge.on("pull", self._pull)
@@ -74,9 +76,8 @@ class ActuatorPanel:
 
     def stop(self) -> None:
         """The browser has left."""
-        self._verdicts.stop()
-        self._flights.stop()
-        self._modes.stop()
+        for answers in (self._verdicts, self._others, self._flights, self._modes):
+            answers.stop()
         self._blade.stop()
         self.pay.stop()
 
@@ -95,7 +96,15 @@ class ActuatorPanel:
         except ValueError as error:
             return str(error)
         task = verdict_tasks(question)[question.actuator]
-        return self._verdicts.answer(task) or task.run()
+        return self._answer(task) or task.run()
+
+    def _answer(self, task: Call) -> Any:
+        return self._verdicts.answer(task) or self._others.answer(task)
+
+    def rest(self) -> None:
+        """Another mode is open: what only this one shows is not worked out, so that frames have the processor."""
+        for answers in (self._verdicts, self._others, self._flights, self._modes):
+            answers.ask((), 0.0)
 
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
@@ -129,10 +138,12 @@ class ActuatorPanel:
         self._controls.section.content = words.section_svg(installed, inputs.drive_shares(installed))
         self._controls.bar.content = words.voltage_bar(installed.actuator)
         tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
-        self._verdicts.ask(tasks, _STILL if self._touched else _IDLE, now != self._before)
+        if self._context.layout.mode == "actuate":
+            self._verdicts.ask(tasks[:1], _STILL, now != self._before)
+            self._others.ask(tasks[1:], _IDLE, now != self._before)
         self._before = now
         verdict = self._show_verdict(inputs, installed, question, design)
-        answers = map(self._verdicts.answer, tasks)
+        answers = map(self._answer, tasks)
         self.pay.refresh(question.pair, [answer for answer in answers if isinstance(answer, Verdict)])
         self._draw(inputs, installed, design, psi, solution, alone or solution)
         fixed = None if verdict is None else verdict.baseline.fixed_twist
@@ -164,7 +175,7 @@ class ActuatorPanel:
     def _show_verdict(
         self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, design: Design
     ) -> Verdict | None:
-        outcomes = {id: self._verdicts.answer(task) for id, task in verdict_tasks(question).items()}
+        outcomes = {id: self._answer(task) for id, task in verdict_tasks(question).items()}
         outcome = outcomes[question.actuator]
         verdict = outcome if isinstance(outcome, Verdict) else None
         places = self._controls
@@ -215,7 +226,3 @@ class ActuatorPanel:
     def form(self) -> Form:
         """The sliders and menus of the actuator."""
         return self._controls.form
-
-    def _moved(self, by_hand: bool) -> None:
-        self._touched = self._touched or by_hand
-        self._context.wake()
