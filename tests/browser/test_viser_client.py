@@ -94,6 +94,26 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
     assert watched.page.evaluate(heard)
 
 
+def test_what_comes_is_taken_at_once_and_drawn_once(watched: Watched):
+    """The client takes messages for the scene in its next frame, and then draws for 250 ms: in software for the last time
+    when all has settled."""
+    told = """() => new Promise(done => {
+        const client = window.__viserMutable, {scene} = client, own = scene.onAfterRender;
+        let drawn = 0;
+        scene.onAfterRender = (...all) => { drawn += 1; own.apply(scene, all); };
+        client.messageQueue.push({type: 'SetPositionMessage', name: '/nothing', position: [1, 2, 3]});
+        client.requestRender();
+        const taken = client.messageQueue.length === 0 && client.nodePoseData['/nothing']?.position.join() === '1,2,3';
+        setTimeout(() => { scene.onAfterRender = own; done([taken, drawn]); }, 700);
+    })"""
+    watched.answered(wholly=True)
+    times = [watched.page.evaluate(told) for _ in range(5)]
+    assert all(taken for taken, _ in times)
+    assert min(drawn for _, drawn in times) == 2, (
+        times
+    )  # The client's own frame, once in some seconds, may fall among them.
+
+
 @pytest.mark.slow
 def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
     """The client draws every second, which keeps a processor busy there: every fifth time is enough; no rotor turns."""
