@@ -95,8 +95,8 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
 
 
 def test_what_comes_is_taken_at_once_and_drawn_once(watched: Watched):
-    """The client takes messages for the scene in its next frame, and then draws for 250 ms: in software for the last time
-    when all has settled."""
+    """The client would take messages for the scene in its next frame, then draw for 250 ms. In software it draws
+    when asked, and again when all has settled."""
     told = """() => new Promise(done => {
         const client = window.__viserMutable, {scene} = client, own = scene.onAfterRender;
         let drawn = 0;
