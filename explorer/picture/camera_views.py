@@ -58,6 +58,8 @@ _STANDS = {
 }
 _APART = 1.32
 """Half the distance between the hubs of two rotors side by side, in radii."""
+_TWO_ASPECT, _STEEPEST = 2.1, math.radians(60.0)
+"""Width over height of two rotors side by side, seen from above; and the steepest view of them."""
 LETTER_SIZE = 0.34
 """Edge of the letters A and B beside such rotors, in radii."""
 _LETTER_AT = (1.30, -0.45, 0.0)
@@ -140,7 +142,10 @@ def fit(
     if view == "blade":
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
     elif stand is not None:
-        backward = direction(stand.azimuth, stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
+        # As high as lets two disks side by side fill the free part, whose width limits them.
+        filling = min(math.asin(min(_TWO_ASPECT * cover.free / max(aspect, 0.2), 1.0)), _STEEPEST)
+        elevation = max(filling, stand.elevation) if beside else stand.elevation
+        backward = direction(stand.azimuth, elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
         if not beside:
             return _standing(stand, size(radius), aspect, backward, cover)
     else:

@@ -17,14 +17,19 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.nightly]
 
 _WATCH = """
 () => {
-  const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
-  window.__times = []; let pressed = null, before = held();
-  window.addEventListener('keydown', () => { pressed = performance.now(); before = held(); }, true);
-  const look = () => {
-    if (pressed !== null && held() !== before) { window.__times.push(performance.now() - pressed); pressed = null; }
-    requestAnimationFrame(look);
+  // The picture on the disk that is drawn, not the message that brings it.
+  const picture = () => {
+    let map = null;
+    __viserMutable.nodeRefFromName['/rotor/disk/field'].traverse(part => { map = part.material?.map ?? map; });
+    return `${map.uuid} ${map.version}`;
   };
-  look();
+  const {scene} = __viserMutable, own = scene.onAfterRender;
+  window.__times = []; let pressed = null, before = picture();
+  window.addEventListener('keydown', () => { pressed = performance.now(); before = picture(); }, true);
+  scene.onAfterRender = (...all) => {
+    own.apply(scene, all);
+    if (pressed !== null && picture() !== before) { window.__times.push(performance.now() - pressed); pressed = null; }
+  };
 }
 """
 
