@@ -53,12 +53,12 @@ window.Charts = (() => {
       const known = x.map((_, k) => k).filter(k => low[k] !== null && high[k] !== null), of = list => known.map(k => list[k]);
       return known.length ? `<path d="M${[...edge(of(x), of(low), place), ...edge(of(x), of(high), place).reverse()].join('L')}Z" fill="${colour}" opacity=".17" data-band/>` : '';
     },
-    points({x, y, colour, mark = 'dot', size = 4, words = [], action, press = [], names = [], beside, faint = [], scatter = []}, {X, Y, low, high, left, right}) {
+    points({x, y, colour, mark = 'dot', size = 4, words = [], action, press = [], names = [], beside, faint = [], scatter = []}, {X, Y, low, high, left, right, base}) {
       return x.map((at, k) => {
         if (y[k] === null) return '';
         const cx = X(at).toFixed(1), cy = (low === undefined || mark === 'ring' ? Y(y[k]) : clamp(Y(y[k]), low, high)).toFixed(1), said = words[k] ?? '';
         const dx = cx - left < 60 ? ['start', -size] : right - cx < 60 ? ['end', size] : ['middle', 0], up = beside === 'upward';
-        const name = names[k] ? `<text ${up ? `transform="translate(${+cx + 4} ${cy - size - 4}) rotate(-90)"` : `x="${+cx + dx[1]}" y="${+cy + (beside === 'below' ? size + 12 : -size - 4)}" text-anchor="${dx[0]}"`} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
+        const name = names[k] ? `<text ${up ? `transform="translate(${+cx + 4} ${cy - size - 4}) rotate(-90)"` : `x="${+cx + dx[1]}" y="${+cy + (beside === 'below' && +cy + size + 12 <= base ? size + 12 : -size - 4)}" text-anchor="${dx[0]}"`} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
         const dot = !size ? '' : mark === 'ring' ? `<circle cx="${cx}" cy="${cy}" r="${size}" fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"/>`
           : `<circle cx="${cx}" cy="${cy}" r="${size}" fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}/>`;
         if (!said) return `<g pointer-events="none">${dot}${name}</g>`;
