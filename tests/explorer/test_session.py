@@ -239,9 +239,9 @@ def test_what_a_page_keeps_follows_its_address():
 
 
 @pytest.mark.parametrize(
-    ("mode", "expected"), [("explore", ["tab", "history", "actuator"]), ("actuate", ["actuator", "tab", "history"])]
+    ("mode", "expected"), [("explore", ["rest", "tab", "history"]), ("actuate", ["actuator", "tab", "history"])]
 )
-def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expected: list[str]):
+def test_the_actuators_panel_works_nothing_out_unless_it_is_seen(mode: str, expected: list[str]):
     called: list[str] = []
     part = SimpleNamespace(
         solve_waiting=lambda _: called.append("history"),
@@ -251,7 +251,8 @@ def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expecte
         show=lambda _: called.append("tab"),
     )
     page: Any = SimpleNamespace(
-        layout=SimpleNamespace(mode=mode), _actuator_in_frame=False, _followed=None,
+        layout=SimpleNamespace(mode=mode), _actuator_in_frame=False,
+        actuator=SimpleNamespace(rest=lambda: called.append("rest")),
         _show_actuator=lambda *_: called.append("actuator"), draw_finely=lambda _: None, keep=lambda _: None,
         tabs=(part,), file=part, history=part, results=part, vibration=part, waterfall=part,
     )  # fmt: skip
