@@ -32,14 +32,14 @@ class _CheckedFiles(IndexDataCacheFile):
         return hashlib.sha256(content).digest() + content
 
     def _load_index(self) -> Any:
+        version = pickle.dumps(self._version, protocol=-1)
         try:
-            with Path(self._index_path).open("rb") as file:
-                version, content = pickle.load(file), file.read()
+            whole = Path(self._index_path).read_bytes()
         except FileNotFoundError:
             return {}
-        if version != self._version:
+        if not whole.startswith(version):
             return {}
-        stamp, overloads = _undamaged(content)
+        stamp, overloads = _undamaged(whole.removeprefix(version))
         return overloads if stamp == self._source_stamp else {}
 
     def _load_data(self, name: str) -> Any:

@@ -100,7 +100,8 @@ def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
     assert module(source).kernel(1.0) == 2.0
     (kept,) = source.parent.rglob(f"*kernel*.{ending}")
     whole = kept.read_bytes()
-    for place in range(len(whole) - 1, 0, -max(1, len(whole) // 12)):
+    # The first bytes of the index are numba's version, which numba reads before its own content.
+    for place in (*range(min(30, len(whole) - 1)), *range(len(whole) - 1, 30, -max(1, len(whole) // 12))):
         kept.write_bytes(whole[:place] + bytes([whole[place] ^ 16]) + whole[place + 1 :])
         damaged = module(source).kernel
         assert damaged(1.0) == 2.0
