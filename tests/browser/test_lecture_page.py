@@ -44,6 +44,7 @@ def presenting(visit: Visit) -> tuple[Watched, str]:
     return presenter, link
 
 
+@pytest.mark.slow
 def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     watched = visit()
     page = watched.page
