@@ -34,7 +34,7 @@ ONE_PROCESS = {"test_wheel", "test_chapter_4", "test_lecture"}
 
 
 class _ByFile(LoadGroupScheduling):
-    """Tests one by one, but those of `ONE_PROCESS` by file: the groups of xdist 3.8 are not heard by pytest 9."""
+    """Tests one by one, but those of `ONE_PROCESS` by file: pytest 9 ignores the groups of xdist 3.8."""
 
     def _split_scope(self, nodeid: str) -> str:
         file = nodeid.partition("::")[0]

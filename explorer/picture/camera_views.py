@@ -58,8 +58,8 @@ _STANDS = {
 }
 _APART = 1.32
 """Half the distance between the hubs of two rotors side by side, in radii."""
-_TWO_ASPECT, _STEEPEST = 2.1, math.radians(60.0)
-"""Width over height of two rotors side by side, seen from above; and the steepest view of them."""
+_STEEPEST = math.radians(60.0)
+"""Elevation of a camera that sees two rotors side by side, at most."""
 LETTER_SIZE = 0.34
 """Edge of the letters A and B beside such rotors, in radii."""
 _LETTER_AT = (1.30, -0.45, 0.0)
@@ -142,9 +142,11 @@ def fit(
     if view == "blade":
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
     elif stand is not None:
-        # As high as lets two disks side by side fill the free part, whose width limits them.
-        filling = min(math.asin(min(_TWO_ASPECT * cover.free / max(aspect, 0.2), 1.0)), _STEEPEST)
-        elevation = max(filling, stand.elevation) if beside else stand.elevation
+        elevation = stand.elevation
+        if beside:  # So high that two disks, whose width is limited, fill the height between the cards as well.
+            along, across = (np.ptp(points @ axis) for axis in (direction(stand.azimuth, 0.0), apart(1.0) / _APART))
+            filling = math.asin(min(across / along * cover.free / max(aspect, 0.2), 1.0))
+            elevation = min(max(filling, elevation), _STEEPEST)
         backward = direction(stand.azimuth, elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
         if not beside:
             return _standing(stand, size(radius), aspect, backward, cover)

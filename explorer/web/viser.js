@@ -74,9 +74,9 @@
     return every.call(window, () => { if (beats++ % 5 === 0 || window.rotorScene?.sharp !== false || performance.now() - drawAsked < LATELY) call(...rest); }, delay);
   };
 
-  // What comes for the scene would wait for the next frame, and what follows from it for the one after: it is taken at once.
-  // And the client goes on to draw for a quarter of a second after each request. Where software draws, the next answer would
-  // wait for those frames: there it is one, and another when all has settled; what React changes asks for its own.
+  // The client handles messages for the scene in its next frame, and React draws what follows from them in the one after:
+  // here they are handled when they arrive. After each request the client also draws for 250 ms. Where software draws, the
+  // next answer would wait for those frames: there it draws once, and again when all has settled. React asks for its own.
   const SETTLED = 250;  // [ms]
 
   let sender = null;

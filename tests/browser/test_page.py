@@ -41,6 +41,24 @@ def test_the_strip_has_three_charts_with_axes(watched: Watched):
     watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
 
 
+def test_the_name_of_a_point_at_the_foot_of_a_chart_stands_above_it(watched: Watched):
+    """Where it stands in the middle it is below."""
+    places = """() => {
+        const {x, y} = RX.state.strip[0], middle = ([low, high]) => (low + high) / 2;
+        const points = {kind: 'points', x: [middle(x.range), middle(x.range)], y: [y.range[0], middle(y.range)],
+            colour: 'red', mark: 'ring', names: ['foot', 'middle'], beside: 'below'};
+        const div = document.createElement('div');
+        document.body.append(div);
+        Charts.fill(div, {...RX.state.strip[0], rules: [], series: [points]}, {width: 400, height: 120});
+        const {place} = div.drawn, names = [...div.querySelectorAll('[data-name]')].map(name => name.getBBox());
+        div.remove();
+        return names.map((box, k) => [place.Y(points.y[k]), box.y, box.y + box.height, place.base]);
+    }"""
+    (foot, _, bottom, base), (dot, top, low, _) = watched.page.evaluate(places)
+    assert bottom < foot == base
+    assert dot < top < low < base
+
+
 @pytest.mark.slow
 def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.answered(wholly=True)

@@ -94,8 +94,8 @@ def test_a_page_that_is_seen_has_the_focus(watched: Watched):
     assert watched.page.evaluate(heard)
 
 
-def test_what_comes_is_taken_at_once_and_drawn_once(watched: Watched):
-    """The client would take messages for the scene in its next frame, then draw for 250 ms. In software it draws
+def test_messages_are_handled_on_arrival_and_drawn_once(watched: Watched):
+    """viser's client handles messages for the scene in its next frame, then draws for 250 ms. In software it now draws
     when asked, and again when all has settled."""
     told = """() => new Promise(done => {
         const client = window.__viserMutable, {scene} = client, own = scene.onAfterRender;
@@ -109,9 +109,8 @@ def test_what_comes_is_taken_at_once_and_drawn_once(watched: Watched):
     watched.answered(wholly=True)
     times = [watched.page.evaluate(told) for _ in range(5)]
     assert all(taken for taken, _ in times)
-    assert min(drawn for _, drawn in times) == 2, (
-        times
-    )  # The client's own frame, once in some seconds, may fall among them.
+    # The client's own frame, once in some seconds, may fall among them.
+    assert min(drawn for _, drawn in times) == 2, times
 
 
 @pytest.mark.slow

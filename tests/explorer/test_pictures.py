@@ -287,6 +287,16 @@ class TestCamera:
         assert -1.0 + 2.0 * USUAL_COVER.below < y.min() < y.max() < 1.0 - 2.0 * USUAL_COVER.above
         assert max(np.ptp(x), np.ptp(y)) > 0.5
 
+    @pytest.mark.parametrize("aspect", [1.3, 1.6, 1.9])
+    @pytest.mark.parametrize("cover", [USUAL_COVER, Cover(0.27, 0.31)])
+    def test_two_rotors_side_by_side_fill_width_and_height_between_the_cards(self, aspect: float, cover: Cover):
+        """Words and letters around the rims take the rest."""
+        aside = apart(8.18)
+        rims = np.concatenate((self.RIM - aside, self.RIM + aside))
+        x, y, _ = on_canvas(fit("3d", 8.18, aspect, beside=True, cover=cover), aspect, rims)
+        assert 0.7 < 0.5 * np.ptp(x) < 1.0
+        assert 0.6 < 0.5 * np.ptp(y) / cover.free < 1.0
+
     def test_the_camera_rises_with_the_shaft_tilt(self):
         """A rotor tilted by 6° more is seen 4.8° further from above."""
         usual, tilted = (fit("3d", 8.18, 1.6, tilt=math.radians(tilt)) for tilt in (3.0, 9.0))

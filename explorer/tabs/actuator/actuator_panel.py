@@ -60,7 +60,7 @@ class ActuatorPanel:
         self._drawn: tuple[object, ...] | None = None
         self._before: tuple[object, ...] = ()
         self._flights = PoolAnswers(context.pool, 4, context.wake)
-        self._modes = PoolAnswers(context.pool, 6, context.wake)
+        self._modes = PoolAnswers(context.pool, 7, context.wake)
         """Modes of the blade with the actuator and without, worked out behind all else."""
         self.fitted: Fitted | None = None
         """The actuator on the blade for the dial of n/rev; None where it cannot be built."""
@@ -101,6 +101,10 @@ class ActuatorPanel:
     def _answer(self, task: Call) -> Any:
         return self._verdicts.answer(task) or self._others.answer(task)
 
+    def _ask(self, answers: PoolAnswers, tasks: tuple[Call, ...], delay: float, moved: bool = True) -> None:
+        """Have these answered where they are seen: a driven actuator is in the frame of other modes too."""
+        answers.ask(tasks if self._context.layout.mode == "actuate" else (), delay, moved)
+
     def rest(self) -> None:
         """Another mode is open: what only this one shows is not worked out, so that frames have the processor."""
         for answers in (self._verdicts, self._others, self._flights, self._modes):
@@ -138,9 +142,8 @@ class ActuatorPanel:
         self._controls.section.content = words.section_svg(installed, inputs.drive_shares(installed))
         self._controls.bar.content = words.voltage_bar(installed.actuator)
         tasks, now = tuple(verdict_tasks(question).values()), (inputs, design)
-        if self._context.layout.mode == "actuate":
-            self._verdicts.ask(tasks[:1], _STILL, now != self._before)
-            self._others.ask(tasks[1:], _IDLE, now != self._before)
+        self._ask(self._verdicts, tasks[:1], _STILL, now != self._before)
+        self._ask(self._others, tasks[1:], _IDLE, now != self._before)
         self._before = now
         verdict = self._show_verdict(inputs, installed, question, design)
         answers = map(self._answer, tasks)
@@ -185,11 +188,11 @@ class ActuatorPanel:
         places.segments.content = words.segments_panel(installed, verdict)
         places.limits.content = words.limits_panel(verdict)
         modes = None if verdict is None else Call(actuator_stability, (installed, design))
-        self._modes.ask(() if modes is None else (modes,), _IDLE)
+        self._ask(self._modes, () if modes is None else (modes,), _IDLE)
         places.modes.content = words.modes_panel(self._modes.answer(modes) if modes is not None else None)
         places.table.content = table_panel(outcomes, question)
         task = None if verdict is None else Call(flight_of, (verdict,))
-        self._flights.ask(() if task is None else (task,), 0.0)
+        self._ask(self._flights, () if task is None else (task,), 0.0)
         if self.lifted:
             tip = math.degrees(inputs.tip(installed, design))
             answer = self._flights.answer(task)
