@@ -58,7 +58,7 @@ window.Charts = (() => {
         if (y[k] === null) return '';
         const cx = X(at).toFixed(1), cy = (low === undefined || mark === 'ring' ? Y(y[k]) : clamp(Y(y[k]), low, high)).toFixed(1), said = words[k] ?? '';
         const dx = cx - left < 60 ? ['start', -size] : right - cx < 60 ? ['end', size] : ['middle', 0], up = beside === 'upward';
-        const name = names[k] ? `<text ${up ? `transform="translate(${+cx + 4} ${cy - size - 4}) rotate(-90)"` : `x="${+cx + dx[1]}" y="${+cy + (beside === 'below' && +cy + size + 12 <= base ? size + 12 : -size - 4)}" text-anchor="${dx[0]}"`} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
+        const name = names[k] ? `<text ${up ? `transform="translate(${+cx + 4} ${cy - size - 4}) rotate(-90)"` : `x="${+cx + dx[1]}" y="${+cy + (beside === 'below' && +cy + size + 16 <= base ? size + 12 : -size - 4)}" text-anchor="${dx[0]}"`} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
         const dot = !size ? '' : mark === 'ring' ? `<circle cx="${cx}" cy="${cy}" r="${size}" fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"/>`
           : `<circle cx="${cx}" cy="${cy}" r="${size}" fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}/>`;
         if (!said) return `<g pointer-events="none">${dot}${name}</g>`;

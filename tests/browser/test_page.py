@@ -45,8 +45,9 @@ def test_the_name_of_a_point_at_the_foot_of_a_chart_stands_above_it(watched: Wat
     """Where it stands in the middle it is below."""
     places = """() => {
         const {x, y} = RX.state.strip[0], middle = ([low, high]) => (low + high) / 2;
-        const points = {kind: 'points', x: [middle(x.range), middle(x.range)], y: [y.range[0], middle(y.range)],
-            colour: 'red', mark: 'ring', names: ['foot', 'middle'], beside: 'below'};
+        const at = share => y.range[0] + share * (y.range[1] - y.range[0]);
+        const points = {kind: 'points', x: [0, 0, 0].fill(middle(x.range)), y: [0, .18, .5].map(at),
+            colour: 'red', mark: 'ring', names: ['foot', 'range', 'middle'], beside: 'below'};
         const div = document.createElement('div');
         document.body.append(div);
         Charts.fill(div, {...RX.state.strip[0], rules: [], series: [points]}, {width: 400, height: 120});
@@ -54,8 +55,9 @@ def test_the_name_of_a_point_at_the_foot_of_a_chart_stands_above_it(watched: Wat
         div.remove();
         return names.map((box, k) => [place.Y(points.y[k]), box.y, box.y + box.height, place.base]);
     }"""
-    (foot, _, bottom, base), (dot, top, low, _) = watched.page.evaluate(places)
+    (foot, _, bottom, base), (near, _, end, _), (dot, top, low, _) = watched.page.evaluate(places)
     assert bottom < foot == base
+    assert end < near < base - 16.0  # There is room for the name, but not for what its letters have below the line.
     assert dot < top < low < base
 
 
