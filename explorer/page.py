@@ -245,10 +245,11 @@ class Page:
 
     def follow(self, reading: Reading, state: SessionState) -> None:
         """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
-        if self.layout.mode != "actuate":
-            self.actuator.rest()
-        elif not self._actuator_in_frame:
-            self._show_actuator(reading, state.solution)
+        if not self._actuator_in_frame:
+            if self.layout.mode == "actuate":
+                self._show_actuator(reading, state.solution)
+            else:
+                self.actuator.rest()
         for tab in self.tabs:
             tab.show(state)
 

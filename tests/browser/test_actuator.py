@@ -154,6 +154,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     assert page.evaluate("() => RX.state.flight === null && RX.state.earns === null")
     watched.mode("actuate")
     watched.reads("actuator-now", "at rest")  # What the flight drove is at rest again.
+    labels.get_by_text("Drive electronics").wait_for()
 
 
 @pytest.mark.slow

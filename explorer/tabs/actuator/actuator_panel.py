@@ -106,9 +106,12 @@ class ActuatorPanel:
         answers.ask(tasks if self._context.layout.mode == "actuate" else (), delay, moved)
 
     def rest(self) -> None:
-        """Another mode is open: what only this one shows is not worked out, so that frames have the processor."""
+        """Another mode is open: what only this one shows is not worked out, so that frames have the processor, and what
+        was said of a design says nothing of the next."""
         for answers in (self._verdicts, self._others, self._flights, self._modes):
             answers.ask((), 0.0)
+        self.fitted = None
+        self.pay.rest()
 
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
@@ -119,6 +122,7 @@ class ActuatorPanel:
             self._blade.hold(self._radius)
         else:
             self._blade.release(self._radius)
+            self._drawn = None
             self._flight_bar.hide()
         self._context.wake()
 

@@ -135,6 +135,12 @@ class PayPanel(BackgroundWork):
         self._lines.stop()
         self._trims.stop()
 
+    def rest(self) -> None:
+        """Nothing is trimmed and nothing said until the next `refresh`."""
+        self.pays, self.sentence = False, ""
+        for answers in (self._lines, self._trims):
+            answers.ask((), 0.0)
+
     def refresh(self, pair: ConditionPair | None, verdicts: Sequence[Verdict] = ()) -> None:
         """Follow the design; `verdicts` on actuators, as far as there are any, the chosen one's first."""
         self._pair = pair
