@@ -1,4 +1,4 @@
-"""Figures of the report: power over speed, twist, disks with their scales, charts along the blade, and its actuator."""
+"""Figures of the report: power over speed, twist, disks with their scales, charts along the blade, and the actuator."""
 
 import math
 from collections.abc import Sequence
@@ -12,12 +12,12 @@ from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
 from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.colours import BASELINE, IDEAL
-from explorer.export.contents import DesignReport, JudgedActuator, ReportEntry, colours_of, fields_of
-from explorer.model.units import Units, number
+from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
+from explorer.model.units import Units
 from explorer.picture.fields import Field
 from explorer.text.readout import balance, fuel_words, pair_words, signed
 from rotor import Solution
-from rotor.actuator import ActuatorFlight, Verdict, verdict_details, verdict_sentence
+from rotor.actuator import Verdict, verdict_details, verdict_sentence
 from rotor.actuator.verdict import count
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
@@ -32,7 +32,6 @@ _BAR = 200.0
 _LETTERS = 10.0
 _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0
 """[px] of the balance: its width, a row, and the room for names and numbers beside the bars."""
-_WANTED, _REACHED, _RANGE = "#e8590c", "#1c7ed6", "#868e96"
 
 
 def overview(report: DesignReport, curves: PowerCurves) -> Markup:
@@ -160,38 +159,35 @@ def along(solution: Solution) -> Markup:
     return tag("h3", "Along the blade") + _charts(charts)
 
 
-def actuator_section(actuator: JudgedActuator | str, units: Units) -> Markup:
-    """The section; empty where no actuator was chosen."""
-    if not actuator:
+def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
+    """The verdict, its parts and its band, or why there is none; empty where no actuator was chosen."""
+    if not verdict:
         return Markup()
     title = tag("h2", "Actuator")
-    if isinstance(actuator, str):
-        return tag("section.actuator", title, tag("ul.care", tag("li", actuator)))
-    verdict, flight = actuator.verdict, actuator.flight
+    if isinstance(verdict, str):
+        return tag("section.actuator", title, tag("ul.care", tag("li", verdict)))
     placement, first = verdict.installed.placement, verdict.installed.actuator.name
     low, high = placement.span
     where = f"{count(verdict)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
-    shares = tag(
+    parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Balance of power"), unit),
-        balance_bars(verdict, units),
+        _balance_bars(verdict, units),
         tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
     )
-    flown = tag("p.note", flight) if isinstance(flight, str) else twist_over_flight(flight)
     return tag(
         "section.actuator",
         title,
         tag("p.lead", f"{first}, {where}"),
         tag("p.lead", verdict_sentence(verdict), class_="less" if verdict.pays else "more", data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
-        tag("div.charts", shares, flown),
-        None if isinstance(flight, str) else legs_table(flight, verdict, units),
+        parts,
         _cares(verdict),
     )
 
 
-def balance_bars(verdict: Verdict, units: Units) -> Markup:
+def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
     rows = balance(verdict)
     ends, reached = [], 0.0
@@ -220,44 +216,6 @@ def balance_bars(verdict: Verdict, units: Units) -> Markup:
     said = ", ".join(f"{name} {signed(power, units)}" for name, power in rows)
     label, box = f"{said} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
     return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)
-
-
-def twist_over_flight(flight: ActuatorFlight) -> Markup:
-    """Tip twist wanted and reached, and what the actuator can reach, over the legs by advance ratio."""
-    mu = np.array([leg.advance_ratio for leg in flight.legs])
-    low, high = (np.full(len(mu), math.degrees(end)) for end in flight.reach)
-    lines = (
-        Line("within reach", mu, low, _RANGE, dashes=True),
-        Line("", mu, high, _RANGE, dashes=True),
-        Line("wanted", mu, np.degrees(flight.wanted), _WANTED),
-        Line("reached", mu, np.degrees(flight.reached), _REACHED),
-        Points("", mu, np.degrees(flight.reached), _REACHED),
-    )
-    names = ", ".join(leg.name for leg in flight.legs)
-    return figure(
-        Chart("Tip twist over the flight", Axis(f"advance ratio µ: {names}"), Axis("change of tip twist [°]"), lines)
-    )
-
-
-def legs_table(flight: ActuatorFlight, verdict: Verdict, units: Units, link: Content = None) -> Markup:
-    """A row for each leg, `link` at its end."""
-    tip_speed = verdict.baseline.pair.design.rotor.tip_speed
-    rows: list[Markup] = []
-    for k, leg in enumerate(flight.legs):
-        speed = units.speed[0].text(leg.advance_ratio * tip_speed)
-        climb = units.climb_rate(leg.climb_speed)
-        fuel = "–" if flight.fuel_saving is None else number(-3600.0 * float(flight.fuel_saving[k]), 1, sign=True)
-        cells = (
-            f"{leg.name}, {speed}" + (f", {climb}" if climb else ""),
-            *(number(math.degrees(float(of[k])), 1, sign=True) for of in (flight.wanted, flight.reached)),
-            number(abs(math.degrees(float(flight.shortfall[k]))), 1),
-            signed(float(flight.net_saving[k]), units),
-            fuel,
-        )
-        rows.append(tag("tr", [tag("td", cell) for cell in cells], tag("td.link", link) if link else None))
-    heads = ("Leg", "wanted °", "reached °", "short °", f"net {units.power[0].symbol}", "fuel kg/h")
-    head = tag("thead", tag("tr", [tag("th", name) for name in heads], tag("th") if link else None))
-    return tag("div.wide", tag("table", head, tag("tbody", rows)))
 
 
 def _cares(verdict: Verdict) -> Markup:

@@ -14,8 +14,7 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.actuator_sides import actuator_html
-from explorer.export.contents import DesignReport, ReportEntry, actuator_report, colours_of, report_of
+from explorer.export.contents import DesignReport, ReportEntry, colours_of, report_of
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
@@ -25,7 +24,6 @@ from explorer.text.design_words import flight_words, model_words, title_words, w
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from rotor import Design, Solution, load_design, solve
-from rotor.dynamics.structure import check_blade
 from rotor.markup import Markup, group, tag
 from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import write_whole
@@ -157,8 +155,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    if options.actuator:
-        return _run_actuator(options)
     entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
     view = ViewState(field=options.field)
     first = entries[0].solution.design
@@ -171,21 +167,6 @@ def _run(options: argparse.Namespace) -> int:
     stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
     _write(options.out, report_html(report, stage))
     print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
-    return 0
-
-
-def _run_actuator(options: argparse.Namespace) -> int:
-    if len(options.designs) > 1:
-        raise ValueError("a report on an actuator is of one design: give one file, or leave out --actuator")
-    design = load_design(options.designs[0])
-    check_blade(design.aircraft)
-    try:
-        report = actuator_report(options.actuator, design)
-    except RuntimeError as error:
-        print(f"explorer report: {error}", file=sys.stderr)
-        return 1
-    _write(options.out, actuator_html(report))
-    print(f"{options.out}: {options.actuator} on two sides")
     return 0
 
 
@@ -209,11 +190,6 @@ def _parser() -> argparse.ArgumentParser:
         help="design files (JSON); changes count from the first one's baseline twist",
     )
     parser.add_argument("--out", default="report.html", metavar="FILE", help="where to write (default report.html)")
-    parser.add_argument(
-        "--actuator",
-        metavar="ID",
-        help="a report on it and one design, two printed sides, half a minute (list: rotor actuator --table 5.1)",
-    )
     parser.add_argument(
         "--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=f"in 3D: {', '.join(FIELDS)}"
     )

@@ -13,7 +13,7 @@ from explorer.charts.plots import PowerCurves
 from explorer.charts.svg import disk_svg
 from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.card import card_png, view_png
-from explorer.export.contents import ReportEntry, judged_actuator, report_of
+from explorer.export.contents import ReportEntry, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
 from explorer.model.inputs import baseline_title
@@ -194,14 +194,14 @@ class ExportPanel(Tab):
         others = [item for item in self._history.kept if item.solution.design not in known]
         entries = [ReportEntry("Now", solution)]
         entries += [ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)]
-        outcome, field = self._actuator(), FIELDS[view.field]
+        field = FIELDS[view.field]
         report = report_of(
             reference,
             entries,
             state.view,
             {view.field: self._scene.held_range(field)},
             own_section=state.pin is not None,
-            actuator=outcome if isinstance(outcome, str) else judged_actuator(outcome),
+            actuator=self._actuator(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
         return _file(report.entries[0].solution.design, "html", report_html(report, stage, self._curves), "report")
