@@ -24,7 +24,7 @@ from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, PaySearch, Supposed, break_even, pay_sentence, suppose, what_would_pay
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.stopped import Failure, failure, one_blade
+from rotor.actuator.stopped import Failure, failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
@@ -61,7 +61,6 @@ __all__ = (
     "fly",
     "install",
     "judge",
-    "one_blade",
     "pay_sentence",
     "phase_sweep",
     "programmes",

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from rotor.actuator import stopped
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
@@ -35,7 +34,7 @@ from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.terminal import wrapped
-from rotor.user_input import check_suffix, check_writable, parse_range, write_whole
+from rotor.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
@@ -80,9 +79,6 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
-    parser.add_argument(
-        "--stops-at", metavar="MU,…", help="also fly on with the twist frozen where it was at these advance ratios"
-    )
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(
         "--what-would-pay",
@@ -111,9 +107,6 @@ def run(args: argparse.Namespace) -> int:
             raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
     placement, host = _placement(args), Host(args.blade, stiffness)
-    stops = () if args.stops_at is None else parse_range(args.stops_at)
-    for speed in stops:
-        pair.design.at(mu=speed)
     if args.plot is not None and args.what_would_pay is None:
         raise ValueError("--plot draws the break-even line: add --what-would-pay")
     if args.plot is not None:
@@ -125,7 +118,6 @@ def run(args: argparse.Namespace) -> int:
         if args.table == "5.2":
             return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
-        failures = [stopped.failure(verdict, stops_at=speed) for speed in stops]
         turned = None
         if args.harmonic is not None:
             turned = phase_sweep(
@@ -138,31 +130,8 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    also = {"failures": [failed.record() for failed in failures]} if failures else {}
-    told = "".join(f"\n\n{failure_report(failed)}" for failed in failures)
-    print_result(args, lambda: record(verdict, turned) | also, lambda: report(verdict, turned) + told)
+    print_result(args, lambda: record(verdict, turned), lambda: report(verdict, turned))
     return 0
-
-
-def failure_report(failed: stopped.Failure) -> str:
-    """What flying on costs, speed by speed."""
-    lines = [
-        f"stopped at µ {failed.stops_at:g}, its twist frozen; one blade: the others work",
-        f"{'µ':<7}{'kt':>4}{'twist':>9}{'power':>12}{'cost':>11}{'engines left':>14}{'stalled':>9}{'collective':>12}"
-        f"{'controls left':>15}{'one blade':>13}",
-    ]
-    for point in failed.points:
-        row, there, blade = point.record(), point.stopped, point.one_blade
-        left = "" if point.power_left is None else f"{point.power_left / 1e3:.0f} kW"
-        cost = "" if point.cost is None else f"{point.cost / 1e3:+.1f} kW"
-        power = "no trim" if there.power is None else f"{there.power / 1e3:.1f} kW"
-        free = "" if there.controls_left is None else f"{100.0 * there.controls_left:.0f} %"
-        shaken = "" if blade is None else f"{blade.force_n:.0f} N 1/rev"
-        lines.append(
-            f"{point.mu:<7g}{row['speed_kt']:>4.0f}{math.degrees(there.twist):>8.2f}°{power:>12}{cost:>11}{left:>14}"
-            f"{row['stopped_stalled_percent']:>7.1f} %{math.degrees(there.collective):>10.1f} °{free:>14}{shaken:>14}"
-        )
-    return "\n".join(lines)
 
 
 def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:

@@ -28,7 +28,7 @@ PLAUSIBLE = {
     "mu": ("0", "0.1", "0.3", "0.1:0.3:0.1"), "twist": ("linear:-8", "segments:-5,-12@0.5", "builtin"),
     "rotor": ("uh60a", "gazelle", "bo105", "xv15"), "mass_kg": ("7000", "9500"), "altitude_m": ("0", "3000"),
     "rotor_speed_percent": ("95", "105"), "load_factor": ("1.2",), "climb_m_s": ("3", "-3"),
-    "twist_per_rev": ("2:1:180",), "pitch_per_rev": ("3:0.5:0",), "stops_at": ("0", "0,0.3"), "actuator": ("MFC_P1",),
+    "twist_per_rev": ("2:1:180",), "pitch_per_rev": ("3:0.5:0",), "actuator": ("MFC_P1",),
     "starts": ("1",), "points": ("2",), "save": ("a.json",), "csv": ("a.csv", "-"), "plot": ("a.svg",),
     "rate_deg": ("-20,0",), "boundary": ("0:8:4",), "concept": ("linear", "two-segment"), "division": ("0.5",),
 }  # fmt: skip
