@@ -106,9 +106,10 @@
     let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
     if (now.chart.series.length) {
       const [wanted, reached] = ['wanted', 'reached'].map(name => between(now.chart.series.find(one => one.label === name).y, at));
-      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(reached)}" r="6.5" class="rxf-fly-dot"/>`;
+      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(now.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
       said = now.flown ? degrees(reached) : now.tip;
-      words = `${now.flown ? `of ${degrees(wanted)} wanted` : `now; reaches ${degrees(reached)} of ${degrees(wanted)} wanted`}${now.kind === 'ready' ? '' : ' · computing…'}`;
+      const works = `${degrees(reached)} of ${degrees(wanted)} wanted`;
+      words = `${now.flown ? `of ${degrees(wanted)} wanted` : now.frozen === null ? `now; reaches ${works}` : `stopped; working, it reaches ${works}`}${now.kind === 'ready' ? '' : ' · computing…'}`;
       slider.ariaValueText = `${near[0]}: ${said} ${words}`;
     } else slider.ariaValueText = near[0];
     const group = card.querySelector('[data-marker]');

@@ -13,9 +13,16 @@ import viser
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import Inputs
-from explorer.model.units import AVIATION, SI
+from explorer.model.units import AVIATION, SI, number
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs, flight_legs, flight_of, lean_verdict, question_of
+from explorer.tabs.actuator.actuator_inputs import (
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    flight_legs,
+    flight_of,
+    lean_verdict,
+    question_of,
+)
 from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
@@ -103,6 +110,10 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert state["fuel_kind"] == ("loss" if burnt > 0.0 else "gain")
 
 
+def degrees_text(angle: float) -> str:
+    return f"{number(math.degrees(angle), 2, sign=True)}°"
+
+
 class Stage:
     """A bar with true widgets, and the page and sliders as a test sees them."""
 
@@ -110,6 +121,7 @@ class Stage:
         self.shown: dict[str, Any] = {}
         self.actions: dict[str, Callable[[Any], None]] = {}
         self.inputs = Inputs()
+        self.woken = 0
         bridge = SimpleNamespace(set=self.shown.update, on=self.actions.__setitem__)
         self.context: Any = SimpleNamespace(
             bridge=bridge,
@@ -118,17 +130,25 @@ class Stage:
             inputs=lambda: self.inputs,
             drag_to=self._drag,
             gui=server.gui,
-            wake=lambda: None,
+            wake=self._wake,
         )
         self.controls = ActuatorControls(server.gui, lambda: None, lambda: self.bar.leave_to_hand())
         self.bar = FlightBar(self.context, self.controls)
+
+    def _wake(self) -> None:
+        self.woken += 1
 
     def _drag(self, inputs: Inputs) -> None:
         self.inputs = inputs
 
     def show(self, verdict: Verdict | None, flight: ActuatorFlight | None) -> None:
         installed = self.controls.inputs().installed(RIGID.rotor)
-        self.bar.show(self.inputs, RIGID, installed, verdict, flight, 0.0)
+        self.bar.show(self.inputs, RIGID, installed, verdict, flight, math.degrees(self.tip()))
+
+    def stop(self, on: bool) -> None:
+        """Tick the box, or take the tick away, by hand."""
+        self.bar._stopped.value = on
+        self.bar._follow()
 
     def tip(self) -> float:
         """What the sliders make of the blade [rad]."""
@@ -181,14 +201,36 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(stage: Stage, fli
     stage.show(verdict, flight)
     stage.actions["fly"](0)
     frozen = stage.tip()
-    stage.bar._stopped.value = True
+    stage.stop(True)
+    stage.show(verdict, flight)
+    drawn = stage.shown["flight"]
+    assert (drawn["flown"], drawn["frozen"], drawn["tip"]) == (False, math.degrees(frozen), degrees_text(frozen))
+    (line,) = [one for one in drawn["chart"]["series"] if one["label"] == "stopped"]
+    assert_allclose(line["y"], math.degrees(frozen), atol=6e-4)
     stage.actions["fly"](3)
+    stage.show(verdict, flight)
     assert stage.inputs.advance_ratio == LEGS[-1].advance_ratio
     assert stage.tip() == frozen != 0.0
-    stage.bar._stopped.value = False
-    stage.bar._follow()  # As by hand.
+    assert stage.shown["flight"]["tip"] == degrees_text(frozen)
+    stage.stop(False)
     assert_allclose(stage.tip(), flight.reached[-1], atol=math.radians(0.02))
-    stage.bar._stopped.value = True
+    stage.show(verdict, flight)
+    drawn = stage.shown["flight"]
+    assert (drawn["flown"], drawn["frozen"]) == (True, None)
+    assert "stopped" not in [one["label"] for one in drawn["chart"]["series"]]
+    stage.stop(True)
+    stage.bar.hide()
+    assert not stage.bar._stopped.value
+
+
+def test_a_stop_shows_at_once_where_a_hand_set_the_voltage(stage: Stage, flight: ActuatorFlight, verdict: Verdict):
+    stage.show(verdict, flight)
+    stage.controls.drive((60.0,) * MOST_SEGMENTS, by_hand=True)
+    woken = stage.woken
+    stage.stop(True)
+    assert stage.woken == woken + 1
+    stage.show(verdict, flight)
+    assert stage.shown["flight"]["tip"] == degrees_text(stage.tip()) != degrees_text(0.0)
     stage.bar.hide()
     assert not stage.bar._stopped.value
 

@@ -58,26 +58,32 @@ def flight_state(
     *,
     tip: float = 0.0,
     flown: bool = False,
+    stopped: bool = False,
 ) -> dict[str, Any]:
     """What the page draws the tip twist from: a chart of degrees over the legs.
 
     `known`: the flight is that of the present question, else one before. `tip`: twist by the actuator now [°];
-    `flown`: its voltages follow the flight.
+    `flown`: its voltages follow the flight; `stopped`: they stay as they are, wherever it flies.
     """
+    frozen = tip if stopped else None
     state: dict[str, Any] = {
         "legs": [[leg.name, _condition(leg, tip_speed, units)] for leg in legs[::HALVES]],
         "at": round(place_of(legs, advance_ratio), 3),
         "kind": "ready" if known and flight else "problem" if problem else "computing",
         "words": problem or ("computing…" if not known else ""),
-        "flown": flown,
+        "flown": flown and not stopped,
+        "frozen": frozen,
         "tip": f"{number(tip, 2, sign=True)}°",
-        "chart": as_json(flight_chart(flight, (len(legs) - 1) / HALVES)),
+        "chart": as_json(flight_chart(flight, (len(legs) - 1) / HALVES, frozen)),
     }
     return state
 
 
-def flight_chart(flight: ActuatorFlight | None, last: float) -> Chart:
-    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach; green where flown at a gain."""
+def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
+    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach; green where flown at a gain.
+
+    `frozen`: twist of an actuator that has stopped [°], the same wherever it flies.
+    """
     series: list[Series] = []
     low, high = -_LEAST, _LEAST
     if flight is not None:
@@ -100,6 +106,10 @@ def flight_chart(flight: ActuatorFlight | None, last: float) -> Chart:
         if (short := abs(float(wanted[worst] - held[worst]))) > _SHORT:
             words = f"short by {number(short, 1)}°"
             series.append(_named(words, at[worst], 0.5 * (wanted[worst] + held[worst]), "var(--rxa-loss)", above=False))
+    if frozen is not None:
+        low, high = min(low, frozen), max(high, frozen)
+        series.append(Line("stopped", (0.0, last), (frozen, frozen), "var(--rxa-loss)", "6 4", width=2.4))
+        series.append(_named("stopped", 0.5 * last, frozen, "var(--rxa-loss)", above=True))
     margin = 0.06 * (high - low)
     return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
 
@@ -210,6 +220,7 @@ class FlightBar:
                 problem,
                 tip=tip,
                 flown=self._flown is not None,
+                stopped=self._stopped.value,
             ),
             earns=earns_state(None if wrong else self._verdict, isinstance(verdict, Verdict), units, wrong),
         )
@@ -217,9 +228,9 @@ class FlightBar:
     def hide(self) -> None:
         """The blade is back in the rotor: what the flight drove is at rest again."""
         self._context.bridge.set(flight=None, earns=None)
+        self._stopped.value = False
         if self._flown is not None:
             self.leave_to_hand()
-            self._stopped.value = False
             self._controls.undrive()
 
     def leave_to_hand(self) -> None:
@@ -235,10 +246,10 @@ class FlightBar:
         self._context.drag_to(replace(self._context.inputs(), advance_ratio=mu, climb_m_s=climb))
 
     def _follow(self) -> None:
-        """Work again, where the flight is now."""
+        """Stop, or work again where the flight is now."""
         if self._flown is not None:
             self._drive(self._flown)
-            self._context.wake()
+        self._context.wake()
 
     def _drive(self, x: float) -> None:
         """Voltages as the flight has them there, unless the actuator has stopped."""
