@@ -28,7 +28,6 @@ from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
-from explorer.tabs.envelope_panel import EnvelopePanel
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Layout, Sections
@@ -107,7 +106,6 @@ class Page:
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(context)
-            envelope = EnvelopePanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
             self.vibration = VibrationPanel(context, self.scene, self.results.strip)
@@ -127,10 +125,8 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        self.tabs: tuple[Tab, ...] = (
-            self.top, self.probe, self.waterfall, envelope, settings, self.history, self.file,
-            export, self.lecture, self._presence,
-        )  # fmt: skip
+        following = self.top, self.probe, self.waterfall, settings, self.history, self.file
+        self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)

@@ -36,14 +36,14 @@ def chart_box(chart: Chart, height: float = 94.0) -> Markup:
 class PanelChart:
     """A chart in a panel; nothing until it is shown one."""
 
-    def __init__(self, gui: viser.GuiApi, height: float = 94.0) -> None:
-        self._html, self._height = gui.add_html(""), height
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._html = gui.add_html("")
         self._chart: Chart | None = None
 
     def show(self, chart: Chart | None) -> None:
         """None: no chart."""
         self._chart = chart
-        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart, self._height))
+        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart))
 
     @property
     def y_range(self) -> Range | None:
