@@ -38,7 +38,7 @@ from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import ResultsPanel, beside_labels
+from explorer.tabs.results import ResultsPanel
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
@@ -232,7 +232,6 @@ class Page:
         self.dial.show(state, self.actuator.fitted)
         self._curve.show(state)
         self._show_hand(state)
-        self.context.bridge.set(beside_labels=beside_labels(state))
         self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:

@@ -16,7 +16,6 @@ from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivit
 from explorer.model.undo import PowerTracker
 from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.picture.blade_mesh import inset
-from explorer.picture.camera_views import LETTER_SIZE
 from explorer.picture.picture import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.background import Call, PoolAnswers
@@ -184,18 +183,6 @@ class PowerCard:
         value = units.watts(change, fineness(solution.power), sign=True)
         since = {"value": value, "words": words, "kind": _kind(change, solution.power.total)}
         return {"since": since, "rest": "", "why": why(before, solution, units)}
-
-
-def beside_labels(state: SessionState) -> list[dict[str, Any]]:
-    """Power at the letters of A and B where the two rotors stand beside each other; empty elsewhere."""
-    a, b, units = state.pinned, state.solution, UNITS[state.view.units]
-    if a is None or not (state.view.beside and a.converged):
-        return []
-    digits = fineness(b.power)
-    change = units.watts(b.power.total - a.power.total, digits, sign=True)
-    words = (f"A {units.watts(a.power.total, digits)}", f"B {units.watts(b.power.total, digits)} ({change})")
-    aft = 0.5 * LETTER_SIZE * b.design.rotor.radius  # The edge of the letter that is nearest to the reader.
-    return [{"text": text, "node": f"/letter_{text[0]}", "at": [aft, 0.0, 0.0], "below": True} for text in words]
 
 
 def _numbers(state: SessionState, units: Units) -> dict[str, Any]:

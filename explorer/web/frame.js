@@ -266,7 +266,7 @@
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels', 'landscape_labels'];
+  const LABELS = ['lifted_labels', 'probe_label', 'hub_labels', 'landscape_labels'];
   const LABEL_SHIFT = 60;  // [px]
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
@@ -288,7 +288,7 @@
       for (let above = node; above; above = above.parent) seen &&= above.visible;
       if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
-      let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
+      let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
       if (one.aside) {  // Beside its point, away from what it belongs to.
         const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
         left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);
