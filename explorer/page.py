@@ -33,7 +33,6 @@ from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Layout, Sections
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
-from explorer.tabs.optimise.landscape_panel import LandscapePanel
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
@@ -130,7 +129,6 @@ class Page:
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
-        self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
@@ -226,7 +224,6 @@ class Page:
         self.rival.show(state)
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
-        self._landscape.show(state, self._tasks.now, reading.sliders)
         self.results.show(state, self._pause)
         self.vibration.show(state)
         self.dial.show(state, self.actuator.fitted)
@@ -322,11 +319,10 @@ class Page:
         self._touched = self._touched or inputs != self._start
         self._prompt()
         self.optimise.refresh(reading.sliders)
-        self.map.refresh()
+        self.map.refresh(reading.sliders)
         self.schedule.refresh()
         notice = self.schedule.notice() or self.optimise.notice(reading.sliders) or self.rival.notice()
         context.bridge.set(notice=notice)
-        self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""

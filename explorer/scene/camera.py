@@ -51,10 +51,10 @@ class FittedCamera:
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
 
-    def aim(self, view: View, eased: bool = False) -> None:
+    def aim(self, view: View) -> None:
         """Show the rotor, and go on doing so when the canvas changes."""
         self._view, self.subject = view, None
-        self._aim(partial(self._fitted, view), eased)
+        self._aim(partial(self._fitted, view))
 
     def come_back(self) -> None:
         """The user has turned it: show the subject again."""

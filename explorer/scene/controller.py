@@ -274,16 +274,12 @@ class SceneController:
         if not behind:
             self.play(self._page.playing)
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
-        self.scene.set_seen(seen)
-
-    def look(self, view: View, eased: bool = False) -> None:
+    def look(self, view: View) -> None:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
         if self.camera is not None:
-            self.camera.aim(view, eased)
+            self.camera.aim(view)
 
     @property
     def covered(self) -> tuple[float, float]:

@@ -121,7 +121,7 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._seen, self._behind, self._close, self._fitted = True, False, False, rotor
+        self._behind, self._close, self._fitted = False, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -168,10 +168,6 @@ class Scene:
             self._comparing = False
             self._set_visible()
 
-    def set_seen(self, seen: bool) -> None:
-        self._seen = seen
-        self._set_visible()
-
     def set_behind(self, behind: bool) -> None:
         """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
         self._behind = behind
@@ -180,7 +176,7 @@ class Scene:
     @property
     def shows_disk(self) -> bool:
         """Whether the coloured disk is in sight."""
-        return self._seen and not self._behind
+        return not self._behind
 
     def set_alone(self, alone: bool) -> None:
         """Whether the rotor is tested alone, without an airframe."""
@@ -232,11 +228,10 @@ class Scene:
     def _set_visible(self) -> None:
         self.rotor.words.visible = not (self._close or self._behind)
         self.rotor.image.visible = not self._behind
-        self.rotor.frame.visible = self._seen
-        self._airframe.visible = self._seen and not (self._close or self._alone)
+        self._airframe.visible = not (self._close or self._alone)
         self._shadow.visible = self._airframe.visible and not self._behind
         if self._compared is not None:
-            self._compared.frame.visible = self._seen and self._comparing
+            self._compared.frame.visible = self._comparing
             self._compared.words.visible = not self._close
 
 

@@ -116,9 +116,6 @@ class TestScale:
         assert difference[1] == page.controller.held_range(difference[0]) != (field.low, field.high)
         page.controller.draw(fast, replace(view, wipe=True), None, changed)
         assert page.controller.scale == (field, (field.low, field.high))
-        page.controller.set_seen(False)
-        assert page.controller.scale is None
-        page.controller.set_seen(True)
         page.controller.set_behind(True)
         assert page.controller.scale is None
 

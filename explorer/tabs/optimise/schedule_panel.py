@@ -20,6 +20,7 @@ from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.markup import tag
 from rotor.optimisation import Cell, Plan, WeightedCondition
+from rotor.optimisation.search import STARTS
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""
@@ -80,7 +81,7 @@ class SchedulePanel(BackgroundWork):
             self.legs(design),
             "induced" if request.objective == "induced" else "total",
             request.limits(design),
-            request.starts,
+            STARTS,
         )
         progress = self._progress = PlanProgress(plan)
         return ScheduleTask(plan), partial(self._hear, progress), "Starting a worker …"
