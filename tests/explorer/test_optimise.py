@@ -1,6 +1,7 @@
 """What the optimiser's tabs show, without a browser: runs, charts, maps, drawings and words."""
 
 import math
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Any
@@ -14,7 +15,7 @@ from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words, place_on, refined
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun
-from explorer.tabs.optimise.search_words import agreement, concept_picture
+from explorer.tabs.optimise.search_words import concept_picture
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
@@ -41,28 +42,14 @@ def begun(starts: int, **asked: Any) -> SearchRun:
     return SearchRun(replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts), "UH-60A as built")
 
 
-Bests = list[float | None]
-
-
 @pytest.fixture(scope="module")
-def searched() -> tuple[SearchRun, Bests]:
-    """A search run here, its news heard as from a process; and its starts when the second had just begun."""
+def run() -> SearchRun:
+    """A search run here, its news heard as from a process."""
     run = begun(3, concept="two-segment")
-    halfway: list[Bests] = []
-
-    def tell(item: object) -> None:
-        run.on_event(JobProgress(item))
-        if isinstance(item, Progress) and item.phase == "search" and item.start == 1 and not halfway:
-            halfway.append(list(run.bests))
-
     run.on_event(JobStarted())
-    run.on_event(JobEnded(SearchTask(run.search, baseline_of(quick())).run(tell, no_stop)))
-    return run, halfway[0]
-
-
-@pytest.fixture
-def run(searched: tuple[SearchRun, Bests]) -> SearchRun:
-    return searched[0]
+    task = SearchTask(run.search, baseline_of(quick()))
+    run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))
+    return run
 
 
 class TestSearchRun:
@@ -127,7 +114,6 @@ class TestSearchRun:
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert search_text.result(run) == ""
-        assert run.bests == [None] * 6
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)
@@ -180,8 +166,31 @@ class TestSearchRequest:
             bending.search(quick(), mission.legs)
         with pytest.raises(ValueError, match="set an advance ratio above 0"):
             SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
-        with pytest.raises(ValueError, match="no hours"):
-            mission.legs(quick(), [mission.MissionRow(0.2, 0.0)])
+
+
+class TestMission:
+    def test_legs_come_in_order_of_speed_with_their_hours(self):
+        assert mission.mission_of("0.2:2, 0:1,0.3") == ((0.0, 1.0), (0.2, 2.0), (0.3, 1.0))
+        assert mission.mission_of("0.1:0, 0.2:1.5,") == ((0.2, 1.5),)  # 0 hours are not flown.
+        legs = mission.legs(quick(), "0.2:2, 0:1")
+        assert [(leg.flight.advance_ratio, leg.hours) for leg in legs] == [(0.0, 1.0), (0.2, 2.0)]
+        assert {leg.flight.mass for leg in legs} == {quick().condition.mass}
+        assert len(mission.legs(quick())) == 6
+
+    @pytest.mark.parametrize(
+        "part", ["fast", "0.5:1", "-0.1:1", "0.2:100", "0.2:-1", "nan:1", "0.2:nan", "0.2:1:2", "0,2"]
+    )
+    def test_what_is_no_leg_is_named_with_the_remedy(self, part: str):
+        said = f"The mission has {part.split(',')[-1]!r}: write each leg as advance ratio 0 to 0.45 and hours 0 to 99"
+        with pytest.raises(ValueError, match=re.escape(said)):
+            mission.mission_of(f"0:1, {part}")
+
+    def test_a_mission_without_hours_or_with_too_many_legs_is_refused(self):
+        for text in ("", " , ", "0.2:0"):
+            with pytest.raises(ValueError, match="no hours"):
+                mission.mission_of(text)
+        with pytest.raises(ValueError, match="has 40 legs: give at most 12"):
+            mission.mission_of("0.2," * 40)
 
 
 @pytest.fixture(scope="module")
@@ -241,32 +250,23 @@ class TestMap:
         assert np.isfinite(values[:20, :20]).all()
 
 
-def test_every_start_ends_at_a_minimum_and_the_best_has_the_power_of_the_optimum(run: SearchRun):
+def test_the_headline_has_the_power_of_the_optimum(run: SearchRun):
     assert run.optimum is not None
     assert run.optimum.best is not None
-    least = run.optimum.best.power
-    bests = [power for power in run.bests if power is not None]
-    assert len(bests) == 3
-    assert min(bests) == pytest.approx(least, rel=1e-6)
-    ends = {start: minimum.power for minimum in run.optimum.minima for start in minimum.starts}
-    assert all(bests[start] <= power for start, power in ends.items())
-    said = search_text.headline(run)
-    assert SI.watts(least, 1) in said
-    assert agreement(run.bests) in said
+    assert SI.watts(run.optimum.best.power, 1) in search_text.headline(run)
 
 
-def test_half_way_the_second_start_runs_and_the_third_waits(searched: tuple[SearchRun, Bests]):
-    first, second, third = searched[1]
-    assert first is not None
-    assert third is None
-    assert second is None or second >= min(power for power in searched[0].bests if power is not None)
-
-
-def test_starts_agree_as_far_as_the_digits_tell_them_apart():
-    assert agreement((844.60e3, 844.61e3, 844.649e3)) == "all 3 starts agree"
-    assert agreement((844.6e3, 845.0e3, 844.62e3)) == "2 of 3 starts are best"
-    assert agreement((845.0e3, 844.6e3, None)) == "start 2 is best"
-    assert agreement((None, None)) == ""
+def test_the_bar_moves_with_starts_and_designs():
+    run = begun(2)
+    step = Progress("search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+    run.frames.append(SearchFrame(0, 860e3, quick()))
+    seen = [run.part_done]
+    for start, evaluation in ((0, 1), (0, 2), (1, 3), (1, 4)):
+        run._step(replace(step, start=start, evaluation=evaluation))
+        seen.append(run.part_done)
+    run._step(replace(step, phase="band", evaluation=5))
+    assert sorted(set(seen)) == seen
+    assert seen[-1] < run.part_done < 1.0
 
 
 def test_a_design_beyond_a_limit_is_not_the_best():
@@ -275,7 +275,9 @@ def test_a_design_beyond_a_limit_is_not_the_best():
     run.frames.append(SearchFrame(0, 860e3, quick()))
     run._step(step)
     run._step(replace(step, evaluation=2, power=800e3, feasible=False))
-    assert run.bests == [850e3]
+    assert run.best is not None
+    assert run.best.power == 850e3
+    assert SI.watts(850e3, 1) in search_text.headline(run)
 
 
 def test_before_the_first_design():

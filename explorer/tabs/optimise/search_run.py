@@ -1,9 +1,9 @@
-"""What a user asks of the optimiser, and the search as the page follows it: its designs, and the best of each start."""
+"""What a user asks of the optimiser, and the search as the page follows it: the designs to play."""
 
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -24,33 +24,44 @@ from rotor.optimisation import (
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
+from rotor.user_input import shorten
+
+MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
+"""Advance ratio and hours of each leg."""
+MOST_LEGS = 12
+_FASTEST, _LONGEST = 0.45, 99.0
 
 
-@dataclass(frozen=True)
-class MissionRow:
-    """So many hours at one advance ratio; 0 hours: left out."""
+def mission_of(text: str) -> tuple[tuple[float, float], ...]:
+    """Advance ratio and hours of the legs in order of speed; ValueError with one sentence for what is no mission.
 
-    advance_ratio: float
-    hours: float
-
-
-ROWS = (
-    MissionRow(0.0, 0.5),
-    MissionRow(0.1, 0.5),
-    MissionRow(0.15, 0.5),
-    MissionRow(0.2, 1.0),
-    MissionRow(0.25, 1.0),
-    MissionRow(0.3, 0.5),
-)
+    Hours that are left out are 1.
+    """
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    if len(parts) > MOST_LEGS:
+        raise ValueError(f"The mission has {len(parts)} legs: give at most {MOST_LEGS}.")
+    flown = sorted(_leg(part) for part in parts)
+    if not any(hours for _, hours in flown):
+        raise ValueError("The mission has no hours: give at least one leg, such as 0.2:1.")
+    return tuple(leg for leg in flown if leg[1])
 
 
-def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[WeightedCondition, ...]:
-    """The legs at the design's weight and altitude; ValueError with one sentence when no hours are flown."""
-    flown = sorted((row for row in rows if row.hours > 0.0), key=lambda row: row.advance_ratio)
-    if not flown:
-        raise ValueError("The mission has no hours: give at least one leg more than 0.")
+def _leg(text: str) -> tuple[float, float]:
+    speed, _, time = text.partition(":")
+    try:
+        mu, hours = float(speed), float(time or 1.0)
+    except ValueError:
+        mu = hours = math.nan
+    if not (0.0 <= mu <= _FASTEST and 0.0 <= hours <= _LONGEST):
+        wanted = f"advance ratio 0 to {_FASTEST:g} and hours 0 to {_LONGEST:g}, such as 0.2:1"
+        raise ValueError(f"The mission has {shorten(text, 30)!r}: write each leg as {wanted}.")
+    return mu, hours
+
+
+def legs(design: Design, mission: str = MISSION) -> tuple[WeightedCondition, ...]:
+    """The legs at the design's weight and altitude; ValueError as in `mission_of`."""
     return tuple(
-        WeightedCondition(replace(design.condition, advance_ratio=row.advance_ratio), row.hours) for row in flown
+        WeightedCondition(replace(design.condition, advance_ratio=mu), hours) for mu, hours in mission_of(mission)
     )
 
 
@@ -159,8 +170,6 @@ class SearchRun:
         """Power of the design that the search began from [W]."""
         self.reference_power: float | None = None
         self.frames: list[SearchFrame] = []
-        self.bests: list[float | None] = [None] * search.starts
-        """The least power of each start [W]; None before its first design that trims within the limits."""
         self._tried = 0
         """Designs of the start under way."""
         self.progress: Progress | None = None
@@ -225,8 +234,6 @@ class SearchRun:
         before, self.progress = self.progress, progress
         if progress.phase == "search":
             self._tried = self._tried + 1 if before is not None and before.start == progress.start else 1
-            if progress.power is not None and progress.feasible:
-                self._lower(progress.start, progress.power)
         best, values = progress.best_power, progress.best_parameters
         if best is None or values is None:
             return
@@ -235,19 +242,11 @@ class SearchRun:
             design = self.concept.apply(self.search.design, values)
             self.frames.append(SearchFrame(progress.evaluation, best, design))
 
-    def _lower(self, start: int, power: float) -> None:
-        least = self.bests[start]
-        self.bests[start] = power if least is None else min(least, power)
-
     def _finish(self, optimum: Optimum | None) -> None:
         self.optimum = optimum
         if optimum is None:
             return
         self.sentence = optimum.message
-        for minimum in optimum.minima:  # A start that leads to a minimum known is not followed to its end.
-            for start in minimum.starts:
-                if self.bests[start] is not None:
-                    self._lower(start, minimum.power)
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
             self.frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
 

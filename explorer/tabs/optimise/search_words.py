@@ -1,6 +1,6 @@
 """What a search says on the page, as HTML, and the small drawing of what a concept moves."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -91,12 +91,11 @@ def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> Markup:
 
 
 def headline(run: SearchRun, units: Units = SI) -> Markup:
-    """The least power so far as a large number, and which of the starts lead to it."""
-    ends = [power for power in run.bests if power is not None]
-    if not ends:
+    """The least power so far as a large number, and its change from the start."""
+    best = run.best
+    if best is None:
         return Markup()
-    least = min(ends)
-    change = None if run.start_power is None else least - run.start_power
+    change = None if run.start_power is None else best.power - run.start_power
     kind = "" if change is None or abs(change) < _EQUAL else "rx-less" if change < 0.0 else "rx-more"
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
@@ -104,22 +103,10 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     mean += ", best so far" if run.under_way else ", best found"
     return tag(
         "div.rxp-big",
-        tag("b", units.watts(least, 1), data_explorer="best"),
+        tag("b", units.watts(best.power, 1), data_explorer="best"),
         tag("em", None if change is None else units.watts(change, 1, sign=True), class_=kind),
-        tag("div.rx-dim", mean, _against_start(least, run.start_power)),
-        tag("div.rx-dim", agreement(run.bests), data_explorer="starts"),
+        tag("div.rx-dim", mean, _against_start(best.power, run.start_power)),
     )
-
-
-def agreement(bests: Sequence[float | None]) -> str:
-    """Which of the starts are best, as far as the digits that the page shows tell them apart."""
-    least = min((power for power in bests if power is not None), default=0.0)
-    best = [k for k, power in enumerate(bests, 1) if power is not None and power - least < _EQUAL]
-    if len(best) == len(bests) > 1:
-        return f"all {len(bests)} starts agree"
-    if len(best) > 1:
-        return f"{len(best)} of {len(bests)} starts are best"
-    return f"start {best[0]} is best" if best else ""
 
 
 def standing(run: SearchRun | None, problem: str = "") -> Markup:
