@@ -110,9 +110,13 @@ class Sections:
     """Parts of a rail or a drawer of which one is shown, with a row of buttons above them."""
 
     def __init__(
-        self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...],
+        self,
+        gui: viser.GuiApi,
+        bridge: Bridge,
+        name: str,
+        titles: tuple[str, ...],
         changed: Callable[[], None] | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """`name`: of the row in the frame; no other has it. `changed` is called after another part is shown."""
         self._name, self._now, self._changed = name, titles[0], changed
         self._row = gui.add_html("")
@@ -152,9 +156,16 @@ COARSE = 10
 """Steps that Shift and an arrow, or Page up and down, move a slider or the probe at once."""
 
 _SHOWN = {
-    "arrowup": "↑", "arrowdown": "↓", "arrowleft": "←", "arrowright": "→", "space": "Space",
-    "pageup": "Page up", "pagedown": "Page down", "shift": "Shift", "cmd/ctrl": "Ctrl",
-}  # fmt: skip
+    "arrowup": "↑",
+    "arrowdown": "↓",
+    "arrowleft": "←",
+    "arrowright": "→",
+    "space": "Space",
+    "pageup": "Page up",
+    "pagedown": "Page down",
+    "shift": "Shift",
+    "cmd/ctrl": "Ctrl",
+}
 
 
 @dataclass(frozen=True)

@@ -93,9 +93,13 @@ def sensitivity_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units
     )
     size = abs(sensitivity.watts())
     return {
-        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": sensitivity.unit_text(units),
-        "size": round(size / (size + _HALF), 3), "sentence": sentence,
-    }  # fmt: skip
+        "at": round(min(max(at, 0.0), 1.0), 4),
+        "way": way,
+        "value": value,
+        "unit": sensitivity.unit_text(units),
+        "size": round(size / (size + _HALF), 3),
+        "sentence": sentence,
+    }
 
 
 _NOTICEABLE = 0.05
@@ -255,9 +259,14 @@ def _kind(change: float, total: float) -> str:
 _NO_DOUBT: dict[str, Any] = {"within": "", "change_within": "", "sure": "", "doubt": ""}
 _EMPTY: dict[str, Any] = {
     **_NO_DOUBT,
-    "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
-    "ideal_title": "", "since": None, "rest": "", "why": "", "band": "",
-}  # fmt: skip
+    **dict.fromkeys(("kind", "ideal_title", "rest", "why", "band"), ""),
+    **dict.fromkeys(("ideal", "since")),
+    "total": "–",
+    "unit": "kW",
+    "change": "–",
+    "against": "as built",
+    "parts": [],
+}
 
 
 class ResultsPanel:
