@@ -90,7 +90,7 @@ class Page:
         self.scene = SceneController(client, rotor, self.display, facts.dark)
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
         with layout.in_mode("optimise"):
-            tasks = self._tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"), callbacks.wake)
+            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(context)
             with tasks["Map"]:

@@ -170,7 +170,7 @@ class TestSearchRequest:
 
 class TestMission:
     def test_legs_come_in_order_of_speed_with_their_hours(self):
-        assert mission.mission_of("0.2:2, 0:1,0.3") == ((0.0, 1.0), (0.2, 2.0), (0.3, 1.0))
+        assert mission.mission_of("0.2:2, 0:1,\n0.3") == ((0.0, 1.0), (0.2, 2.0), (0.3, 1.0))
         assert mission.mission_of("0.1:0, 0.2:1.5,") == ((0.2, 1.5),)  # 0 hours are not flown.
         legs = mission.legs(quick(), "0.2:2, 0:1")
         assert [(leg.flight.advance_ratio, leg.hours) for leg in legs] == [(0.0, 1.0), (0.2, 2.0)]

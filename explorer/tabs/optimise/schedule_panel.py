@@ -161,7 +161,7 @@ class SchedulePanel(BackgroundWork):
             legs = mission.mission_of(self._mission.value)
         except ValueError as error:
             return str(error)
-        return f"{len(legs)} legs, {sum(hours for _, hours in legs):g} h"
+        return f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
 
     def _hear(self, progress: PlanProgress, news: JobEvent) -> None:
         match news:

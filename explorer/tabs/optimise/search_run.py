@@ -35,9 +35,9 @@ _FASTEST, _LONGEST = 0.45, 99.0
 def mission_of(text: str) -> tuple[tuple[float, float], ...]:
     """Advance ratio and hours of the legs in order of speed; ValueError with one sentence for what is no mission.
 
-    Hours that are left out are 1.
+    Legs are apart by a comma or a new line; hours that are left out are 1.
     """
-    parts = [part.strip() for part in text.split(",") if part.strip()]
+    parts = [part.strip() for part in text.replace("\n", ",").split(",") if part.strip()]
     if len(parts) > MOST_LEGS:
         raise ValueError(f"The mission has {len(parts)} legs: give at most {MOST_LEGS}.")
     flown = sorted(_leg(part) for part in parts)
@@ -47,9 +47,9 @@ def mission_of(text: str) -> tuple[tuple[float, float], ...]:
 
 
 def _leg(text: str) -> tuple[float, float]:
-    speed, _, time = text.partition(":")
+    speed, _, flown = text.partition(":")
     try:
-        mu, hours = float(speed), float(time or 1.0)
+        mu, hours = float(speed), float(flown or 1.0)
     except ValueError:
         mu = hours = math.nan
     if not (0.0 <= mu <= _FASTEST and 0.0 <= hours <= _LONGEST):
