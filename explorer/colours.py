@@ -126,13 +126,6 @@ def _bytes(srgb: Array) -> Rgb:
     return red, green, blue
 
 
-_STARTS = 16
-START_COLOURS: tuple[Rgb, ...] = tuple(
-    _bytes(_srgb((0.52, 0.70, 0.61)[k % 3], 0.13, (255.0 + 137.5 * k) % 360.0)) for k in range(_STARTS)
-)
-"""Colours of the starts of a search: neighbours differ in hue and in lightness, on a light page and a dark one."""
-
-
 @dataclass(frozen=True)
 class DiskInk:
     """Colours on the disk, unlit, and how opaque the disk is."""

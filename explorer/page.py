@@ -28,18 +28,16 @@ from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
-from explorer.tabs.envelope_panel import EnvelopePanel
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Layout, Sections
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
-from explorer.tabs.optimise.landscape_panel import LandscapePanel
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import ResultsPanel, beside_labels
+from explorer.tabs.results import ResultsPanel
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
@@ -92,7 +90,7 @@ class Page:
         self.scene = SceneController(client, rotor, self.display, facts.dark)
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
         with layout.in_mode("optimise"):
-            tasks = self._tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"), callbacks.wake)
+            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(context)
             with tasks["Map"]:
@@ -107,7 +105,6 @@ class Page:
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(context)
-            envelope = EnvelopePanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
             self.vibration = VibrationPanel(context, self.scene, self.results.strip)
@@ -127,14 +124,11 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        self.tabs: tuple[Tab, ...] = (
-            self.top, self.probe, self.waterfall, envelope, settings, self.history, self.file,
-            export, self.lecture, self._presence,
-        )  # fmt: skip
+        following = self.top, self.probe, self.waterfall, settings, self.history, self.file
+        self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
-        self._landscape = LandscapePanel(context, self.map, self._views)
         self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
@@ -230,13 +224,11 @@ class Page:
         self.rival.show(state)
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
-        self._landscape.show(state, self._tasks.now, reading.sliders)
         self.results.show(state, self._pause)
         self.vibration.show(state)
         self.dial.show(state, self.actuator.fitted)
         self._curve.show(state)
         self._show_hand(state)
-        self.context.bridge.set(beside_labels=beside_labels(state))
         self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
@@ -327,11 +319,10 @@ class Page:
         self._touched = self._touched or inputs != self._start
         self._prompt()
         self.optimise.refresh(reading.sliders)
-        self.map.refresh()
+        self.map.refresh(reading.sliders)
         self.schedule.refresh()
         notice = self.schedule.notice() or self.optimise.notice(reading.sliders) or self.rival.notice()
         context.bridge.set(notice=notice)
-        self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""

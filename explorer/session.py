@@ -155,7 +155,7 @@ class Session:
 
     def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
         """Solution → the frame. A is solved before the frame only where the scene shows it."""
-        wanted = reading.view.difference or reading.view.beside or reading.view.wipe
+        wanted = reading.view.difference or reading.view.wipe
         pinned = self.page.solve_pinned(solution.design, self._overtaken()) if wanted else None
         self.page.show_frame(reading, solution, pinned, only_azimuth=not everything)
 

@@ -33,7 +33,7 @@ ORDER = {
     ),
     "explorer/tabs": (
         "layout", "display", "form", "controls", "context", "background", "design_files",
-        "history_panel", "waterfall", "live_charts", "envelope_panel", "results", "twist_curve", "export_panel",
+        "history_panel", "waterfall", "live_charts", "results", "twist_curve", "export_panel",
         "element",
         "probe_measured", "probe_drawing", "probe_panel", "vibration_panel", "actuator", "views", "optimise", "lecture",
     ),

@@ -183,22 +183,36 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
             if 0 < k < len(fine) - 1:
                 marks.append((float(fine[k]), word))
     drawn = np.array(next(line.y for line in chart.series if isinstance(line, Line) and line.colour == SAVING))[known]
-    pressed = [
-        Points("", (mu,), (float(np.interp(mu, x, drawn)),), SAVING, "ring", action="speed", press=(f"{mu:.3f}",),
-               words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",), names=(word,), size=3.5,
-               beside="above" if word == "endurance" else "below")
-        for mu, word in marks
-    ]  # fmt: skip
+
+    def pressed(mu: float, word: str) -> Points:
+        return Points(
+            "",
+            (mu,),
+            (float(np.interp(mu, x, drawn)),),
+            SAVING,
+            "ring",
+            action="speed",
+            press=(f"{mu:.3f}",),
+            words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",),
+            names=(word,),
+            size=3.5,
+            beside="above" if word == "endurance" else "below",
+        )
+
     rules = [Rule(mu, label=word, colour=LOOKS["limit"][0]) for mu, word in walls]
     *lines, now = chart.series
-    chart = replace(chart, series=(*lines, *pressed, now), rules=(*chart.rules, *rules))
+    series = (*lines, *(pressed(mu, word) for mu, word in marks), now)
+    chart = replace(chart, series=series, rules=(*chart.rules, *rules))
     return chart, min((mu for mu, _ in walls), default=float(x[-1]))
 
 
 def alpha_chart(
-    solution: Solution, reference: Solution | None, azimuth_deg: float, previous: Range | None = None,
+    solution: Solution,
+    reference: Solution | None,
+    azimuth_deg: float,
+    previous: Range | None = None,
     compared: Role = "reference",
-) -> Chart:  # fmt: skip
+) -> Chart:
     """α along the reference blade with the stall limits, and the least margin before stall; gaps in reverse flow."""
     lower, upper, alpha = angles_along(solution, azimuth_deg)
     r = solution.disk.r

@@ -84,9 +84,13 @@ def _has_curve(design: Design) -> bool:
 
 
 def index_chart(
-    curves: IndexCurves, solution: Solution, reference: Solution, index: float | None, held: Range | None = None,
+    curves: IndexCurves,
+    solution: Solution,
+    reference: Solution,
+    index: float | None,
+    held: Range | None = None,
     compared: Role = "reference",
-) -> Chart | None:  # fmt: skip
+) -> Chart | None:
     """Vibration index over µ of a design and its reference; None where no speed has one.
 
     index: at the present condition [%], None where there is none.
@@ -181,8 +185,8 @@ def fan_chart(known: dict[float, BladeFrequencies], collective_deg: int) -> Char
     """Coupled flap-lag and torsion frequencies over rotor speed, with the rays of n/rev."""
     speeds, rated = sorted(known), known[1.0]
     percent = [100.0 * speed for speed in speeds]
-    lines = [Line("", (0.0, 100.0 * end), (0.0, n * end), "var(--rx-faint)", width=0.8)
-             for n in range(1, int(_TOP) + 1) for end in (min(FAN_SPEEDS[-1], _TOP / n),)]  # fmt: skip
+    rays = [(n, min(FAN_SPEEDS[-1], _TOP / n)) for n in range(1, int(_TOP) + 1)]
+    lines = [Line("", (0.0, 100.0 * end), (0.0, n * end), "var(--rx-faint)", width=0.8) for n, end in rays]
     modes = zip(*(_sorted(known[speed]) for speed in speeds), strict=False)
     named: set[str] = set()
     for mode in modes:

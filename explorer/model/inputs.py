@@ -300,8 +300,6 @@ class ViewState:
     """A title of `explorer.model.units.UNITS`."""
     wake: bool = True
     arrows: bool = False
-    beside: bool = False
-    """Whether A stands beside B while a design is pinned."""
     wipe: bool = False
     """Whether A is seen left of a handle, and B right of it, while a design is pinned."""
 

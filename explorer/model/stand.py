@@ -30,8 +30,9 @@ _ROUND = 9
 _FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
 """Field of `StandInputs` by key of a record, but for what is given and flapping."""
 _GIVEN_WITH: dict[Flapping, tuple[str, ...]] = {
-    "free": ("cyclic_1c_deg", "cyclic_1s_deg"), "hub-moments": ("hub_roll_nm", "hub_pitch_nm"),
-}  # fmt: skip
+    "free": ("cyclic_1c_deg", "cyclic_1s_deg"),
+    "hub-moments": ("hub_roll_nm", "hub_pitch_nm"),
+}
 """Keys of a record that only one kind of flapping is given with."""
 
 

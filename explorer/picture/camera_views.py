@@ -56,14 +56,6 @@ class _Stand:
 _STANDS = {
     "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4),
 }
-_APART = 1.32
-"""Half the distance between the hubs of two rotors side by side, in radii."""
-_STEEPEST = math.radians(60.0)
-"""Elevation of a camera that sees two rotors side by side, at most."""
-LETTER_SIZE = 0.34
-"""Edge of the letters A and B beside such rotors, in radii."""
-_LETTER_AT = (1.30, -0.45, 0.0)
-"""From the hub, in radii."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,53 +121,26 @@ def fit(
     azimuth: float = 0.0,
     tilt: float = _USUAL_TILT,
     cover: Cover = USUAL_COVER,
-    beside: bool = False,
 ) -> Camera:
     """The camera of a view, as close as its subject, words included, allows between the cards.
 
     `aspect`: canvas width over height. `azimuth`: ψ [rad] of the reference blade, for "blade". `tilt`: of the shaft
-    [rad]. `cover`: what cards hide of the canvas. `beside`: two rotors stand side by side. In "disk" and "top" the nose
-    is up and the advancing side right; in "side" the nose is right.
+    [rad]. `cover`: what cards hide of the canvas. In "disk" and "top" the nose is up and the advancing side right; in
+    "side" the nose is right.
     """
     stand = _STANDS.get(view)
-    points = _two_outlines(radius) if beside else _outline(radius)
     if view == "blade":
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
     elif stand is not None:
-        elevation = stand.elevation
-        if beside:  # So high that two disks, whose width is limited, fill the height between the cards as well.
-            along, across = (np.ptp(points @ axis) for axis in (direction(stand.azimuth, 0.0), apart(1.0) / _APART))
-            filling = math.asin(min(across / along * cover.free / max(aspect, 0.2), 1.0))
-            elevation = min(max(filling, elevation), _STEEPEST)
-        backward = direction(stand.azimuth, elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
-        if not beside:
-            return _standing(stand, size(radius), aspect, backward, cover)
+        backward = direction(stand.azimuth, stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
+        return _standing(stand, size(radius), aspect, backward, cover)
     else:
-        across = _STANDS["3d"].azimuth if beside else 0.0
-        backward = direction(math.radians(90.0) if view == "side" else across, _ELEVATION[view])
-        if view == "side" and not beside:  # The airframe, coning and tilt need height where the disk has none.
+        points = _outline(radius)
+        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
+        if view == "side":  # The airframe, coning and tilt need height where the disk has none.
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
             points = np.concatenate((points, radius * np.array(more)))
     return between_cards(framed(points, backward, aspect / cover.free), cover)
-
-
-def apart(radius: float) -> Array:
-    """Where the right one of two rotors side by side stands [m], across the usual line of sight; the left at its −."""
-    across = math.radians(90.0) + _STANDS["3d"].azimuth
-    return _APART * radius * np.array([math.cos(across), math.sin(across), 0.0])
-
-
-def letter_place(radius: float) -> Array:
-    """Where the letter of one of two rotors lies, from its hub [m]."""
-    return radius * np.array(_LETTER_AT)
-
-
-def _two_outlines(radius: float) -> Array:
-    """The rims of two rotors side by side, with their words and letters."""
-    edge = 0.5 * LETTER_SIZE * radius
-    corners = np.array([[x, y, 0.0] for x in (-edge, edge) for y in (-edge, edge)])
-    outline = np.concatenate((_outline(radius), letter_place(radius) + corners))
-    return np.concatenate((outline - apart(radius), outline + apart(radius)))
 
 
 def _standing(stand: _Stand, size: float, aspect: float, backward: Array, cover: Cover) -> Camera:

@@ -301,15 +301,6 @@ class _Ring:
         return max(1, round(length * self._unit))
 
 
-@lru_cache(maxsize=2)
-def letter_mask(text: str) -> Bytes:
-    """One large letter, shape (256, 256)."""
-    tile = Image.new("L", (256, 256), 0)
-    font = ImageFont.load_default(200)
-    ImageDraw.Draw(tile).text((128, 128), text, fill=245, font=font, anchor="mm", stroke_width=5, stroke_fill=245)
-    return np.asarray(tile)
-
-
 @lru_cache(maxsize=4)
 def shadow_mask(craft: Airframe, radius: float) -> Bytes:
     """The airframe's soft shadow on the ground, and a faint one of the disk, seen from above. Row 0 is ahead."""

@@ -39,31 +39,29 @@ class FittedCamera:
         self._azimuth = 0.0
         self._tilt = math.radians(3.0)
         self._cover = USUAL_COVER
-        self._beside = False
-        """Whether two rotors stand side by side."""
         self._fit: Callable[[float], Camera] = partial(self._fitted, "3d")
         self._following = True
         self._held = False
         self._arrives = 0.0
         """When a flight of the camera ends."""
-        self._wanted: tuple[float, bool] | None = None
-        """What `follow` was given while the camera was held."""
+        self._wanted: float | None = None
+        """The tilt that `follow` was given while the camera was held."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
 
-    def aim(self, view: View, eased: bool = False) -> None:
+    def aim(self, view: View) -> None:
         """Show the rotor, and go on doing so when the canvas changes."""
         self._view, self.subject = view, None
-        self._aim(partial(self._fitted, view), eased)
+        self._aim(partial(self._fitted, view))
 
     def come_back(self) -> None:
         """The user has turned it: show the subject again."""
         self._aim(self._fit, eased=True)
 
     def _fitted(self, view: View, aspect: float) -> Camera:
-        return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover, self._beside)
+        return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover)
 
     def resize(self, radius: float) -> None:
         """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
@@ -81,14 +79,14 @@ class FittedCamera:
         if self._view == "blade" and self._following:
             self.aim("blade")
 
-    def follow(self, tilt: float, beside: bool) -> None:
-        """Go with the shaft tilt [rad], and stand back for a second rotor, until the user takes over."""
+    def follow(self, tilt: float) -> None:
+        """Go with the shaft tilt [rad], until the user takes over."""
         if self._held:
-            self._wanted = tilt, beside
+            self._wanted = tilt
             return
-        if abs(tilt - self._tilt) < _LEAST_TILT and beside == self._beside:
+        if abs(tilt - self._tilt) < _LEAST_TILT:
             return
-        self._tilt, self._beside = tilt, beside
+        self._tilt = tilt
         if self._view is not None and self._view != "blade" and self._following:
             self.aim(self._view)
 
@@ -111,7 +109,7 @@ class FittedCamera:
         self._held = held
         wanted, self._wanted = self._wanted, None
         if not held and wanted is not None:
-            self.follow(*wanted)
+            self.follow(wanted)
 
     def hold_shot(self, shot: Shot) -> None:
         """Show a part of the rotor from one side; the camera flies there."""

@@ -18,7 +18,7 @@ import viser
 from explorer.colours import scene_theme
 from explorer.hosting.browser import call
 from explorer.model.inputs import ViewState, baseline_of
-from explorer.picture.camera_views import View, apart
+from explorer.picture.camera_views import View
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
 from explorer.picture.picture import disk_png, field_values, make_picture, pitch_series, turned_blades
@@ -37,7 +37,7 @@ SURFACES = {
     f"{ROTOR}/head": {"roughness": 0.38, "metalness": 0.55},
     "/airframe/glass": {"roughness": 0.12, "metalness": 0.2},
     **{name: {"flat": True} for name in ("/shadow", f"{ROTOR}/disk/words", f"{ROTOR}/disk/field")},
-    **{name: {"flat": True} for name in ("/compared/disk/words", "/compared/disk/field", "/letter_A", "/letter_B")},
+    **{name: {"flat": True} for name in ("/compared/disk/words", "/compared/disk/field")},
 }
 """Materials by node: how rough and metallic, or a flat picture, which must not hide what lies behind its corners."""
 
@@ -122,7 +122,7 @@ class _Drawn:
 
     solution: Solution
     pinned: Solution | None
-    """Where the disk shows the difference to it, or it stands beside."""
+    """Where the disk shows the difference to it, or it is wiped."""
     view: ViewState
     colour_range: Range
     ghost: OtherBlade
@@ -209,11 +209,11 @@ class SceneController:
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._display.show_range(field, colour_range, faded=False)
         if self.camera is not None:
-            self.camera.follow(solution.controls.shaft_tilt, view.beside and pinned is not None)
+            self.camera.follow(solution.controls.shaft_tilt)
         self._drawn, self._fine = wanted, False
 
     def draw_finely(self) -> None:
-        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A beside B.
+        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A to be wiped.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """
@@ -228,24 +228,21 @@ class SceneController:
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
         self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
         picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
-        wanted = view.beside or view.wipe
-        beside = drawn.pinned if wanted and drawn.pinned is not None and drawn.pinned.converged else None
-        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
+        compared = drawn.pinned if view.wipe and drawn.pinned is not None and drawn.pinned.converged else None
+        other = None if compared is None else make_picture(compared, view, drawn.colour_range, field, AT_REST)
         with self._client.atomic():
             self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution, view, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
-            if beside is not None:
+            if compared is not None:
                 self._air.hide_vortices()
             if view.wipe or self._compared:
-                self._compared = view.wipe and beside is not None
-                self._page.compare(beside if self._compared else None)
-            if beside is None or other is None:
-                self.scene.hide_beside()
+                self._compared = compared is not None
+                self._page.compare(compared)
+            if compared is None or other is None:
+                self.scene.hide_compared()
             else:
-                radius = max(beside.design.rotor.radius, solution.design.rotor.radius)
-                offset = apart(radius) if view.beside else np.zeros(3)
-                self.scene.show_beside(beside.design.rotor, other, offset)
+                self.scene.show_compared(compared.design.rotor, other)
         self._client.flush()
         self._drawn, self._fine = drawn, True
 
@@ -277,16 +274,12 @@ class SceneController:
         if not behind:
             self.play(self._page.playing)
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the rotor is in the scene, or makes room for something else."""
-        self.scene.set_seen(seen)
-
-    def look(self, view: View, eased: bool = False) -> None:
+    def look(self, view: View) -> None:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
         if self.camera is not None:
-            self.camera.aim(view, eased)
+            self.camera.aim(view)
 
     @property
     def covered(self) -> tuple[float, float]:
@@ -328,5 +321,5 @@ class SceneController:
 
 
 def _field(view: ViewState, pinned: Solution | None) -> Field:
-    """What the disk shows: B − A where wanted, but not while A stands beside B."""
-    return FIELDS[view.field] if view.beside or view.wipe else shown_field(view, pinned)
+    """What the disk shows: B − A where wanted, but not while A is wiped over B."""
+    return FIELDS[view.field] if view.wipe else shown_field(view, pinned)

@@ -10,23 +10,20 @@ from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import Faces, Mesh, blade_shape, blade_vertices, joined
-from explorer.picture.camera_views import LETTER_SIZE, letter_place
 from explorer.picture.disk_image import (
     REACH,
     SHADOW_CENTRE,
     SHADOW_HALF,
     half_width,
-    letter_mask,
     ring_mask,
     shadow_mask,
     tinted_png,
 )
 from explorer.picture.picture import Blades, Picture, Pose, about
 from rotor import Rotor
-from rotor.arrays import Array
 
 ROTOR, COMPARED = "/rotor", "/compared"
-"""Names of the rotor of the sliders and of the one beside it."""
+"""Names of the rotor of the sliders and of the one that it is compared with."""
 _FLAT = (0.0, math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Half a turn about the bisector of x and y: a picture's columns run to starboard, its rows aft."""
 _BELOW_DISK = -0.06
@@ -120,11 +117,11 @@ class RotorNodes:
 
 
 class Scene:
-    """The rotor of the sliders, its airframe and shadow, the lights, and at times a second rotor beside it."""
+    """The rotor of the sliders, its airframe and shadow, the lights, and at times a second rotor at its place."""
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._seen, self._behind, self._close, self._fitted = True, False, False, rotor
+        self._behind, self._close, self._fitted = False, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -142,8 +139,7 @@ class Scene:
         self._dark_parts = solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
         self.rotor = RotorNodes(api, ROTOR, rotor, theme)
         self._compared: RotorNodes | None = None
-        self._beside = self._alone = self._apart = False
-        self._letters: list[viser.ImageHandle] = []
+        self._comparing = self._alone = False
         self._light_up()
         self._fit_airframe(rotor)
 
@@ -158,31 +154,19 @@ class Scene:
         self.rotor.show(picture, everything, still)
         place(self._airframe, picture.airframe)
 
-    def show_beside(self, rotor: Rotor, picture: Picture, offset: Array) -> None:
-        """A second rotor at −`offset` [m] and the first at +`offset`, marked A and B; the airframe makes room.
-
-        Without an offset both are at one place: the page then draws one left of a handle and the other right of it.
-        """
+    def show_compared(self, rotor: Rotor, picture: Picture) -> None:
+        """A second rotor at the place of the first: the page draws it left of a handle and the first right of it."""
         if self._compared is None:
             self._compared = RotorNodes(self._api, COMPARED, rotor, self._theme)
         self._compared.fit(rotor)
         self._compared.show(picture, everything=True)
-        self._compared.frame.position = -offset
-        self.rotor.frame.position = offset
-        self._beside, self._apart = True, bool(np.any(offset))
-        if self._apart:
-            self._show_letters(rotor.radius, offset)
+        self._comparing = True
         self._set_visible()
 
-    def hide_beside(self) -> None:
-        if self._beside:
-            self._beside = self._apart = False
-            self.rotor.frame.position = np.zeros(3)
+    def hide_compared(self) -> None:
+        if self._comparing:
+            self._comparing = False
             self._set_visible()
-
-    def set_seen(self, seen: bool) -> None:
-        self._seen = seen
-        self._set_visible()
 
     def set_behind(self, behind: bool) -> None:
         """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
@@ -192,7 +176,7 @@ class Scene:
     @property
     def shows_disk(self) -> bool:
         """Whether the coloured disk is in sight."""
-        return self._seen and not self._behind
+        return not self._behind
 
     def set_alone(self, alone: bool) -> None:
         """Whether the rotor is tested alone, without an airframe."""
@@ -223,8 +207,6 @@ class Scene:
         self.rotor.set_theme(theme)
         if self._compared is not None:
             self._compared.set_theme(theme)
-        for letter, text in zip(self._letters, "AB", strict=False):
-            viser_compat.set_png(letter, tinted_png(letter_mask(text), theme.lettering))
         self._draw_shadow()
 
     def _light_up(self) -> None:
@@ -243,26 +225,13 @@ class Scene:
         mask = shadow_mask(airframe(self._fitted), self._fitted.radius)
         viser_compat.set_png(self._shadow, tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
 
-    def _show_letters(self, radius: float, offset: Array) -> None:
-        if not self._letters:
-            for text in "AB":
-                handle = picture_plane(self._api, f"/letter_{text}", (0.0, 0.0, 0.0))
-                viser_compat.set_png(handle, tinted_png(letter_mask(text), self._theme.lettering))
-                self._letters.append(handle)
-        for handle, side in zip(self._letters, (-1.0, 1.0), strict=True):
-            handle.render_width = handle.render_height = LETTER_SIZE * radius
-            handle.position = side * offset + letter_place(radius)
-
     def _set_visible(self) -> None:
         self.rotor.words.visible = not (self._close or self._behind)
         self.rotor.image.visible = not self._behind
-        self.rotor.frame.visible = self._seen
-        self._airframe.visible = self._seen and not (self._apart or self._close or self._alone)
+        self._airframe.visible = not (self._close or self._alone)
         self._shadow.visible = self._airframe.visible and not self._behind
-        for handle in self._letters:
-            handle.visible = self._seen and self._apart
         if self._compared is not None:
-            self._compared.frame.visible = self._seen and self._beside
+            self._compared.frame.visible = self._comparing
             self._compared.words.visible = not self._close
 
 

@@ -112,7 +112,7 @@ def still_page(
         if compared is not None:
             other = make_picture(compared, view, colour_range, pixels=_PIXELS, bent=False)
             plain = turned_blades(compared, view, each=False, bent=False)
-            scene.show_beside(compared.design.rotor, replace(other, blades=plain), np.zeros(3))
+            scene.show_compared(compared.design.rotor, replace(other, blades=plain))
         return server.scene.as_html()
     finally:
         viser_compat.quiet_stop(server)

@@ -133,17 +133,15 @@ def _trim(step: LectureStep) -> Facts:
         ChartLine(name, name, tuple(getattr(power, name) for power in powers))
         for name in ("induced", "profile", "parasite")
     )
-    chart = StepChart(
-        "advance ratio", "power", "power", values, "mu",
-        (ChartLine("total", "b", tuple(power.total for power in powers)), *parts),
-    )  # fmt: skip
+    totals = tuple(power.total for power in powers)
+    chart = StepChart("advance ratio", "power", "power", values, "mu", (ChartLine("total", "b", totals), *parts))
     ratio = cruise.induced / hover.induced
-    numbers = {
-        "hover_induced": Number("power", hover.induced), "cruise_induced": Number("power", cruise.induced),
-        "induced_ratio": Number("percent", ratio), "cruise_mu": Number("mu", 0.3),
-        "least_mu": Number("mu", values[low]), "least_power": Number("power", powers[low].total),
-    }  # fmt: skip
-    return flight.facts(numbers, ratio, chart, tuple(power.total for power in powers))
+    numbers = (
+        _of("power", hover_induced=hover.induced, cruise_induced=cruise.induced, least_power=powers[low].total)
+        | _of("percent", induced_ratio=ratio)
+        | _of("mu", cruise_mu=0.3, least_mu=values[low])
+    )
+    return flight.facts(numbers, ratio, chart, totals)
 
 
 def _hover_twist(step: LectureStep) -> Facts:
@@ -153,18 +151,17 @@ def _hover_twist(step: LectureStep) -> Facts:
     elastic = b.disk.elastic_twist
     assert elastic is not None
     saving = 1.0 - b.power.induced / a.power.induced
-    numbers = {
-        **_named(step, a, b), "induced_saving": Number("percent", saving),
-        "elastic": Number("angle", float(np.degrees(np.mean(elastic[0] - elastic[-1])))),
-        "best": Number("angle", least(_BUILT, 0.0, None).rate_deg),
-        "best_rigid": Number("angle", least(rigid, 0.0, None).rate_deg),
-    }  # fmt: skip
+    numbers = (
+        _named(step, a, b)
+        | _of("percent", induced_saving=saving)
+        | _of("angle", elastic=float(np.degrees(np.mean(elastic[0] - elastic[-1]))))
+        | _of("angle", best=least(_BUILT, 0.0, None).rate_deg, best_rigid=least(rigid, 0.0, None).rate_deg)
+    )
     totals = tuple(solution.power.total for solution in blades.b)
-    chart = StepChart(
-        "twist [°/R]", "total power", "power", step.control.values, "rate",
-        (ChartLine("A", "a", (a.power.total,) * len(totals)), ChartLine("B", "b", totals)),
-    )  # fmt: skip
-    return blades.facts(numbers, saving, chart, (a.power.total,) * len(totals), totals)
+    level = (a.power.total,) * len(totals)
+    lines = ChartLine("A", "a", level), ChartLine("B", "b", totals)
+    chart = StepChart("twist [°/R]", "total power", "power", step.control.values, "rate", lines)
+    return blades.facts(numbers, saving, chart, level, totals)
 
 
 def _changes(step: LectureStep) -> Facts:
@@ -178,13 +175,11 @@ def _changes(step: LectureStep) -> Facts:
         )
         for name in ("induced", "profile")
     )
-    chart = StepChart(
-        "twist [°/R]", "B − A", "power", step.control.values, "rate",
-        (ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)),
-    )  # fmt: skip
+    lines = ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)
+    chart = StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
     by_induced, by_profile = (getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile"))
     part = by_induced / (b.power.total - a.power.total)
-    numbers = {**_named(step, a, b), "induced_part": Number("percent", part)}
+    numbers = _named(step, a, b) | _of("percent", induced_part=part)
     answer = abs(by_induced) / abs(by_profile) if step.name == "linear_inflow" else part
     return blades.facts(numbers, answer, chart, induced, profile)
 
@@ -192,7 +187,7 @@ def _changes(step: LectureStep) -> Facts:
 def _fast_twist(step: LectureStep) -> Facts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
-    rates = tuple(float(rate) for rate in range(0, -21, -2))
+    rates, own = tuple(float(rate) for rate in range(0, -21, -2)), (_against(step).linear, step.inputs.linear)
     lines, dots = list[ChartLine](), list[list[tuple[float, float]]]()
     for k, (stop, name) in enumerate(zip(blades.stops, ("with fuselage drag", "without"), strict=True)):
         totals = [
@@ -201,10 +196,7 @@ def _fast_twist(step: LectureStep) -> Facts:
         ends = [solution.power.total for solution in (blades.a[k], blades.b[k])]
         lowest = min(*totals, *ends)
         lines.append(ChartLine(name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)))
-        dots.append([
-            (rate, total / lowest - 1.0)
-            for rate, total in zip((_against(step).linear, step.inputs.linear), ends, strict=True)
-        ])  # fmt: skip
+        dots.append([(rate, total / lowest - 1.0) for rate, total in zip(own, ends, strict=True)])
     chart = StepChart("twist [°/R]", "above least", "percent", rates, "rate", tuple(lines), dots=("a", "b"))
     fast = step.inputs.advance_ratio
 
@@ -212,14 +204,13 @@ def _fast_twist(step: LectureStep) -> Facts:
         return least(tuple(on), fast, None).rate_deg
 
     before = _BUILT[: _BUILT.index(TRIM[0])]
-    moves = sorted(abs(move) for move in (
-        rate((*before, *TRIM)) - rate(before), rate(TRIM) - rate(()),
-        rate(_BUILT) - rate([name for name in _BUILT if name not in TRIM]),
-    ))  # fmt: skip
-    numbers = {
-        **_named(step, a, b), "trim_low": Number("angle", moves[0]), "trim_high": Number("angle", moves[-1]),
-        "without_drag": Number("fine", 1.0 - without[0].power.total / without[1].power.total),
-    }  # fmt: skip
+    pairs = (before, (*before, *TRIM)), ((), TRIM), ([name for name in _BUILT if name not in TRIM], _BUILT)
+    moves = sorted(abs(rate(trimmed) - rate(untrimmed)) for untrimmed, trimmed in pairs)
+    numbers = (
+        _named(step, a, b)
+        | _of("angle", trim_low=moves[0], trim_high=moves[-1])
+        | _of("fine", without_drag=1.0 - without[0].power.total / without[1].power.total)
+    )
     facts = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
     stops = tuple(replace(stop, dots=tuple(at)) for stop, at in zip(facts.stops, dots, strict=True))
     return replace(facts, stops=stops)
@@ -230,16 +221,16 @@ def _reverse_flow(step: LectureStep) -> Facts:
     a, b = flight.pair
     costs = tuple(solution.power.total - other.power.total for solution, other in zip(flight.b, flight.a, strict=True))
     slow = step.control.values.index(0.25)
-    numbers = {
-        **_named(step, a, b), "area": Number("percent", b.reverse_flow_area),
-        "cost": Number("power", b.power.total - a.power.total),
-        "cost_percent": Number("percent", b.power.total / a.power.total - 1.0),
-        "slow_mu": Number("mu", step.control.values[slow]), "slow_cost": Number("power", costs[slow]),
-    }  # fmt: skip
-    chart = StepChart(
-        "advance ratio", "cost", "power", step.control.values, "mu", (ChartLine("cost, B − A", "b", costs),)
-    )  # fmt: skip
-    return flight.facts(numbers, b.power.total / a.power.total - 1.0, chart, costs)
+    share = b.power.total / a.power.total - 1.0
+    numbers = (
+        _named(step, a, b)
+        | _of("percent", area=b.reverse_flow_area, cost_percent=share)
+        | _of("power", cost=b.power.total - a.power.total, slow_cost=costs[slow])
+        | _of("mu", slow_mu=step.control.values[slow])
+    )
+    lines = (ChartLine("cost, B − A", "b", costs),)
+    chart = StepChart("advance ratio", "cost", "power", step.control.values, "mu", lines)
+    return flight.facts(numbers, share, chart, costs)
 
 
 def _two_segments(step: LectureStep) -> Facts:
@@ -252,19 +243,17 @@ def _two_segments(step: LectureStep) -> Facts:
         if solution.power.total < (1.0 + _FLAT) * min(other.power.total for other in blades.b)
     ]
     inputs = step.begin()
-    numbers = {
-        **_named(step, a, b), "break": Number("percent", inputs.two_division),
-        "twist_inner": Number("words", 0.0, angle_words(inputs.two_inner)),
-        "twist_outer": Number("words", 0.0, angle_words(inputs.two_outer)),
-        "twist_a": Number("words", 0.0, angle_words(_against(step).linear)),
-        "flat": Number("percent", _FLAT),
-        "flat_low": Number("angle", min(flat)), "flat_high": Number("angle", max(flat)),
-    }  # fmt: skip
-    chart = StepChart(
-        "inboard twist [°/R]", "against A", "percent", step.control.values, "rate",
-        (ChartLine("A", "a", (0.0,) * len(changes)), ChartLine("B", "b", changes)),
-    )  # fmt: skip
-    return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, (0.0,) * len(changes), changes)
+    numbers = (
+        _named(step, a, b)
+        | _of("percent", flat=_FLAT, **{"break": inputs.two_division})
+        | _said(twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer))
+        | _said(twist_a=angle_words(_against(step).linear))
+        | _of("angle", flat_low=min(flat), flat_high=max(flat))
+    )
+    level = (0.0,) * len(changes)
+    lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
+    chart = StepChart("inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines)
+    return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, level, changes)
 
 
 def _fixed_or_moving(step: LectureStep) -> Facts:
@@ -275,30 +264,26 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
     assert isinstance(baseline, LinearTwist)
     fixed, rates = round(moving.fixed_deg, 2), tuple(round(twist.rate_deg, 2) for twist in best)
     low, high = zip(*(twist.band_deg for twist in best), strict=True)
-    stops = tuple(
-        Stop(
-            f"{speed_words(mu)}, {angle_words(rate)}", replace(step.inputs, advance_ratio=mu, linear=rate),
-            replace(step.inputs, advance_ratio=mu, linear=fixed), ((mu, fixed), (mu, rate)),
-        )
-        for mu, rate in zip(SPEEDS, rates, strict=True)
-    )  # fmt: skip
-    numbers = {
-        "hover_best": Number("angle", rates[0]), "fast_best": Number("angle", rates[-1]),
-        "fast_mu": Number("mu", SPEEDS[-1]), "fixed": Number("words", 0.0, angle_words(round(fixed, 1))),
-        "gain": Number("fine", moving.gain), "gain_low": Number("fine", min(gains)),
-        "gain_high": Number("fine", max(gains)), "wakes": Number("count", len(gains)),
-        "gain_power": Number("power", 1e3 * moving.gain * moving.fixed_kw),
-        "fixed_power": Number("power", 1e3 * moving.fixed_kw), "band": Number("percent", _FLAT),
-        "inside": Number("count", sum(a <= fixed <= b for a, b in zip(low, high, strict=True))),
-        "speeds": Number("count", len(SPEEDS)),
-        "fixed_saving": Number("fine", 1.0 - moving.fixed_kw / moving.baseline_kw),
-        "baseline": Number("words", 0.0, f"a fixed {angle_words(round(math.degrees(baseline.rate), 1))}"),
-    }  # fmt: skip
-    chart = StepChart(
-        "advance ratio", "twist [°/R]", "angle", SPEEDS, "mu",
-        (ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)),
-        (low, high),
-    )  # fmt: skip
+
+    def stop(mu: float, rate: float) -> Stop:
+        b, a = (replace(step.inputs, advance_ratio=mu, linear=twist) for twist in (rate, fixed))
+        return Stop(f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate)))
+
+    stops = tuple(map(stop, SPEEDS, rates))
+    inside = sum(a <= fixed <= b for a, b in zip(low, high, strict=True))
+    numbers = (
+        _of("angle", hover_best=rates[0], fast_best=rates[-1])
+        | _of("mu", fast_mu=SPEEDS[-1])
+        | _of("fine", gain=moving.gain, gain_low=min(gains), gain_high=max(gains))
+        | _of("fine", fixed_saving=1.0 - moving.fixed_kw / moving.baseline_kw)
+        | _of("count", wakes=len(gains), inside=inside, speeds=len(SPEEDS))
+        | _of("power", gain_power=1e3 * moving.gain * moving.fixed_kw, fixed_power=1e3 * moving.fixed_kw)
+        | _of("percent", band=_FLAT)
+        | _said(fixed=angle_words(round(fixed, 1)))
+        | _said(baseline=f"a fixed {angle_words(round(math.degrees(baseline.rate), 1))}")
+    )
+    lines = ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)
+    chart = StepChart("advance ratio", "twist [°/R]", "angle", SPEEDS, "mu", lines, (low, high))
     return _answered(step, stops, numbers, moving.gain, chart)
 
 
@@ -312,19 +297,17 @@ def _power_or_vibration(step: LectureStep) -> Facts:
         inputs = replace(step.inputs, twist_per_rev=waves)
         stops.append(Stop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
     last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
-    numbers = {
-        **_named(step, None, None), "harmonics": Number("words", 0.0, " and ".join(map(str, _HARMONICS))),
-        "reach": Number("words", 0.0, f"{_REACH:g}°"),
-        "blades": Number("count", last.design.rotor.blades),
-        "power_saving": Number("fine", -changes[0][0]), "index_change": Number("signed", changes[0][1]),
-        "best_index": Number("signed", changes[-1][1]), "power_cost": Number("fine", changes[-1][0]),
-        "wakes_low": Number("signed", 0.01 * ends[0]), "wakes_high": Number("signed", 0.01 * ends[1]),
-    }  # fmt: skip
     powers, indices = zip(*changes, strict=True)
-    chart = StepChart(
-        "power, change from A", "vibration index, change from A", "percent", powers, "signed",
-        (ChartLine("front", "b", indices),),
-    )  # fmt: skip
+    numbers = (
+        _named(step, None, None)
+        | _said(harmonics=" and ".join(map(str, _HARMONICS)), reach=f"{_REACH:g}°")
+        | _of("count", blades=last.design.rotor.blades)
+        | _of("fine", power_saving=-powers[0], power_cost=powers[-1])
+        | _of("signed", index_change=indices[0], best_index=indices[-1])
+        | _of("signed", wakes_low=0.01 * ends[0], wakes_high=0.01 * ends[1])
+    )
+    lines, across = (ChartLine("front", "b", indices),), "power, change from A"
+    chart = StepChart(across, "vibration index, change from A", "percent", powers, "signed", lines)
     return _answered(step, tuple(stops), numbers, changes[0][1], chart)
 
 
@@ -335,28 +318,32 @@ def _piezoelectric_ply(step: LectureStep) -> Facts:
     span = 1.0 - flight.b[0].design.rotor.blade.root_cutout
     wanted = tuple((rate - best[0]) * span for rate in best)
     reach = math.degrees(verdict.attainable)
-    numbers = {
-        "actuator": Number("words", 0.0, verdict.installed.actuator.name),
-        "to_mu": Number("mu", verdict.baseline.pair.advance_ratios[1]),
-        "required": Number("angle", math.degrees(verdict.required)), "attainable": Number("angle", reach),
-        "gross": Number("power", verdict.gross_saving), "net_cost": Number("power", -verdict.net_saving),
-        "net": Number("change", -verdict.net_saving),
-        "mass": Number("mass", verdict.installed.masses.aircraft),
-    }  # fmt: skip
-    chart = StepChart(
-        "advance ratio", "change of twist [°]", "angle", SPEEDS, "mu",
-        (ChartLine("reach", "limit", (reach,) * len(SPEEDS)), ChartLine("wanted", "b", wanted)),
-        ((0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)),
-    )  # fmt: skip
-    return flight.facts(numbers, verdict.net_saving, chart, (reach,) * len(SPEEDS), wanted)
+    numbers = (
+        _said(actuator=verdict.installed.actuator.name)
+        | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1])
+        | _of("angle", required=math.degrees(verdict.required), attainable=reach)
+        | _of("power", gross=verdict.gross_saving, net_cost=-verdict.net_saving)
+        | _of("change", net=-verdict.net_saving)
+        | _of("mass", mass=verdict.installed.masses.aircraft)
+    )
+    none, level = (0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)
+    lines = ChartLine("reach", "limit", level), ChartLine("wanted", "b", wanted)
+    chart = StepChart("advance ratio", "change of twist [°]", "angle", SPEEDS, "mu", lines, (none, level))
+    return flight.facts(numbers, verdict.net_saving, chart, level, wanted)
 
 
 _FINDERS: dict[str, Callable[[LectureStep], Facts]] = {
-    "trim": _trim, "hover_twist": _hover_twist, "linear_inflow": _changes, "responding_wake": _changes,
-    "fast_twist": _fast_twist, "reverse_flow": _reverse_flow, "two_segments": _two_segments,
-    "fixed_or_moving": _fixed_or_moving, "power_or_vibration": _power_or_vibration,
+    "trim": _trim,
+    "hover_twist": _hover_twist,
+    "linear_inflow": _changes,
+    "responding_wake": _changes,
+    "fast_twist": _fast_twist,
+    "reverse_flow": _reverse_flow,
+    "two_segments": _two_segments,
+    "fixed_or_moving": _fixed_or_moving,
+    "power_or_vibration": _power_or_vibration,
     "piezoelectric_ply": _piezoelectric_ply,
-}  # fmt: skip
+}
 """By name of the step."""
 
 
@@ -371,7 +358,7 @@ class _Sweep:
         self.stops = tuple(
             Stop(control.words(value), inputs, other, ())
             for value, inputs, other in zip(control.values, b, a, strict=True)
-        )  # fmt: skip
+        )
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
 
     @property
@@ -413,20 +400,27 @@ def _answered(
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:
     """What most texts name: the flight, the twists, powers of A and B and their differences."""
     inputs = step.begin()
-    numbers = {"mu": Number("mu", inputs.advance_ratio), "twist_b": Number("angle", inputs.linear)}
+    numbers = _of("mu", mu=inputs.advance_ratio) | _of("angle", twist_b=inputs.linear)
     if step.against is not None:
-        numbers["twist_a"] = Number("angle", step.against.linear)
+        numbers |= _of("angle", twist_a=step.against.linear)
     if a is None or b is None:
         return numbers
-    parts = ("total", "induced", "profile")
-    return {
-        **numbers,
-        **{f"{name}_a": Number("power", getattr(a.power, name)) for name in parts},
-        **{f"{name}_b": Number("power", getattr(b.power, name)) for name in parts},
-        **{f"{name}_change": Number("change", getattr(b.power, name) - getattr(a.power, name)) for name in parts},
-        "saving": Number("power", a.power.total - b.power.total),
-        "saving_percent": Number("fine", 1.0 - b.power.total / a.power.total),
-    }
+    for name in ("total", "induced", "profile"):
+        of_a, of_b = getattr(a.power, name), getattr(b.power, name)
+        numbers |= _of("power", **{f"{name}_a": of_a, f"{name}_b": of_b})
+        numbers |= _of("change", **{f"{name}_change": of_b - of_a})
+    numbers |= _of("power", saving=a.power.total - b.power.total)
+    return numbers | _of("fine", saving_percent=1.0 - b.power.total / a.power.total)
+
+
+def _of(kind: Kind, **values: float) -> dict[str, Number]:
+    """Numbers of one kind by the names that the text has for them."""
+    return {name: Number(kind, value) for name, value in values.items()}
+
+
+def _said(**texts: str) -> dict[str, Number]:
+    """Facts that are words."""
+    return {name: Number("words", 0.0, text) for name, text in texts.items()}
 
 
 def _against(step: LectureStep) -> Inputs:

@@ -114,7 +114,7 @@ class LectureStep:
 def view_of(step: LectureStep, view: ViewState) -> ViewState:
     """What is shown at a step: A and B on either side of a handle where they are compared."""
     compared = step.against is not None
-    return replace(view, field=step.field, difference=False, beside=False, wipe=compared, reverse_flow=True, stall=True)
+    return replace(view, field=step.field, difference=False, wipe=compared, reverse_flow=True, stall=True)
 
 
 def beside(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | None:

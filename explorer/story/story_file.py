@@ -87,11 +87,12 @@ def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
     wide = 100.0 if chart.x_kind == "signed" else 1.0
     x = [wide * value for value in chart.x]
     names = {line.name: "" if len(chart.lines) < 2 else line.name for line in chart.lines}
-    series: list[Series] = [
-        Line(names[line.name], x, [math.nan if y is None else y / size for y in line.y], _colour(line.colour),
-             line.colour in ("a", "limit"), 2.4, dots=len(x) < 7 and len(chart.lines) == 1)
-        for line in chart.lines
-    ]  # fmt: skip
+    dots = len(x) < 7 and len(chart.lines) == 1
+    series = list[Series]()
+    for line in chart.lines:
+        y = [math.nan if value is None else value / size for value in line.y]
+        dashed = line.colour in ("a", "limit")
+        series.append(Line(names[line.name], x, y, _colour(line.colour), dashed, 2.4, dots=dots))
     if chart.band is not None:
         low, high = ([y / size for y in edge] for edge in chart.band)
         series.insert(0, Band("", x, low, high, _colour("accent")))

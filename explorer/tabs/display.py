@@ -17,8 +17,6 @@ from rotor.chart import bar_ticks
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
-COMPARED = ("beside", "wipe")
-"""Fields of `ViewState` that a press switches while there is an A; one at a time."""
 TIMES = (1.0, 2.0, 4.0)
 """How many times its twist a blade may be drawn with."""
 _COLOURS = 17
@@ -120,9 +118,8 @@ class Display:
         self._changed()
 
     def _switch_region(self, name: str) -> None:
-        if name in REGIONS or (name in COMPARED and self._allowed):
-            others = [other for other in COMPARED if name in COMPARED and other != name]
-            self._change(**dict.fromkeys(others, False), **{name: not getattr(self._view, name)})
+        if name in REGIONS or (name == "wipe" and self._allowed):
+            self._change(**{name: not getattr(self._view, name)})
 
     def _next_times(self) -> None:
         later = [times for times in TIMES if times > self._view.exaggeration]
@@ -157,7 +154,6 @@ class Display:
                 "regions": {name: getattr(view, name) for name in REGIONS},
                 "stalled": self._stalled,
                 "difference": view.difference if self._allowed else None,
-                "beside": view.beside,
                 "wipe": view.wipe,
                 "beyond": list(self._beyond),
                 "held": self._held,

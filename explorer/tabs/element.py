@@ -260,9 +260,9 @@ def outline(section: Blend) -> Array:
 
 def where(psi: float) -> str:
     """What an azimuth [rad] is called."""
-    names = ("over the tail", "aft, advancing", "advancing side", "ahead, advancing",
-             "over the nose", "ahead, retreating", "retreating side", "aft, retreating")  # fmt: skip
-    return names[round(math.degrees(psi) / 45.0) % 8]
+    advancing = "over the tail", "aft, advancing", "advancing side", "ahead, advancing"
+    retreating = "over the nose", "ahead, retreating", "retreating side", "aft, retreating"
+    return (*advancing, *retreating)[round(math.degrees(psi) / 45.0) % 8]
 
 
 def sections_of(section: Blend) -> str:

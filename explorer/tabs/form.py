@@ -81,9 +81,15 @@ class Form:
         self._add(name, self._gui.add_multi_slider, label, *ends, 0.01, value, min_range=least, entry=entry)
 
     def menu(
-        self, name: str, label: str, titles: Mapping[Any, str], value: Any = None, *, entry: str = "",
+        self,
+        name: str,
+        label: str,
+        titles: Mapping[Any, str],
+        value: Any = None,
+        *,
+        entry: str = "",
         visible: bool = True,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """`titles`: by what they mean; `value`: the meaning that is chosen first, by default the first."""
         self._titles[name] = titles
         first = next(iter(titles.values())) if value is None else titles[value]

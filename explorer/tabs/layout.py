@@ -109,21 +109,13 @@ class Layout:
 class Sections:
     """Parts of a rail or a drawer of which one is shown, with a row of buttons above them."""
 
-    def __init__(
-        self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...],
-        changed: Callable[[], None] | None = None,
-    ) -> None:  # fmt: skip
-        """`name`: of the row in the frame; no other has it. `changed` is called after another part is shown."""
-        self._name, self._now, self._changed = name, titles[0], changed
+    def __init__(self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...]) -> None:
+        """`name`: of the row in the frame; no other has it."""
+        self._name, self._now = name, titles[0]
         self._row = gui.add_html("")
         self._parts = {title: gui.add_folder(None, visible=title == self._now) for title in titles}
         bridge.on(name, self.show)
         self._draw()
-
-    @property
-    def now(self) -> str:
-        """The part that is shown."""
-        return self._now
 
     def __getitem__(self, title: str) -> viser.GuiFolderHandle:
         """Where the widgets of a part go, as a context."""
@@ -136,8 +128,6 @@ class Sections:
             self._now = title
             self._parts[title].visible = True
             self._draw()
-            if self._changed is not None:
-                self._changed()
 
     def _draw(self) -> None:
         buttons = [
@@ -152,9 +142,16 @@ COARSE = 10
 """Steps that Shift and an arrow, or Page up and down, move a slider or the probe at once."""
 
 _SHOWN = {
-    "arrowup": "↑", "arrowdown": "↓", "arrowleft": "←", "arrowright": "→", "space": "Space",
-    "pageup": "Page up", "pagedown": "Page down", "shift": "Shift", "cmd/ctrl": "Ctrl",
-}  # fmt: skip
+    "arrowup": "↑",
+    "arrowdown": "↓",
+    "arrowleft": "←",
+    "arrowright": "→",
+    "space": "Space",
+    "pageup": "Page up",
+    "pagedown": "Page down",
+    "shift": "Shift",
+    "cmd/ctrl": "Ctrl",
+}
 
 
 @dataclass(frozen=True)

@@ -36,14 +36,14 @@ def chart_box(chart: Chart, height: float = 94.0) -> Markup:
 class PanelChart:
     """A chart in a panel; nothing until it is shown one."""
 
-    def __init__(self, gui: viser.GuiApi, height: float = 94.0) -> None:
-        self._html, self._height = gui.add_html(""), height
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._html = gui.add_html("")
         self._chart: Chart | None = None
 
     def show(self, chart: Chart | None) -> None:
         """None: no chart."""
         self._chart = chart
-        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart, self._height))
+        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart))
 
     @property
     def y_range(self) -> Range | None:
@@ -51,7 +51,6 @@ class PanelChart:
         return None if self._chart is None else self._chart.y.range
 
 
-_BESIDE_STARTS = ("power", "lift")
 _ORDER = ("power", "alpha", "lift")
 _VIBRATION = "vibration"
 """Takes the place of the lift where blades bend."""
@@ -71,7 +70,6 @@ class ChartStrip:
         self._faded = self._pinned = False
         self._plain = False
         """Whether power over µ shows the power itself."""
-        self._starts: Chart | None = None
         self._measured = MeasuredChart()
         self._flown = FlownPowers()
         self._power: tuple[SessionState, PowerCurve, bool] | None = None
@@ -166,12 +164,6 @@ class ChartStrip:
         """The axis of that chart, to be held, and what its reference is."""
         return self._held(_VIBRATION), self._compared
 
-    def show_starts(self, chart: Chart | None) -> None:
-        """The starts of a search in place of the charts along the blade; None: those again."""
-        if chart is not None or self._starts is not None:
-            self._starts = chart
-            self._send()
-
     def fade(self) -> None:
         self._faded = True
         self._send()
@@ -181,7 +173,7 @@ class ChartStrip:
         return None if chart is None else chart.y.range
 
     def _names(self) -> tuple[str, ...]:
-        names = _ORDER if self._starts is None else _BESIDE_STARTS
+        names = _ORDER
         if _VIBRATION in self._charts:
             names = ("power", _VIBRATION, *(name for name in names[1:] if name != "lift"))
         return (_MEASURED, *names[1:]) if _MEASURED in self._charts else names
@@ -193,8 +185,6 @@ class ChartStrip:
             for name in self._names()
             if name in self._charts
         ]
-        if self._starts is not None:
-            charts.insert(0, {**as_json(self._starts), "name": "starts", "wide": True})
         self._bridge.set(strip=charts)
 
 

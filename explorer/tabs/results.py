@@ -16,7 +16,6 @@ from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivit
 from explorer.model.undo import PowerTracker
 from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.picture.blade_mesh import inset
-from explorer.picture.camera_views import LETTER_SIZE
 from explorer.picture.picture import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.background import Call, PoolAnswers
@@ -94,9 +93,13 @@ def sensitivity_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units
     )
     size = abs(sensitivity.watts())
     return {
-        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": sensitivity.unit_text(units),
-        "size": round(size / (size + _HALF), 3), "sentence": sentence,
-    }  # fmt: skip
+        "at": round(min(max(at, 0.0), 1.0), 4),
+        "way": way,
+        "value": value,
+        "unit": sensitivity.unit_text(units),
+        "size": round(size / (size + _HALF), 3),
+        "sentence": sentence,
+    }
 
 
 _NOTICEABLE = 0.05
@@ -186,18 +189,6 @@ class PowerCard:
         return {"since": since, "rest": "", "why": why(before, solution, units)}
 
 
-def beside_labels(state: SessionState) -> list[dict[str, Any]]:
-    """Power at the letters of A and B where the two rotors stand beside each other; empty elsewhere."""
-    a, b, units = state.pinned, state.solution, UNITS[state.view.units]
-    if a is None or not (state.view.beside and a.converged):
-        return []
-    digits = fineness(b.power)
-    change = units.watts(b.power.total - a.power.total, digits, sign=True)
-    words = (f"A {units.watts(a.power.total, digits)}", f"B {units.watts(b.power.total, digits)} ({change})")
-    aft = 0.5 * LETTER_SIZE * b.design.rotor.radius  # The edge of the letter that is nearest to the reader.
-    return [{"text": text, "node": f"/letter_{text[0]}", "at": [aft, 0.0, 0.0], "below": True} for text in words]
-
-
 def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
@@ -268,9 +259,14 @@ def _kind(change: float, total: float) -> str:
 _NO_DOUBT: dict[str, Any] = {"within": "", "change_within": "", "sure": "", "doubt": ""}
 _EMPTY: dict[str, Any] = {
     **_NO_DOUBT,
-    "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
-    "ideal_title": "", "since": None, "rest": "", "why": "", "band": "",
-}  # fmt: skip
+    **dict.fromkeys(("kind", "ideal_title", "rest", "why", "band"), ""),
+    **dict.fromkeys(("ideal", "since")),
+    "total": "–",
+    "unit": "kW",
+    "change": "–",
+    "against": "as built",
+    "parts": [],
+}
 
 
 class ResultsPanel:

@@ -163,14 +163,13 @@ class VibrationPanel:
         if state is None or not state.solution.design.models.bending:
             return
         design, labels = state.solution.design, list[dict[str, Any]]()
-        beside = state.view.beside and state.pinned is not None
         if deflections(state.solution) is not None:
             tip = [1.04 * (1.0 - design.rotor.blade.flap_hinge) * design.rotor.radius, 0.0, 0.0]
             title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
             text = f"bending × {BENDING_SHOWN:g}"
             labels.append({"text": text, "node": f"{ROTOR}/blade_0", "at": tip, "title": title})
         loads = self._loads.get(state.solution)
-        if loads is None or beside:
+        if loads is None:
             self._scene.hub_loads.hide()
         else:
             psi, theme = math.radians(state.view.azimuth_deg), scene_theme(state.view.dark)

@@ -166,12 +166,8 @@ class SceneViews:
         """The camera's subject while the blade is lifted out."""
         self._planned: tuple[object, ...] | None = None
         """What the page's plan of the disk shows at rest."""
-        self._instead = False
-        """Whether something else than the rotor stands in the stage."""
         self.before: Solution | None = None
         """The answer when the blade was taken into the hand, while it is seen from the tip with the plan beside it."""
-        self.leave_landscape: Callable[[], None] = lambda: None
-        """Called when a view of the rotor is asked for."""
         context.bridge.on("view", self.look)
         context.bridge.on("colours", self._colour)
         context.layout.watchers.append(self._mode_changed)
@@ -188,49 +184,24 @@ class SceneViews:
             return
         self._lift(False, view)
         self._view = view
-        if self._instead:
-            self._show()
-            self.leave_landscape()
-            return
         if view != "disk":
             self._hide_plan()
         self._scene.look(view)
         self._show()
         self._context.wake()
 
-    def give_way(self, fitted: Callable[[float], Camera]) -> None:
-        """Something else takes the place of the rotor; the camera goes there."""
-        self._instead = True
-        self._hide_plan()
-        self._see(False)
-        if self._scene.camera is not None:
-            self._scene.camera.aim_with(fitted, eased=True)
-        self._show()
-
-    def come_back(self) -> None:
-        """The rotor, or the lifted blade, again."""
-        self._instead = False
-        self._see(True)
-        if not self._actuator.lifted:
-            self._scene.look(self._view, eased=True)
-        self._show()
-
-    def _see(self, seen: bool) -> None:
-        self._scene.set_seen(seen)
-        self._probe.set_seen(seen and not self._actuator.lifted)
-
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
-        """The disk from above, drawn by the page itself; two rotors, side by side or wiped, stay in the scene."""
+        """The disk from above, drawn by the page itself; two rotors that are wiped stay in the scene."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
         self._show()  # Another rotor may carry an actuator, or not.
-        before, other = self.before, self._instead or self._actuator.lifted or self.before is not None
+        before, other = self.before, self._actuator.lifted or self.before is not None
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
         if before is not None:
             view = replace(view, stall=True, reverse_flow=True, drag_divergence=False)
-        elif self._view != "disk" or other or ((view.beside or view.wipe) and pinned is not None):
+        elif self._view != "disk" or other or (view.wipe and pinned is not None):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
@@ -279,5 +250,5 @@ class SceneViews:
     def _show(self) -> None:
         lifted, on_stage = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
         views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
-        now = "actuator" if lifted else "" if self._instead else self._view
+        now = "actuator" if lifted else self._view
         self._context.bridge.set(views={"all": views, "now": now})

@@ -73,7 +73,7 @@
     fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
     fit.textContent = now.fitted ? 'Reset' : 'Fit';
     fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
-    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="beside" aria-pressed="${now.beside}">A beside B</button><button data-do="region" data-value="wipe" aria-pressed="${now.wipe}">Wipe A | B</button>`;
+    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="wipe" aria-pressed="${now.wipe}">Wipe A | B</button>`;
     // The plan draws outlines, and each region has its own share there.
     const shares = RX.state.plan && Object.fromEntries(RX.state.plan.regions.map(one => [one.name, one.words.split(' · ')[0]]));
     const entries = shares ? PLANNED.filter(([name]) => name !== 'negative_stall' || name in shares) : Object.entries(REGIONS).map(([name, [title, swatch]]) => [name, title, swatch]);

@@ -2,11 +2,11 @@
 (() => {
   const {text, part} = RX;
   // Where a chart is so narrow that its heading would be cut.
-  const SHORT = {starts: 'Starts', power: 'Power', vibration: 'Vibration', alpha: 'α'};
+  const SHORT = {power: 'Power', vibration: 'Vibration', alpha: 'α'};
   function chart(element, one) {
     const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260), {y} = one;
     element.toggleAttribute('data-faded', Boolean(one.faded));
-    const short = {...one, title: SHORT[one.name] || one.title, y: {...y, label: y.label.replace(/ over designs tried|^both /, '')}};
+    const short = {...one, title: SHORT[one.name] || one.title, y: {...y, label: y.label.replace(/^both /, '')}};
     Charts.fill(element, tight ? short : one, {width, height: Math.max(element.clientHeight - 38, 40)});
     const {place} = element.drawn, power = one.speeds && one.series.at(-1).y[0];
     if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend', `<circle cx="${place.X(one.speeds.mu)}" cy="${place.Y(power)}" r="11" data-speed><title>Drag: speed. Double click: the fastest trim</title></circle>`);
@@ -43,7 +43,6 @@
     while (strip.children.length > all.length) strip.lastChild.remove();
     while (strip.children.length < all.length) strip.append(Object.assign(document.createElement('div'), {className: 'rxf-chart'}));
     if (strip.offsetParent === null && !strip.offsetHeight) return;
-    all.forEach((one, k) => strip.children[k].toggleAttribute('data-wide', Boolean(one?.wide)));  // Before any is measured.
     all.forEach((one, k) => { if (one) { strip.children[k].dataset.name = one.name; chart(strip.children[k], one); } });
   });
 

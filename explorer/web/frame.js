@@ -248,7 +248,7 @@
     telling = setTimeout(() => {
       const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
       if (!stage.height) return;
-      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width).concat(seen('.rxs-wipe > span') ?? []);
+      const wide = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxs-figures'].map(seen).filter(box => box && box.width > 0.28 * stage.width).concat(seen('.rxs-wipe > span') ?? []);
       const high = wide.filter(box => box.top <= stage.top + stage.height / 3), low = wide.filter(box => !high.includes(box)), notice = seen('.rxf-notice');
       if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
       const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
@@ -257,7 +257,7 @@
     }, page.classList.contains('rx-veiled') ? 0 : 120);  // Below the veil at once, so that the camera stands when it lifts.
   }
   RX.also('vibration', tellCover);
-  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxl-card', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-notice', '.rxs-figures']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   // The card of power grows with its words: what stands below it follows.
   new ResizeObserver(() => {
     const card = root.querySelector('.rxf-power');
@@ -266,7 +266,7 @@
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));  // Drawn for their size; the plan hides them.
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['lifted_labels', 'probe_label', 'beside_labels', 'hub_labels', 'landscape_labels'];
+  const LABELS = ['lifted_labels', 'probe_label', 'hub_labels'];
   const LABEL_SHIFT = 60;  // [px]
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
@@ -288,7 +288,7 @@
       for (let above = node; above; above = above.parent) seen &&= above.visible;
       if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
-      let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
+      let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
       if (one.aside) {  // Beside its point, away from what it belongs to.
         const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
         left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);

@@ -25,6 +25,14 @@
     type(label, value);
   });
 
+  // A click on the map of power tells its place, 0…1 from the left and from below.
+  document.addEventListener('click', event => {
+    const map = event.target instanceof Element && event.target.closest('[data-map]');
+    if (!map) return;
+    const box = map.getBoundingClientRect();
+    RX.send('map_at', [(event.clientX - box.left) / box.width, (box.bottom - event.clientY) / box.height].map(part => Charts.clamp(part, 0, 1)));
+  });
+
   Object.assign(RX, {
     // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep, which a
     // duplicated tab has too, and a name that it does not share. A page that was open before, and whose server has come

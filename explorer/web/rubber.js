@@ -247,17 +247,15 @@
       let mesh = null;
       nodes[name]?.traverse(one => { if (one.isMesh && !one.isLineSegments2) mesh ??= one; });
       const [hit] = mesh && lies(mesh) ? ray.intersectObject(mesh, false) : [];
-      return hit && {name, mesh, uv: hit.uv, at: hit.point, far: hit.distance};
+      return hit && {name, mesh, uv: hit.uv, far: hit.distance};
     };
     const hits = ['/lifted/skin', ...Array.from({length: 8}, (_, k) => `/rotor/blade_${k}`)].map(meet).filter(Boolean).sort((a, b) => a.far - b.far);
-    const below = hits.length ? null : meet('/landscape/surface') ?? meet('/rotor/disk/field');
-    if (below && !below.name.startsWith('/rotor')) return {...below, name: 'landscape'};
+    const below = hits.length ? null : meet('/rotor/disk/field');
     return hits[0] ?? (below && Math.hypot(below.uv.x - .5, below.uv.y - .5) < .5 ? {name: 'disk'} : {name: ''});
   }
   function aim(at) {
     const now = at ? find(at) : {name: ''}, kind = /blade_0|lifted/.test(now.name) ? 'grab' : now.name ? 'crosshair' : 'move';
     viewer().canvas.style.cursor = at ? kind : '';
-    if (now.name === 'landscape') now.mesh = null;
     if (now.mesh === met) return;
     for (const [mesh, share] of [[met, 0], [met = now.mesh, .28]]) mesh?.material.emissive?.copy(mesh.material.color).multiplyScalar(share);
     viewer().requestRender?.();
@@ -268,16 +266,6 @@
     over = free ? event : null;
     due ||= requestAnimationFrame(() => { due = 0; aim(over); });
   }, {passive: true});
-  // A click on the landscape takes the design there.
-  addEventListener('click', event => {
-    const on = page.hasAttribute('data-landscape') && viewer()?.canvas?.contains(event.target) && !turned(event) ? find(event) : null;
-    if (on?.name !== 'landscape') return;
-    const {mesh, at} = on, {min, max} = mesh.geometry.boundingBox ?? (mesh.geometry.computeBoundingBox(), mesh.geometry.boundingBox), point = mesh.worldToLocal(at.clone());
-    RX.send('land_at', [(point.x - min.x) / (max.x - min.x), (point.y - min.y) / (max.y - min.y)]);
-  });
-  let pressedAt = [0, 0];
-  const turned = event => Math.hypot(event.clientX - pressedAt[0], event.clientY - pressedAt[1]) > 5;
-  addEventListener('pointerdown', event => { pressedAt = [event.clientX, event.clientY]; }, true);
   addEventListener('dblclick', event => { if (viewer()?.canvas?.contains(event.target)) RX.send('aim'); });
   // In Actuate the voltage moves the blade, not the hand: pulling the blade's edge moves the voltage, FULL pixels all of it.
   const FULL = 150;

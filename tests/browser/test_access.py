@@ -41,7 +41,7 @@ def spoken(watched: Watched) -> list[tuple[str, str]]:
 def test_every_control_has_a_spoken_name(watched: Watched):
     expected = {
         "explore": ("slider", "Δ outboard [°/R]"),
-        "optimise": ("slider", "Starting points"),
+        "optimise": ("checkbox", "Limit stall"),
         "actuate": ("slider", "Voltage [%]"),
     }
     for mode, one in expected.items():

@@ -163,7 +163,7 @@ def test_explore(watched: Watched, app: App, take: Callable[..., None]):
 
 
 def test_optimise(watched: Watched, app: App, take: Callable[..., None]):
-    """The search on the blade, its landscape, and the replay."""
+    """The search on the blade, and the map."""
     page = watched.page
     watched.type("Adv. ratio", 0.3)
     watched.mode("optimise")
@@ -178,16 +178,11 @@ def test_optimise(watched: Watched, app: App, take: Callable[..., None]):
     take(watched, "found")
     watched.section("Map")
     page.get_by_role("button", name="Compute map").click()
-    page.wait_for_function("() => RX.state.landscape?.balls.length", timeout=LONG)
-    page.wait_for_function("() => RX.landscape.at === 1 && !RX.landscape.running", timeout=LONG)
-    watched.answered(wholly=True)
-    said = page.evaluate("() => RX.state.landscape")
-    assert said["least"] in watched.text("landscape")
-    assert _kw(said["least"]) >= run.best.power / 1e3 - 0.1  # Of the map's points, so no less than the search found.
-    take(watched, "landscape")
-    slider = page.get_by_label("Replay of the search")
-    slider.evaluate("slider => { slider.value = 0.12; slider.dispatchEvent(new Event('input', {bubbles: true})); }")
-    take(watched, "replay")
+    page.locator("[data-map]").wait_for(timeout=LONG)
+    least = re.match(r"Least ([\d\s.]+) kW", watched.text("map-least"))
+    assert least is not None
+    assert _kw(least[1]) >= run.best.power / 1e3 - 0.1  # Of the map's points, so no less than the search found.
+    take(watched, "map")
 
 
 def test_actuate(watched: Watched, app: App, take: Callable[..., None]):

@@ -1,4 +1,4 @@
-"""The dial of twist at n/rev and the landscape of power in a browser."""
+"""The dial of twist at n/rev in a browser."""
 
 import pytest
 from watched import MEDIUM, Watched
@@ -62,22 +62,3 @@ def test_a_drag_on_the_dial_is_foreseen_trimmed_and_one_undo(watched: Watched):
         press()
         watched.until(lambda before=before: page.evaluate(NOW) not in (before, []))
         watched.answered(wholly=True)
-
-
-@pytest.mark.slow
-def test_the_map_stands_in_the_stage_and_leaves_nothing(watched: Watched):
-    page = watched.page
-    watched.mode("optimise")
-    watched.section("Map")
-    page.get_by_role("button", name="Compute map").click()
-    page.wait_for_function("() => RX.state.landscape", timeout=240_000)
-    shown = "() => Object.keys(window.__viserSceneTree.getState()).filter(name => name.startsWith('/landscape/'))"
-    watched.until(lambda: {"/landscape/surface", "/landscape/water"} <= set(page.evaluate(shown)))
-    assert "%" in watched.text("landscape")
-    labels = page.evaluate("() => RX.state.landscape_labels.map(one => one.text)")
-    assert any(text.startswith("±") for text in labels)
-    watched.mode("explore")
-    page.wait_for_function("() => !RX.state.landscape && !RX.state.landscape_labels.length")
-    watched.until(lambda: page.evaluate(shown) == [])
-    blade = "() => window.__viserMutable.nodeRefFromName['/rotor'].visible"
-    watched.until(lambda: page.evaluate(blade))

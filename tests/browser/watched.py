@@ -65,8 +65,8 @@ class Watched:
 
     def unfold(self, label: str) -> None:
         """Show a control that is folded at first."""
-        if label == "Starting points" and not self.row(label).is_visible():
-            self.page.get_by_text("Limits and starts", exact=True).click()
+        if label == "Limit stall" and not self.row(label).is_visible():
+            self.page.get_by_text("Limits", exact=True).click()
             self.row(label).wait_for()
         if label.startswith(("Altitude", "Climb", "Rotor speed", "Load factor", "Flight or test")):
             self.page.evaluate("() => RX.send('more', 'on')")

@@ -1,6 +1,7 @@
 """What the optimiser's tabs show, without a browser: runs, charts, maps, drawings and words."""
 
 import math
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Any
@@ -8,16 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from explorer.charts.strip import LOOKS
 from explorer.model.inputs import baseline_of
 from explorer.model.units import SI
-from explorer.picture.landscape import refined
-from explorer.tabs.optimise import map_panel as power_map
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
-from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun, StartTrace
-from explorer.tabs.optimise.search_words import concept_picture, starts_chart
+from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words, place_on, refined
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_words import concept_picture
 from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
@@ -26,7 +24,6 @@ from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.trim.solve import solve
-from tests.curves import curves
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Quick, where the physics does not matter."""
@@ -40,25 +37,19 @@ def no_stop() -> bool:
     return False
 
 
+def begun(starts: int, **asked: Any) -> SearchRun:
+    """A search from so many starts, fewer than those of the page."""
+    return SearchRun(replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts), "UH-60A as built")
+
+
 @pytest.fixture(scope="module")
-def searched() -> tuple[SearchRun, tuple[StartTrace, ...]]:
-    """A search run here, its news heard as from a process; and its starts when the second had just begun."""
-    run = SearchRun(SearchRequest(concept="two-segment", starts=3).search(quick(), mission.legs), "UH-60A as built")
-    halfway: list[tuple[StartTrace, ...]] = []
-
-    def tell(item: object) -> None:
-        run.on_event(JobProgress(item))
-        if isinstance(item, Progress) and item.phase == "search" and item.start == 1 and not halfway:
-            halfway.append(run.starts())
-
+def run() -> SearchRun:
+    """A search run here, its news heard as from a process."""
+    run = begun(3, concept="two-segment")
     run.on_event(JobStarted())
-    run.on_event(JobEnded(SearchTask(run.search, baseline_of(quick())).run(tell, no_stop)))
-    return run, halfway[0]
-
-
-@pytest.fixture
-def run(searched: tuple[SearchRun, tuple[StartTrace, ...]]) -> SearchRun:
-    return searched[0]
+    task = SearchTask(run.search, baseline_of(quick()))
+    run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))
+    return run
 
 
 class TestSearchRun:
@@ -123,7 +114,6 @@ class TestSearchRun:
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert search_text.result(run) == ""
-        assert {start.legend(SI) for start in run.starts()} == {f"Start {k}: not run" for k in range(1, 7)}
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)
@@ -132,22 +122,6 @@ class TestSearchRun:
         assert broken.best is run.frames[2]
         assert "ended unexpectedly" in search_text.result(broken)
         assert "best so far is kept" in search_text.standing(broken)
-
-
-class TestCharts:
-    def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
-        chart = starts_chart(run, SI)
-        level, *starts = curves(chart)
-        assert level.colour == LOOKS["reference"][0]
-        assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
-        low, high = chart.span("y")
-        for line in starts:
-            assert len(line.x) == len(line.y)
-            assert all(math.isfinite(value) for value in line.y)
-            assert low <= line.y[-1] <= high
-        assert run.best is not None
-        assert min(line.y[-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
-        assert len({line.colour for line in starts}) == 3
 
 
 class TestWords:
@@ -192,8 +166,31 @@ class TestSearchRequest:
             bending.search(quick(), mission.legs)
         with pytest.raises(ValueError, match="set an advance ratio above 0"):
             SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
-        with pytest.raises(ValueError, match="no hours"):
-            mission.legs(quick(), [mission.MissionRow(0.2, 0.0)])
+
+
+class TestMission:
+    def test_legs_come_in_order_of_speed_with_their_hours(self):
+        assert mission.mission_of("0.2:2, 0:1,\n0.3") == ((0.0, 1.0), (0.2, 2.0), (0.3, 1.0))
+        assert mission.mission_of("0.1:0, 0.2:1.5,") == ((0.2, 1.5),)  # 0 hours are not flown.
+        legs = mission.legs(quick(), "0.2:2, 0:1")
+        assert [(leg.flight.advance_ratio, leg.hours) for leg in legs] == [(0.0, 1.0), (0.2, 2.0)]
+        assert {leg.flight.mass for leg in legs} == {quick().condition.mass}
+        assert len(mission.legs(quick())) == 6
+
+    @pytest.mark.parametrize(
+        "part", ["fast", "0.5:1", "-0.1:1", "0.2:100", "0.2:-1", "nan:1", "0.2:nan", "0.2:1:2", "0,2"]
+    )
+    def test_what_is_no_leg_is_named_with_the_remedy(self, part: str):
+        said = f"The mission has {part.split(',')[-1]!r}: write each leg as advance ratio 0 to 0.45 and hours 0 to 99"
+        with pytest.raises(ValueError, match=re.escape(said)):
+            mission.mission_of(f"0:1, {part}")
+
+    def test_a_mission_without_hours_or_with_too_many_legs_is_refused(self):
+        for text in ("", " , ", "0.2:0"):
+            with pytest.raises(ValueError, match="no hours"):
+                mission.mission_of(text)
+        with pytest.raises(ValueError, match="has 40 legs: give at most 12"):
+            mission.mission_of("0.2," * 40)
 
 
 @pytest.fixture(scope="module")
@@ -220,15 +217,30 @@ class TestMap:
 
     def test_the_least_is_said_with_what_is_held(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
-        drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
+        drawn = Map(task, np.array(told[-1].powers, dtype=float))
         x, y, power = drawn.least
         assert solve(task.at(x, y)).power.total == pytest.approx(power, rel=1e-7)
         across, up = drawn.parameters
         division, rate = across.low + x * (across.high - across.low), math.degrees(up.low + y * (up.high - up.low))
         shown = f"{division:.2f} R, {rate:.1f} °/R".replace("-", "−")
-        assert power_map.least_words(drawn, SI) == (
-            f"Least {SI.watts(power, 1)} at {shown}. Fixed: Inboard rate −11.5 °/R."
-        )
+        assert least_words(drawn, SI) == (f"Least {SI.watts(power, 1)} at {shown}. Fixed: Inboard rate −11.5 °/R.")
+
+    def test_it_is_drawn_with_its_least_and_the_design_on_the_sliders(self, levels: tuple[MapTask, list[MapLevel]]):
+        task, told = levels
+        drawn = Map(task, np.array(told[-1].powers, dtype=float))
+        picture = ET.fromstring(drawing(drawn, task.at(0.5, 0.25).twist))
+        assert picture.find(".//g[@data-map]/image") is not None
+        (x, y), exact = place_on(drawn, task.at(0.5, 0.25).twist)
+        assert exact
+        assert (x, y) == pytest.approx((0.5, 0.25))
+        dot = picture.find(".//circle")
+        assert dot is not None
+        assert float(dot.attrib["cx"]) == pytest.approx(165.0, abs=0.1)
+        assert float(dot.attrib["cy"]) == pytest.approx(148.5, abs=0.1)
+        assert dot.attrib["fill"] != "none"
+        off = ET.fromstring(drawing(drawn, make_design(twist="quadratic:-10,4").twist)).find(".//circle")
+        assert off is None or off.attrib["fill"] == "none"  # It has no place in the plane.
+        assert ET.fromstring(drawing(drawn, None)).find(".//circle") is None
 
     def test_designs_that_do_not_trim_are_left_blank(self):
         powers = np.full((5, 5), 1e6) + np.arange(5.0)
@@ -238,66 +250,38 @@ class TestMap:
         assert np.isfinite(values[:20, :20]).all()
 
 
-def test_each_start_has_its_trace_and_running_best(run: SearchRun):
-    starts = run.starts()
-    assert len(starts) == 3
-    for one in starts:
-        assert len(one.best) == len(one.powers)
-        assert list(one.best) == sorted(one.best, reverse=True)
-        assert one.best[-1] == min(one.powers)
-        assert one.state == "finished"
-
-
-def test_the_best_start_has_the_power_of_the_optimum(run: SearchRun):
-    best = next(one for one in run.starts() if one.is_best)
+def test_the_headline_has_the_power_of_the_optimum(run: SearchRun):
     assert run.optimum is not None
     assert run.optimum.best is not None
-    assert best.best[-1] == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert SI.watts(run.optimum.best.power, 1) in search_text.headline(run)
-    equal = [one.number for one in run.starts() if one.gap is not None and one.gap < 50.0]
-    listed = [f"Start {start.number}:" in search_text.headline(run) for start in run.starts()]
-    assert listed == [len(equal) < 3] * 3  # Where all agree the chart says so.
-    one, several, every = f"start {best.number} is best", f"{len(equal)} of 3 starts are best", "all 3 starts agree"
-    assert starts_chart(run, SI).value == (one, several, every)[len(equal) - 1]
 
 
-def test_half_way_the_second_start_runs_and_the_third_waits(searched: tuple[SearchRun, tuple[StartTrace, ...]]):
-    starts = searched[1]
-    assert [one.state for one in starts] == ["finished", "running", "waiting"]
-    assert starts[2].gap is None
-    assert starts[2].legend() == "Start 3: waiting"
-
-
-def test_the_legend_names_the_best_start_and_the_gaps():
-    """Behind by less than the last digit is equal: neither "+0.0 kW" nor a zero that looks like the best."""
-    gaps = {400.0: "Start 2: +0.4 kW", 0.3: "Start 2: equal", 49.0: "Start 2: equal", 0.0: "Start 2: best"}
-    for gap, words in gaps.items():
-        assert StartTrace(2, (844.6e3,), (844.6e3,), "finished", gap).legend() == words
-    assert StartTrace(3, (), (), "finished", None).legend() == "Start 3: no trim"
-
-
-def test_the_axis_shows_the_ends_and_counts_what_it_clips(monkeypatch: pytest.MonkeyPatch):
-    spike = StartTrace(1, (850e3, 2e6, 845e3), (850e3, 850e3, 845e3), "finished", 0.0)
-    low, high = search_text.power_axis((spike,), 853e3)
-    assert low < 845e3
-    assert 853e3 < high < 1e6
-    run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
-    monkeypatch.setattr(run, "starts", lambda: (spike,))
-    assert starts_chart(run, SI).note == "1 designs lie above the axis."
+def test_the_bar_moves_with_starts_and_designs():
+    run = begun(2)
+    step = Progress("search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+    run.frames.append(SearchFrame(0, 860e3, quick()))
+    seen = [run.part_done]
+    for start, evaluation in ((0, 1), (0, 2), (1, 3), (1, 4)):
+        run._step(replace(step, start=start, evaluation=evaluation))
+        seen.append(run.part_done)
+    run._step(replace(step, phase="band", evaluation=5))
+    assert sorted(set(seen)) == seen
+    assert seen[-1] < run.part_done < 1.0
 
 
 def test_a_design_beyond_a_limit_is_not_the_best():
-    run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
+    run = begun(1)
     step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
     run.frames.append(SearchFrame(0, 860e3, quick()))
     run._step(step)
     run._step(replace(step, evaluation=2, power=800e3, feasible=False))
-    assert run.starts()[0].powers == (850e3, 850e3)
+    assert run.best is not None
+    assert run.best.power == 850e3
+    assert SI.watts(850e3, 1) in search_text.headline(run)
 
 
 def test_before_the_first_design():
     assert "Not run yet" in search_text.standing(None)
-    run = SearchRun(SearchRequest(starts=2).search(quick(), mission.legs))
+    run = begun(2)
     assert search_text.headline(run) == ""
-    assert [one.state for one in run.starts()] == ["waiting", "waiting"]
-    assert search_text.power_axis(run.starts(), None) == (0.0, 1.0)
+    assert run.part_done == 0.0

@@ -12,7 +12,7 @@ from PIL import Image
 from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
-from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, apart, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, fit
 from explorer.picture.fields import FIELDS, reverse_flow
 from explorer.picture.picture import (
     DISK_DROP,
@@ -276,26 +276,6 @@ class TestCamera:
         assert np.abs(x).max() < 1.0
         assert y.max() < 1.0 - 2.0 * cover.above
         assert y.min() > -1.0 + 2.0 * cover.below
-
-    @pytest.mark.parametrize("aspect", ASPECTS)
-    @pytest.mark.parametrize("view", ["3d", "disk", "top", "side"])
-    def test_two_rotors_side_by_side_are_seen_whole(self, view: View, aspect: float):
-        aside = apart(8.18)
-        rims = np.concatenate((self.RIM - aside, self.RIM + aside))
-        x, y, _ = on_canvas(fit(view, 8.18, aspect, beside=True), aspect, rims)
-        assert np.abs(x).max() < 1.0
-        assert -1.0 + 2.0 * USUAL_COVER.below < y.min() < y.max() < 1.0 - 2.0 * USUAL_COVER.above
-        assert max(np.ptp(x), np.ptp(y)) > 0.5
-
-    @pytest.mark.parametrize("aspect", [1.3, 1.6, 1.9])
-    @pytest.mark.parametrize("cover", [USUAL_COVER, Cover(0.27, 0.31)])
-    def test_two_rotors_side_by_side_fill_width_and_height_between_the_cards(self, aspect: float, cover: Cover):
-        """Words and letters around the rims take the rest."""
-        aside = apart(8.18)
-        rims = np.concatenate((self.RIM - aside, self.RIM + aside))
-        x, y, _ = on_canvas(fit("3d", 8.18, aspect, beside=True, cover=cover), aspect, rims)
-        assert 0.7 < 0.5 * np.ptp(x) < 1.0
-        assert 0.6 < 0.5 * np.ptp(y) / cover.free < 1.0
 
     def test_the_camera_rises_with_the_shaft_tilt(self):
         """A rotor tilted by 6° more is seen 4.8° further from above."""

@@ -10,7 +10,7 @@ from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import number
-from explorer.tabs.results import PowerCard, beside_labels
+from explorer.tabs.results import PowerCard
 from rotor.trim.solve import solve
 
 
@@ -48,14 +48,3 @@ def test_more_than_the_engines_give_is_said_on_the_chip():
     assert fast["status"]["words"] == f"engines give only {number(2327.0)} kW"
     assert "The rotors take" in fast["status"]["title"]
     assert "engines" not in card(replace(OPENING, advance_ratio=0.3))["status"]["words"]
-
-
-def test_two_rotors_beside_each_other_have_their_power():
-    a, b = solve(OPENING.design()).require(), solve(replace(OPENING, built_outer=-4.0).design()).require()
-    state = SessionState(OPENING, ViewState(beside=True), b, a, a)
-    words = [one["text"] for one in beside_labels(state)]
-    assert words[0] == f"A {a.power.total / 1e3:.0f} kW"
-    assert words[1] == f"B {b.power.total / 1e3:.0f} kW (+{(b.power.total - a.power.total) / 1e3:.0f} kW)"
-    assert [one["node"] for one in beside_labels(state)] == ["/letter_A", "/letter_B"]
-    assert beside_labels(replace(state, view=ViewState())) == []
-    assert beside_labels(replace(state, pinned=None)) == []

@@ -15,7 +15,6 @@ from explorer.colours import DARK
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
-from explorer.picture.camera_views import apart
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.picture.picture import field_values, flown_twist
@@ -117,9 +116,6 @@ class TestScale:
         assert difference[1] == page.controller.held_range(difference[0]) != (field.low, field.high)
         page.controller.draw(fast, replace(view, wipe=True), None, changed)
         assert page.controller.scale == (field, (field.low, field.high))
-        page.controller.set_seen(False)
-        assert page.controller.scale is None
-        page.controller.set_seen(True)
         page.controller.set_behind(True)
         assert page.controller.scale is None
 
@@ -216,21 +212,17 @@ class TestRanges:
         assert beyond[1]  # The bar says that values lie above it.
 
 
-class TestBeside:
-    def test_a_stands_beside_b_at_rest(self, page: Page, fast: Solution, changed: Solution):
-        view = replace(VIEW, beside=True)
-        page.controller.draw(changed, view, None, fast)
+class TestWipe:
+    def test_a_stands_at_the_place_of_b_at_rest(self, page: Page, fast: Solution, changed: Solution):
+        page.controller.draw(changed, replace(VIEW, wipe=True), None, fast)
         page.controller.draw_finely()
         assert page["/compared"].visible
-        assert not page["/airframe"].visible
-        assert np.allclose(page["/rotor"].position, apart(ROTOR.radius))
-        assert np.allclose(page["/compared"].position, -apart(ROTOR.radius))
         assert not np.array_equal(page["/compared/blade_0"].vertices, page["/rotor/blade_0"].vertices)
+        assert page.scripts[-1].startswith("rotorScene.compare({")
         page.controller.draw(changed, VIEW, None)
         page.controller.draw_finely()
         assert not page["/compared"].visible
-        assert page["/airframe"].visible
-        assert np.allclose(page["/rotor"].position, 0.0)
+        assert page.scripts[-1] == "rotorScene.compare(null)"
 
 
 class TestPlay:

@@ -108,9 +108,12 @@ class LecturePanel(Tab):
         self._file.on_click(lambda _: self._write_file())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
         by_hand(self._case, self._case_chosen)
-        for name, action in (("lecture", self._pressed), ("story", self._step_asked), ("guess", self._guessed),
-                             ("stop", self._stop_asked), ("wiped", self._wiped)):  # fmt: skip
-            context.bridge.on(name, action)
+        on = context.bridge.on
+        on("lecture", self._pressed)
+        on("story", self._step_asked)
+        on("guess", self._guessed)
+        on("stop", self._stop_asked)
+        on("wiped", self._wiped)
         bind = context.keyboard.bind
         bind("lecture", self.toggle)
         bind("lecture_next", lambda: self.go(1))

@@ -16,13 +16,12 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
-from explorer.tabs.optimise.search_run import OBJECTIVES, TRACES, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEvent
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
-from rotor.chart import Chart
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
 from rotor.markup import Markup, tag
@@ -76,14 +75,13 @@ class OptimisePanel(BackgroundWork):
         form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
         form.slider("first", Slider("Break 1 [r/R]", 0.2, 0.6, 0.01), first.first, entry=where)
         form.slider("second", Slider("Break 2 [r/R]", 0.65, 0.95, 0.01), first.second, entry=where)
-        with gui.add_folder("Limits and starts", expand_by_default=False):
+        with gui.add_folder("Limits", expand_by_default=False):
             form.box("limit_stall", "Limit stall", False)
             form.slider("stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit")
             form.box("limit_change", "Limit change of twist", False)
             form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
             form.box("limit_index", "Limit vibration", False)
             form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
-            form.slider("starts", Slider("Starting points", 1, TRACES, 1), first.starts)
         self.add_buttons(gui, "Optimise", "Stop", ("optimise", "stop"))
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
@@ -108,7 +106,7 @@ class OptimisePanel(BackgroundWork):
         for limit, name in _LIMITS.items():
             if not values.pop(limit):
                 values[name] = None
-        return SearchRequest(**values | {"starts": round(values["starts"])})
+        return SearchRequest(**values)
 
     def _begin_from_rail(self) -> None:
         self._context.layout.show_mode("optimise")
@@ -164,11 +162,6 @@ class OptimisePanel(BackgroundWork):
             timer.daemon = True
             timer.start()
         return None if frame is None else frame.design
-
-    def starts_chart(self) -> Chart | None:
-        """Chart of the search, in place of charts along the blade; None where there is none."""
-        run = self.run
-        return None if run is None or not any(run.traces) else text.starts_chart(run, self._context.units)
 
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""

@@ -20,6 +20,7 @@ from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.markup import tag
 from rotor.optimisation import Cell, Plan, WeightedCondition
+from rotor.optimisation.search import STARTS
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""
@@ -44,19 +45,9 @@ class SchedulePanel(BackgroundWork):
         self.line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
         self._concept = gui.add_html("")
-        with gui.add_folder("Mission"):
-            gui.add_html(tag("div.rxp-columns", tag("span", "µ"), tag("span", "hours")))
-            self._rows = [
-                gui.add_vector2(
-                    f"Leg {k + 1}",
-                    (row.advance_ratio, row.hours),
-                    min=(0.0, 0.0),
-                    max=(0.45, 99.0),
-                    step=0.05,
-                    hint=hint("leg"),
-                )
-                for k, row in enumerate(mission.ROWS)
-            ]
+        self._mission = gui.add_text("Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission"))
+        self._mission.on_update(lambda _: context.wake())
+        self._read = gui.add_html("")
         self.add_buttons(gui, "Compute schedule", "Stop schedule", ("schedule", "schedule_stop"))
         self._state = gui.add_html("")
         self._table = gui.add_html("")
@@ -68,10 +59,10 @@ class SchedulePanel(BackgroundWork):
 
     def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
         """The mission's legs; ValueError with one sentence for an invalid mission."""
-        return mission.legs(design, [mission.MissionRow(*(float(x) for x in row.value)) for row in self._rows])
+        return mission.legs(design, self._mission.value)
 
     def prepare(self) -> tuple[ScheduleTask, Callable[[JobEvent], None], str]:
-        """The mission of the rows, for the concept that the search is asked for."""
+        """The mission, for the concept that the search is asked for."""
         design, request = self._context.inputs().design(), self._request()
         concept = request.known_concept()
         plan = Plan(
@@ -80,7 +71,7 @@ class SchedulePanel(BackgroundWork):
             self.legs(design),
             "induced" if request.objective == "induced" else "total",
             request.limits(design),
-            request.starts,
+            STARTS,
         )
         progress = self._progress = PlanProgress(plan)
         return ScheduleTask(plan), partial(self._hear, progress), "Starting a worker …"
@@ -148,6 +139,7 @@ class SchedulePanel(BackgroundWork):
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
+        self._read.content = tag("div.rx.rx-dim.rx-small", self._mission_line(), data_explorer="mission")
         kind = "running" if self.running else "idle" if self._progress is None else "done"
         self._state.content = tag("div.rx.rx-dim", self.line, data_explorer="schedule-state", data_kind=kind)
         progress = self._progress
@@ -162,6 +154,14 @@ class SchedulePanel(BackgroundWork):
             self._table.content = schedule_view.table(progress, units)
             self._twists.show(schedule_view.twist_chart(progress, self._twists.y_range))
             self._savings.show(schedule_view.saving_chart(progress, self._savings.y_range))
+
+    def _mission_line(self) -> str:
+        """What the mission is read as; or why it is none."""
+        try:
+            legs = mission.mission_of(self._mission.value)
+        except ValueError as error:
+            return str(error)
+        return f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
 
     def _hear(self, progress: PlanProgress, news: JobEvent) -> None:
         match news:

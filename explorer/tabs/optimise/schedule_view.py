@@ -18,8 +18,6 @@ from rotor.design.aircraft import told
 from rotor.markup import Markup, tag
 from rotor.optimisation import Cell, Plan, Schedule
 
-LEGS = 6
-"""Rows of the mission table, so traces of the twist chart."""
 _COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
 
@@ -55,13 +53,14 @@ class PlanProgress:
 
 def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
     """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
-    r, shades = np.linspace(0.13, 1.0, 80), colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
+    r, legs = np.linspace(0.13, 1.0, 80), len(progress.plan.conditions)
+    shades = colour_map("sequential", legs + 3)[2:]  # Neither end is seen on every page.
     lines: list[Line] = []
-    for k, leg in enumerate((*range(len(progress.plan.conditions)), None)):
+    for k, leg in enumerate((*range(legs), None)):
         optimum = progress.at(leg)
         if optimum is not None and optimum.best is not None:
             twist = np.degrees(optimum.design.twist(r))
-            name = "hover" if k == 0 else "fast" if k == len(progress.plan.conditions) - 1 else ""
+            name = "hover" if k == 0 else "fast" if k == legs - 1 else ""
             fixed = Line("fixed", r, twist, NOW, "5 3")
             lines.append(fixed if leg is None else Line(name, r, twist, css(shades[k]), width=1.5))
     if not lines:

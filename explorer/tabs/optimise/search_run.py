@@ -1,14 +1,12 @@
-"""What a user asks of the optimiser, and the search as the page follows it: designs to play, and its starts."""
+"""What a user asks of the optimiser, and the search as the page follows it: the designs to play."""
 
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import Literal
 
-from explorer.model.units import SI, Units
 from explorer.tabs.background import FRAME
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import ReferencePower, StartPower
@@ -26,34 +24,44 @@ from rotor.optimisation import (
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
-from rotor.optimisation.search import STARTS
+from rotor.user_input import shorten
+
+MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
+"""Advance ratio and hours of each leg."""
+MOST_LEGS = 12
+_FASTEST, _LONGEST = 0.45, 99.0
 
 
-@dataclass(frozen=True)
-class MissionRow:
-    """So many hours at one advance ratio; 0 hours: left out."""
+def mission_of(text: str) -> tuple[tuple[float, float], ...]:
+    """Advance ratio and hours of the legs in order of speed; ValueError with one sentence for what is no mission.
 
-    advance_ratio: float
-    hours: float
-
-
-ROWS = (
-    MissionRow(0.0, 0.5),
-    MissionRow(0.1, 0.5),
-    MissionRow(0.15, 0.5),
-    MissionRow(0.2, 1.0),
-    MissionRow(0.25, 1.0),
-    MissionRow(0.3, 0.5),
-)
+    Legs are apart by a comma or a new line; hours that are left out are 1.
+    """
+    parts = [part.strip() for part in text.replace("\n", ",").split(",") if part.strip()]
+    if len(parts) > MOST_LEGS:
+        raise ValueError(f"The mission has {len(parts)} legs: give at most {MOST_LEGS}.")
+    flown = sorted(_leg(part) for part in parts)
+    if not any(hours for _, hours in flown):
+        raise ValueError("The mission has no hours: give at least one leg, such as 0.2:1.")
+    return tuple(leg for leg in flown if leg[1])
 
 
-def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[WeightedCondition, ...]:
-    """The legs at the design's weight and altitude; ValueError with one sentence when no hours are flown."""
-    flown = sorted((row for row in rows if row.hours > 0.0), key=lambda row: row.advance_ratio)
-    if not flown:
-        raise ValueError("The mission has no hours: give at least one leg more than 0.")
+def _leg(text: str) -> tuple[float, float]:
+    speed, _, flown = text.partition(":")
+    try:
+        mu, hours = float(speed), float(flown or 1.0)
+    except ValueError:
+        mu = hours = math.nan
+    if not (0.0 <= mu <= _FASTEST and 0.0 <= hours <= _LONGEST):
+        wanted = f"advance ratio 0 to {_FASTEST:g} and hours 0 to {_LONGEST:g}, such as 0.2:1"
+        raise ValueError(f"The mission has {shorten(text, 30)!r}: write each leg as {wanted}.")
+    return mu, hours
+
+
+def legs(design: Design, mission: str = MISSION) -> tuple[WeightedCondition, ...]:
+    """The legs at the design's weight and altitude; ValueError as in `mission_of`."""
     return tuple(
-        WeightedCondition(replace(design.condition, advance_ratio=row.advance_ratio), row.hours) for row in flown
+        WeightedCondition(replace(design.condition, advance_ratio=mu), hours) for mu, hours in mission_of(mission)
     )
 
 
@@ -75,7 +83,6 @@ class SearchRequest:
     division: float = DIVISION
     first: float = round(AIRFOIL_BREAKS[0], 2)
     second: float = round(AIRFOIL_BREAKS[1], 2)
-    starts: int = STARTS
     stalled: float | None = None
     """[%] of the disk; None: no limit."""
     change: float | None = None
@@ -127,7 +134,6 @@ class SearchRequest:
             concept=self.known_concept(),
             objective=self.wanted(design, legs),
             limits=self.limits(design),
-            starts=self.starts,
         )
 
     def limits(self, design: Design) -> Limits:
@@ -137,8 +143,6 @@ class SearchRequest:
 
 
 State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
-TRACES = 16
-"""The most starts of a search on the page."""
 _CATCH_UP = 8
 """Never further behind the search than about so many frames."""
 
@@ -151,37 +155,6 @@ class SearchFrame:
     power: float
     """By the objective of the search [W]."""
     design: Design
-
-
-StartState = Literal["waiting", "running", "finished", "not run"]
-
-
-@dataclass(frozen=True)
-class StartTrace:
-    """One start of a search at one time."""
-
-    number: int
-    """From 1."""
-    powers: tuple[float, ...]
-    """Power of every design tried [W]."""
-    best: tuple[float, ...]
-    """The least so far after each of them [W]."""
-    state: StartState
-    gap: float | None
-    """Best power of the start above the best of all starts [W]; None before its first design."""
-
-    @property
-    def is_best(self) -> bool:
-        """Whether the best of all starts is its own."""
-        return self.gap == 0.0
-
-    def legend(self, units: Units = SI) -> str:
-        """A start in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
-        if self.gap is None:
-            return f"Start {self.number}: {'no trim' if self.state == 'finished' else self.state}"
-        behind = units.watts(self.gap, 1, sign=True)
-        # As printed: what is less than the last digit is no difference.
-        return f"Start {self.number}: {'best' if self.is_best else behind if behind.startswith('+') else 'equal'}"
 
 
 class SearchRun:
@@ -197,11 +170,8 @@ class SearchRun:
         """Power of the design that the search began from [W]."""
         self.reference_power: float | None = None
         self.frames: list[SearchFrame] = []
-        self.traces: list[list[float]] = [[] for _ in range(search.starts)]
-        """Power at each evaluation of each start [W]; one without trim or beyond a limit repeats the one before.
-        At the end that of the minimum it leads to."""
-        self.paths: list[list[tuple[tuple[float, ...], float]]] = [[] for _ in range(search.starts)]
-        """Parameters and power [W] of each start's best design so far, whenever there was a better one."""
+        self._tried = 0
+        """Designs of the start under way."""
         self.progress: Progress | None = None
         self.optimum: Optimum | None = None
         self._lock = threading.Lock()
@@ -230,8 +200,7 @@ class SearchRun:
             return 0.0
         if progress.phase == "band":
             return 0.9
-        done = len(self.traces[progress.start]) if progress.start < len(self.traces) else 0
-        return 0.85 * (progress.start + done / (done + 15.0)) / progress.starts
+        return 0.85 * (progress.start + self._tried / (self._tried + 15.0)) / progress.starts
 
     def stopping(self) -> None:
         with self._lock:
@@ -262,16 +231,9 @@ class SearchRun:
                     pass
 
     def _step(self, progress: Progress) -> None:
-        self.progress = progress
-        if progress.phase == "search" and progress.start < len(self.traces):
-            trace = self.traces[progress.start]
-            if progress.power is not None and progress.feasible:
-                trace.append(progress.power)
-                path = self.paths[progress.start]
-                if not path or progress.power < path[-1][1]:
-                    path.append((progress.parameters, progress.power))
-            elif trace:
-                trace.append(trace[-1])
+        before, self.progress = self.progress, progress
+        if progress.phase == "search":
+            self._tried = self._tried + 1 if before is not None and before.start == progress.start else 1
         best, values = progress.best_power, progress.best_parameters
         if best is None or values is None:
             return
@@ -285,31 +247,8 @@ class SearchRun:
         if optimum is None:
             return
         self.sentence = optimum.message
-        for minimum in optimum.minima:  # A start that leads to a minimum known is not followed to its end.
-            for start in minimum.starts:
-                if self.traces[start] and minimum.power < self.traces[start][-1]:
-                    self.traces[start].append(minimum.power)
-                    self.paths[start].append((minimum.parameters, minimum.power))
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
             self.frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
-
-    def starts(self) -> tuple[StartTrace, ...]:
-        """How far each start is. A snapshot: the run may be written meanwhile."""
-        traces = [tuple(trace) for trace in self.traces]
-        progress = self.progress
-        current = -1 if progress is None else progress.start
-        searching = progress is None or progress.phase != "band"
-        bests = [tuple(accumulate(trace, min)) for trace in traces]
-        least = min((best[-1] for best in bests if best), default=0.0)
-        starts: list[StartTrace] = []
-        for k, (trace, best) in enumerate(zip(traces, bests, strict=True)):
-            state: StartState = "finished"
-            if searching and self.under_way:
-                state = "finished" if k < current else "running" if k == current else "waiting"
-            elif searching and self.state != "done" and k > current:
-                state = "not run"
-            starts.append(StartTrace(k + 1, trace, best, state, best[-1] - least if best else None))
-        return tuple(starts)
 
     def matches(self, design: Design) -> bool:
         """Whether this is the design that the search began from."""

@@ -6,12 +6,10 @@ from functools import lru_cache
 import numpy as np
 
 from explorer.charts import svg
-from explorer.charts.strip import role_line
-from explorer.colours import NOW, START_COLOURS, THIS, css
+from explorer.colours import NOW, THIS
 from explorer.model.units import SI, Units, number
-from explorer.tabs.optimise.search_run import SearchRun, StartTrace
+from explorer.tabs.optimise.search_run import SearchRun
 from rotor import Optimum, Solution, doubt
-from rotor.chart import Axis, Chart, Line
 from rotor.design import PiecewiseLinearTwist
 from rotor.markup import Content, Markup, tag
 from rotor.optimisation import Concept
@@ -93,78 +91,22 @@ def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> Markup:
 
 
 def headline(run: SearchRun, units: Units = SI) -> Markup:
-    """The least power so far as a large number, and how each start compares."""
-    starts = run.starts()
-    ends = [start.best[-1] for start in starts if start.best]
-    if not ends:
+    """The least power so far as a large number, and its change from the start."""
+    best = run.best
+    if best is None:
         return Markup()
-    change = None if run.start_power is None else min(ends) - run.start_power
+    change = None if run.start_power is None else best.power - run.start_power
     kind = "" if change is None or abs(change) < _EQUAL else "rx-less" if change < 0.0 else "rx-more"
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
     mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
     mean += ", best so far" if run.under_way else ", best found"
-    rows = [
-        tag("span", tag("i", style=f"background:{css(START_COLOURS[k])}"), start.legend(units))
-        for k, start in enumerate(starts)
-    ]
     return tag(
         "div.rxp-big",
-        tag("b", units.watts(min(ends), 1), data_explorer="best"),
+        tag("b", units.watts(best.power, 1), data_explorer="best"),
         tag("em", None if change is None else units.watts(change, 1, sign=True), class_=kind),
-        tag("div.rx-dim", mean, _against_start(min(ends), run.start_power)),
-        tag("div.rxp-starts", rows) if _agreement(starts) != _all_agree(starts) else None,
-        data_explorer="starts",
+        tag("div.rx-dim", mean, _against_start(best.power, run.start_power)),
     )
-
-
-def starts_chart(run: SearchRun, units: Units) -> Chart:
-    """The least power so far over the designs that each start has tried, for the strip below the scene."""
-    unit, starts = units.power[0], run.starts()
-    low, high = (unit.of(end) for end in power_axis(starts, run.start_power))
-    longest = float(max([10, *(len(start.best) for start in starts)]))
-    lines = [
-        Line("", range(1, len(start.best) + 1), [unit.of(power) for power in start.best], css(START_COLOURS[k]),
-             width=2.8 if start.is_best else 1.4)
-        for k, start in enumerate(starts)
-        if start.best
-    ]  # fmt: skip
-    if run.start_power is not None:
-        lines.insert(0, role_line("reference", (1.0, longest), (unit.of(run.start_power),) * 2))
-    above = sum(unit.of(power) > high for start in starts for power in start.powers)
-    return Chart(
-        "Searches from several starts",
-        Axis(range=(1.0, longest)),
-        Axis(f"least {unit.symbol} so far over designs tried", (low, high)),
-        tuple(lines),
-        value=_agreement(starts),
-        note=f"{above} designs lie above the axis." if above else "",
-    )
-
-
-def _agreement(starts: tuple[StartTrace, ...]) -> str:
-    """Which of the starts are best, as far as the digits that the page shows tell them apart."""
-    best = [start.number for start in starts if start.gap is not None and start.gap < _EQUAL]
-    if len(best) == len(starts) > 1:
-        return _all_agree(starts)
-    if len(best) > 1:
-        return f"{len(best)} of {len(starts)} starts are best"
-    return f"start {best[0]} is best" if best else ""
-
-
-def _all_agree(starts: tuple[StartTrace, ...]) -> str:
-    return f"all {len(starts)} starts agree"
-
-
-def power_axis(starts: tuple[StartTrace, ...], start_power: float | None) -> tuple[float, float]:
-    """Range of power [W] that shows where the starts end, not the worst designs tried on the way."""
-    ends = [start.best[-1] for start in starts if start.best]
-    if not ends:
-        return 0.0, 1.0
-    low = min(ends)
-    high = max(1.01 * low, start_power or 0.0)
-    margin = 0.05 * (high - low)
-    return low - margin, high + margin
 
 
 def standing(run: SearchRun | None, problem: str = "") -> Markup:

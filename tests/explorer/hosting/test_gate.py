@@ -23,7 +23,6 @@ SCRIPTS = (
     "rubber",
     "flight",
     "dial",
-    "landscape",
     "lecture",
     "story",
     "keys",
