@@ -40,7 +40,6 @@ def build_parser() -> argparse.ArgumentParser:
         schedule.add_parser,
         envelope.add_parser,
         study.add_parser,
-        tables.add_ideal,
         stability.add_parser,
         actuator.add_parser,
         reproduce.add_parser,
