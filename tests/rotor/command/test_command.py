@@ -214,7 +214,7 @@ def test_degrees_have_the_digits_that_the_band_deserves():
     assert [digits_of_band(width) for width in (30.0, 3.0, 0.3, 0.0)] == [0, 1, 2, 3]
 
 
-@pytest.mark.parametrize("command", ["", "solve", "sweep", "optimise", "airfoil", "bench", "study"])
+@pytest.mark.parametrize("command", ["", "solve", "sweep", "optimise", "airfoil", "warm", "study"])
 def test_help_says_what_the_command_is_for(command: str, capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main([*command.split(), "--help"])
