@@ -43,7 +43,6 @@ def build_parser() -> argparse.ArgumentParser:
         stability.add_parser,
         actuator.add_parser,
         reproduce.add_parser,
-        reproduce.add_ladder,
         validate.add_parser,
         tables.add_airfoil,
         warm.add_parser,
