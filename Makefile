@@ -64,8 +64,8 @@ format: setup-dev     ## repair formatting and lint
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: setup-dev      ## time the solver beside its baselines
-	$(BIN)/python -m rotor bench $(ARGS)
+bench: setup-dev      ## time the solver beside its baselines; ARGS="--against DIR" beside another checkout too
+	$(BIN)/python -m tests.tools.bench $(ARGS)
 
 docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk
 	@rm -rf dist/docs dist/.doctrees docs/_made
@@ -74,6 +74,7 @@ docs: setup-dev       ## build the documentation site into dist/docs; it opens f
 
 trust: setup-dev      ## make the trust page, docs/validation, anew: four minutes
 	rm -rf dist/thesis docs/validation
+	$(BIN)/python -m tests.tools.cross_codes
 	$(BIN)/python -m rotor reproduce dist/thesis --trust
 	cp -r dist/thesis/validation dist/thesis/validation.md docs/
 	cp dist/thesis/trust.csv assets/
@@ -113,7 +114,7 @@ $(DEV): requirements-dev.txt $(READY)
 # A line counts them; about 20 s of processor time.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
 	@$(BIN)/python -c "from rotor.compiled import tell_in_a_log; tell_in_a_log(); \
-	  from explorer.picture import picture; from rotor.command.bench import compile_all; \
+	  from explorer.picture import picture; from rotor.command.warm import compile_all; \
 	  compile_all(); picture.warm()" && touch $@ \
 	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 

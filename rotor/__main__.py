@@ -8,7 +8,6 @@ from rotor import __version__
 from rotor.blas_threads import keep_one_blas_thread
 from rotor.command import (
     actuator,
-    bench,
     envelope,
     optimise,
     reproduce,
@@ -18,6 +17,7 @@ from rotor.command import (
     study,
     tables,
     validate,
+    warm,
 )
 from rotor.command.common import add_command
 from rotor.terminal import OneLineParser, called, run_command
@@ -40,15 +40,12 @@ def build_parser() -> argparse.ArgumentParser:
         schedule.add_parser,
         envelope.add_parser,
         study.add_parser,
-        tables.add_ideal,
         stability.add_parser,
         actuator.add_parser,
         reproduce.add_parser,
-        reproduce.add_ladder,
         validate.add_parser,
         tables.add_airfoil,
-        bench.add_parser,
-        bench.add_warm,
+        warm.add_parser,
     ):
         add(commands)
 

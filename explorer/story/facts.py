@@ -16,8 +16,9 @@ from explorer.model.units import Units, number
 from explorer.story.steps import FRONT, SPEEDS, STEPS, LectureStep, angle_words, beside, on_one_line, speed_words
 from rotor import Solution, make_design, solve, vibration_front
 from rotor.actuator import try_actuator
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import LinearTwist
-from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, TRIM, built, least, moving_twist
+from rotor.reproduce.ladder import RUNGS, TRIM, built, least, moving_twist
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"

@@ -53,7 +53,9 @@ def add_design_arguments(
     """A flag for every argument of `make_design`; those of the speed on demand, more than one twist, and ranges."""
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
-    _add_allow_outside(parser)
+    parser.add_argument(
+        "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
+    )
     for name, row in (_FLAGS | STAND).items():
         if name in SPEED and not speed and not (ranges and name in SWEPT):
             continue
@@ -95,18 +97,6 @@ def _unit(name: str) -> str:
     """What stands for a number in the help: its unit where the name ends in one."""
     unit = name.rpartition("_")[2]
     return unit.upper() if unit in ("deg", "kg", "kt", "m", "n", "nm") else "X"
-
-
-def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
-    """`--rotor` without the rest of a design."""
-    parser.add_argument("--rotor", metavar="ROTOR", help=f"{', '.join(ARGUMENTS['rotor'].choices)} or a rotor file")
-    _add_allow_outside(parser)
-
-
-def _add_allow_outside(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
-    )
 
 
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:

@@ -1,28 +1,23 @@
-"""Commands that print a table: `sweep`, `front`, `waterfall`, `ideal` and `airfoil`.
+"""Commands that print a table: `sweep`, `front`, `waterfall` and `airfoil`.
 
 `sweep`: one or more twists over advance ratio. `front`: compromises of power and vibration. `waterfall`: power of each
-physical effect, switched on one after another. `ideal`: the least induced power over all circulations and over all
-steady twists. `airfoil`: the data of a section; how the bundled decks are made: `tests/tools/sections`.
+physical effect, switched on one after another. `airfoil`: the data of a section; how the bundled decks are made:
+`tests/tools/sections`.
 """
 
 import argparse
 import json
-import math
-import sys
 from typing import Any, cast
 
 import numpy as np
-from tqdm import tqdm
 
 from rotor.airfoil.sections import TABLE_NAMES, Section, load_installed
 from rotor.arrays import Array
-from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import (
     CONCEPT_HELP,
     add_command,
     add_design_arguments,
     add_output_arguments,
-    add_rotor_argument,
     check_output,
     design_from,
     finite,
@@ -34,16 +29,12 @@ from rotor.command.common import (
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, SWEPT
-from rotor.files.make_design import make_design
-from rotor.files.rotor_file import find_aircraft
-from rotor.optimisation.ideal_bound import Bound, find_bound
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.study.series import PARTS, SHARED_COLUMNS, Waterfall, WaterfallStep, sweep, sweep_columns, waterfall
 from rotor.terminal import wrapped
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve_alike
-from rotor.user_input import parse_range
 
 
 def add_sweep(commands: Any) -> None:
@@ -296,76 +287,6 @@ def _parts(design: Design) -> list[str]:
 def _kilowatts(power: float) -> float:
     """Kilowatts rounded as printed, without negative zero."""
     return round(power / 1e3, 1) + 0.0
-
-
-_IDEAL_COLUMNS = (
-    "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",
-    "linear_deg",
-)  # fmt: skip
-_IDEAL_UNITS = (*[""] * 5, *["κ"] * 4, "°/R")
-"""κ: induced power over C_T λ0."""
-
-_EXPLANATION = (
-    "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the {rotor} at sea level: any circulation;\n"
-    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate in °/R. Lifting\n"
-    "# lines, the wake of the inflow model lifting-line, zero hub moments, linear aerodynamics.\n"
-    "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE{flag}\n"
-)
-
-
-def add_ideal(commands: Any) -> None:
-    parser = add_command(
-        commands, "ideal", run_ideal, "least induced power over all circulations and over all steady twists"
-    )
-    parser.add_argument(
-        "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
-    )
-    parser.add_argument(
-        "--mass-kg", metavar="LIST", help="aircraft masses, as 5000,8322.4 (default: the reference mass)"
-    )
-    add_rotor_argument(parser)
-    add_output_arguments(parser)
-
-
-def run_ideal(args: argparse.Namespace) -> int:
-    """0; bad input is for the caller."""
-    craft = find_aircraft(args.rotor or SHIPPED_ROTORS[0], allow_outside=args.allow_outside)
-    speeds = parse_range(args.mu)
-    masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
-    if min(speeds) < 0.02:
-        raise ValueError(f"advance ratio {min(speeds):g} is too low for a skewed wake: start at 0.02 or more")
-    designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
-    check_output(args)
-    rows: list[tuple[str, ...]] = []
-    words = [name.partition("_")[::2] for name in _IDEAL_COLUMNS]
-    widths = [max(9, *(len(word) + 1 for word in pair)) for pair in words]
-    quiet = args.json or args.csv == "-"
-    for heading in () if quiet else (*zip(*words, strict=True), _IDEAL_UNITS):
-        print("".join(f"{word:>{width}}" for word, width in zip(heading, widths, strict=True)))
-    for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):
-        bound = find_bound(design)
-        rows.append(_ideal_row(design.condition.mass, bound, bound.ct * bound.lambda0 * design.power_unit))
-        if not quiet:
-            print("".join(f"{cell:>{width}}" for cell, width in zip(rows[-1], widths, strict=True)))
-    if args.csv:
-        flag = f" --rotor {args.rotor}" if args.rotor else ""
-        write_table(args.csv, [_IDEAL_COLUMNS, *rows], _EXPLANATION.format(rotor=craft.name, flag=flag))
-    if args.json:
-        print(json.dumps([dict(zip(_IDEAL_COLUMNS, map(float, row), strict=True)) for row in rows], indent=2))
-    return 0
-
-
-def _ideal_row(mass: float, bound: Bound, glauert: float) -> tuple[str, ...]:
-    factors = (bound.any_circulation, bound.lift_limited, bound.steady_twist, bound.linear_twist)
-    return (
-        f"{bound.mu:.4g}",
-        f"{mass:.6g}",
-        f"{bound.ct:.6f}",
-        f"{bound.lambda0:.6f}",
-        f"{glauert / 1e3:.1f}",
-        *(f"{factor:.3f}" for factor in factors),
-        f"{math.degrees(bound.linear_rate):.1f}",
-    )
 
 
 def add_airfoil(commands: Any) -> None:

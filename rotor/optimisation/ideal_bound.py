@@ -7,7 +7,7 @@ name, where
 
 are linear and quadratic in Γ. No load beats the first, no fixed blade with that section the second (linear
 aerodynamics, no profile drag). `find_bound` gives both as factors κ on C_T λ0 of momentum theory; `ideal_factor` reads
-the shipped table.
+the shipped table, which `tests/tools/ideal_bound.py` makes.
 """
 
 import math
@@ -272,7 +272,7 @@ def find_bound(design: Design) -> Bound:
 
 
 TABLE_ROTOR = "uh60a"
-"""The shipped table is of this rotor; for another rotor run `python -m rotor ideal --rotor`."""
+"""The shipped table is of this rotor; `find_bound` computes the bound of any."""
 
 
 def not_bounded(design: Design) -> str:
@@ -300,7 +300,7 @@ def not_bounded(design: Design) -> str:
 
 
 def ideal_factor(mu: float, ct: float, rotor: str = TABLE_ROTOR) -> float | None:
-    """κ of any circulation within the lift limit, from the shipped table (`python -m rotor ideal`) of the UH-60A.
+    """κ of any circulation within the lift limit, from the shipped table of the UH-60A.
 
     Linear between the table's advance ratios and C_T, held beyond its C_T and where none was found; 1 in hover, where
     an even load is ideal. None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not

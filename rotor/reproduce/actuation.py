@@ -119,7 +119,7 @@ def figure_5_10() -> Report:
 def table_5_1() -> Report:
     """Properties of actuators."""
     rows = actuator_tables.table_5_1()
-    properties = table("properties", rows.columns, rows.rows, shown=True)
+    properties = table("properties", rows.columns, rows.rows)
     return report("table 5.1", tables=[properties], count=len(rows.rows), notes=" ".join(rows.notes))
 
 
@@ -141,7 +141,7 @@ def table_5_2() -> Report:
     columns = {"needed": "needed °", "reach": "nominal °", "net_kw": "net kW", "ideal_kw": "ideal kW"}
     return report(
         "table 5.2",
-        tables=[table("verdicts", rows.columns, rows.rows, shown=True)],
+        tables=[table("verdicts", rows.columns, rows.rows)],
         numbers={
             "rows": float(len(gains)),
             "best_kw": gains[0],

@@ -12,8 +12,6 @@ from rotor.reproduce import (
     implementation,
     ladder,
     optimum_twist,
-    readings,
-    today,
     twist_effect,
 )
 from rotor.reproduce.report import Report, thesis
@@ -45,7 +43,6 @@ class CatalogueEntry:
 
 _OF_ALL = partial(searches, CONCEPTS)
 _SLOW: dict[str, tuple[Callable[[], Report], Searches]] = {
-    "readings": (readings.readings, readings.needed),
     **{
         number: (partial(optimum_twist.optimum_figure, number), partial(searches, (concept,)))
         for number, (concept, _) in optimum_twist.FIGURES.items()
@@ -54,7 +51,6 @@ _SLOW: dict[str, tuple[Callable[[], Report], Searches]] = {
     "4.13": (optimum_twist.figure_4_13, _OF_ALL),
     "table 4.1": (optimum_twist.table_4_1, _OF_ALL),
     "table 5.2": (actuation.table_5_2, lambda: [actuation.COMPARED]),
-    "today": (today.today, today.needed),
 }
 _FAST: dict[str, Callable[[], Report]] = {
     "2.7": disk_figures.figure_2_7,
@@ -102,25 +98,19 @@ def find_entry(number: str) -> CatalogueEntry:
 def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     """All searches that the entries need, one list per process, the longest first.
 
-    The optima of a preset are one list, because each starts from its neighbours, and so are the parts of the ladder.
-    The other calls start from none and are lists of their own: the longest first, the others at the end, where they
-    fill what is left of the processes' time.
+    The optima of a preset are one list, because each starts from its neighbours. The other calls start from none and
+    are lists of their own: the longest first, the others at the end, where they fill what is left of the processes'
+    time.
     """
     calls = dict.fromkeys(call for entry in entries if entry.needs for call in entry.needs())
     groups: dict[object, list[Call]] = {}
     for function, args in calls:
-        kind = args[0] if function is best else "ladder" if function in ladder.PARTS else (function, args)
+        kind = args[0] if function is best else (function, args)
         groups.setdefault(kind, []).append((function, args))
-    first = (actuation.COMPARED, *reversed(VARIANTS), "ladder")  # The lifting line takes longest.
+    first = (actuation.COMPARED, *reversed(VARIANTS))  # The lifting line takes longest.
     return [
         groups[kind] for kind in sorted(groups, key=lambda kind: first.index(kind) if kind in first else len(first))
     ]
-
-
-_TESTS = {
-    "Readings": "test_readings.py::test_the_preset_is_the_reading_that_holds_most",
-}
-"""Tests of the entries that the test file of no chapter holds, by title."""
 
 
 def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:
@@ -172,7 +162,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
     for checked in filter(lambda report: report.checkable, reports):
         chapter = checked.number[0] if checked.number[0].isdigit() else "3"
         name = checked.title.lower().replace(" ", "_").replace(".", "_")
-        test = "rotor/reproduce/" + _TESTS.get(checked.title, f"test_chapter_{chapter}.py::test_{name}")
+        test = f"rotor/reproduce/test_chapter_{chapter}.py::test_{name}"
         row = words.row(checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.ours,
                         against=checked.statement)  # fmt: skip
         rows.append(replace(row, error=None))

@@ -186,7 +186,7 @@ def _as_loaded(number: str, document: dict[str, float], data: dict[str, Any]) ->
     return report(
         number,
         Agreement.INPUT if worst == 0.0 else Agreement.DIFFERS,
-        tables=[table("loaded", ("quantity", "document", "loaded"), rows, shown=True)],
+        tables=[table("loaded", ("quantity", "document", "loaded"), rows)],
         numbers={"largest_difference": worst},
         count=len(rows),
         largest_difference_percent=100.0 * worst,

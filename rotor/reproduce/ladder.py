@@ -1,17 +1,14 @@
 """From the preset `thesis` to the preset `flight`, one assumption at a time: how far each moves the best linear twist.
 
-`python -m rotor ladder`. It begins with the reading of the thesis that holds most (`rotor.reproduce.readings`). The
-move of an assumption depends on those changed before it, so it is also computed alone on the preset `thesis`, and taken
-back alone from `flight`; at µ 0.2 and at 0.35. Beside it the value of a twist that moves with speed, and the power of
-twist −17.3° over −11.5° at 330 km/h, which was measured on another rotor (Keys et al. 1987, thesis p. 26, 28).
+It begins with the reading of the thesis that holds most (`rotor.reproduce.readings`). The notebook
+`docs/notebooks/09_three_questions.py` goes up it. Beside it the value of a twist that moves with speed, and the power
+of twist −17.3° over −11.5° at 330 km/h, which was measured on another rotor (Keys et al. 1987, thesis p. 26, 28).
 """
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
-from rotor.aero.inflow import INFLOW_MODELS
 from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
@@ -19,9 +16,8 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.search import Search, run_search
-from rotor.reproduce.runs import CachedFunction, Call
+from rotor.reproduce.runs import CachedFunction
 from rotor.trim.solve import solve
-from rotor.validation.uh60a import SLOWEST
 
 RUNGS = {
     "table": "section table at Mach 0.3 for polynomials",
@@ -37,14 +33,10 @@ RUNGS = {
 TRIM = ("cyclic", "axial")
 """Counted as one change too: the trim of an aircraft has both."""
 SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
-NAMED = (0.2, 0.35)
-"""µ at which the move of each assumption is named."""
 STRONG, WEAK = -17.3, -11.5
 """Twists of Keys et al. [°], read per radius."""
 HOVER, FAST, FAST_KMH = -0.024, 0.05, 330.0
 """Measured by Keys et al.: power of −17.3° over −11.5° in hover and at 330 km/h, as the thesis quotes it."""
-NOTHING = 1e-6
-"""Moves below this are none [°]: the assumption has nothing to act on there."""
 _LOSSES = ("swirl", "radial_friction", "surface_drag", "swept_tip", "download", "tail_rotor_solved")
 _LINEAR = find_concept("linear")
 
@@ -149,7 +141,7 @@ def without_drag(mu: float) -> Least:
 @CachedFunction
 def twice_the_blades(mu: float) -> Least:
     """The best twist of a rigid blade, as one of eight of half the chord and mass."""
-    design = built(_without("elastic"), mu)
+    design = built([name for name in RUNGS if name != "elastic"], mu)
     return _least(_with_blades(design, 2 * design.rotor.blades))
 
 
@@ -179,150 +171,3 @@ def _with_blades(design: Design, count: int) -> Design:
     )
     chord = share * rotor.reference_chord
     return replace(design, rotor=replace(rotor, blades=count, blade=blade, reference_chord=chord))
-
-
-PARTS = (least, moving_twist, strong_over_weak, twice_the_blades, without_drag)
-"""What a ladder is made of."""
-
-
-class Ways(NamedTuple):
-    """How far one change moves the best twist at a speed [°/R], in three ways to count it."""
-
-    in_ladder: float
-    """Less that of the rung before."""
-    alone_on_thesis: float
-    alone_off_flight: float
-    """The best twist of `flight` less that of `flight` without it."""
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """The smallest and the largest."""
-        known = sorted((way for way in self if abs(way) > NOTHING), key=abs)
-        return known[0], known[-1]
-
-
-@dataclass(frozen=True)
-class Step:
-    """One rung: the blade with this assumption changed, and all before it."""
-
-    name: str
-    words: str
-    best: tuple[Least, ...]
-    """By speed."""
-    moves: tuple[Ways, ...]
-    """At each speed of `Ladder.named`; empty for the first."""
-    moving: MovingTwist
-    strong_over_weak: tuple[float, float]
-    """In hover and at 330 km/h."""
-
-
-@dataclass(frozen=True)
-class InflowRow:
-    """The preset `flight` with another inflow model."""
-
-    inflow: str
-    best: tuple[Least, ...]
-    moving: MovingTwist
-
-
-@dataclass(frozen=True)
-class Ladder:
-    """All rungs, the trim as one, and other inflow models and blades at the top."""
-
-    speeds: tuple[float, ...]
-    named: tuple[float, ...]
-    """Values of `NAMED` among the speeds; without any, the fastest."""
-    steps: tuple[Step, ...]
-    trim: Step
-    """Both of `TRIM` as one change."""
-    eight_blades_deg: float
-    """Best twist of eight rigid blades less that of four, at the fastest speed."""
-    without_drag_deg: float
-    """Best twist of `flight` without fuselage drag, at the fastest speed [°/R]."""
-    inflows: tuple[InflowRow, ...]
-
-    def step(self, name: str) -> Step:
-        """A rung by name; `trim` is both of `TRIM`."""
-        return next(step for step in (*self.steps, self.trim) if step.name == name)
-
-    def at(self, name: str, mu: float) -> Least:
-        """The best twist of a rung at a speed of the ladder."""
-        return self.step(name).best[self.speeds.index(mu)]
-
-    def moves(self, name: str, mu: float) -> Ways:
-        """How far this change moves the best twist at one of `named`."""
-        return self.step(name).moves[self.named.index(mu)]
-
-
-def check_speeds(speeds: Sequence[float]) -> tuple[float, ...]:
-    """Hover and advance ratios in order; ValueError for what no inflow model here is proven for."""
-    kept = tuple(sorted(set(speeds)))
-    for mu in kept:
-        if mu != 0.0 and not SLOWEST <= mu <= 0.45:
-            raise ValueError(f"advance ratio {mu:g} is outside {SLOWEST:g}…0.45: give 0 for hover, or a value inside")
-    if len(kept) < 2:
-        raise ValueError("a moving twist needs two speeds: give for example 0,0.2,0.35")
-    return kept
-
-
-def named_of(speeds: tuple[float, ...]) -> tuple[float, ...]:
-    """`Ladder.named`"""
-    return tuple(mu for mu in NAMED if mu in speeds) or speeds[-1:]
-
-
-def climb(speeds: tuple[float, ...] = SPEEDS) -> Ladder:
-    """Compute the ladder; ValueError where a blade does not trim."""
-    names, fast, named = tuple(RUNGS), speeds[-1], named_of(speeds)
-
-    def ways(on: tuple[str, ...], before: tuple[str, ...], changed: tuple[str, ...], mu: float) -> Ways:
-        def rate(which: tuple[str, ...]) -> float:
-            return least(which, mu, None).rate_deg
-
-        return Ways(rate(on) - rate(before), rate(changed) - rate(()), rate(names) - rate(_without(*changed)))
-
-    def step(name: str, words: str, changed: tuple[str, ...], count: int) -> Step:
-        on, before = names[:count], names[: count - len(changed)]
-        return Step(
-            name, words, tuple(least(on, mu, None) for mu in speeds),
-            tuple(ways(on, before, changed, mu) for mu in named) if changed else (),
-            moving_twist(on, speeds, None),
-            (strong_over_weak(on, 0.0), strong_over_weak(on, FAST_KMH)),
-        )  # fmt: skip
-
-    steps = [step("thesis", "preset thesis: the reading that holds most", (), 0)]
-    steps += [step(name, words, (name,), k) for k, (name, words) in enumerate(RUNGS.items(), start=1)]
-    trim = step("trim", "trim by cyclic together with µ sin α", TRIM, names.index(TRIM[-1]) + 1)
-    return Ladder(
-        speeds, named, tuple(steps), trim,
-        twice_the_blades(fast).rate_deg - least(_without("elastic"), fast, None).rate_deg,
-        without_drag(fast).rate_deg,
-        tuple(
-            InflowRow(name, tuple(least(names, mu, name) for mu in speeds), moving_twist(names, speeds, name))
-            for name in INFLOW_MODELS
-        ),
-    )  # fmt: skip
-
-
-def calls(speeds: tuple[float, ...] = SPEEDS) -> list[list[Call]]:
-    """What `climb` needs, in lists that can be made in different processes."""
-    names = tuple(RUNGS)
-    ladder = [names[:count] for count in range(len(names) + 1)]
-    alone = [on for changed in (*((name,) for name in names), TRIM) for on in (changed, _without(*changed))]
-    return [
-        *(
-            [(least, (names, mu, inflow)) for mu in speeds] + [(moving_twist, (names, speeds, inflow))]
-            for inflow in INFLOW_MODELS
-        ),
-        *(
-            [(least, (on, mu, None)) for mu in speeds]
-            + [(moving_twist, (on, speeds, None))]
-            + [(strong_over_weak, (on, kmh)) for kmh in (0.0, FAST_KMH)]
-            for on in ladder
-        ),
-        *([(least, (on, mu, None)) for on in alone] for mu in named_of(speeds)),
-        [(twice_the_blades, (speeds[-1],)), (without_drag, (speeds[-1],))],
-    ]
-
-
-def _without(*left: str) -> tuple[str, ...]:
-    return tuple(name for name in RUNGS if name not in left)

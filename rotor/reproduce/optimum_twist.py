@@ -61,11 +61,6 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     settled = all(optimum.converged for row in optima.values() for optimum in row)
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
     kinds = _by_kind(0.2) if number == "4.1" else {}
-    best_words = [
-        (f"{name}, {NAMES[key]}", *(f"{_value(optimum, key):.1f}" for optimum in row))
-        for name, row in optima.items()
-        for key in shown
-    ]
     rows = [
         (name, optimum.mu, *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
          optimum.power_kw, 100.0 * optimum.saving)
@@ -75,7 +70,6 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     return report(
         number,
         tables=[
-            table("best", ("", *("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds)), best_words, shown=True),
             table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows),
         ],
         panels=[_panel(name, row, shown) for name, row in optima.items()],
@@ -222,7 +216,7 @@ def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
     return report(
         "4.13",
         tables=[
-            table("largest saving", ("[%]", *CONCEPTS), largest, shown=True),
+            table("largest saving", ("[%]", *CONCEPTS), largest),
             table("saving_percent", heads, [(*key, *row) for key, row in savings.items()]),
         ],
         panels=panels,
@@ -262,7 +256,7 @@ def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
         "quadratic": more["quadratic"],
         "airfoils": more["two airfoils"] - more["two 50-50"],
     }
-    saved = table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows, shown=True)
+    saved = table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows)
     return report("table 4.1", tables=[saved], numbers=numbers)
 
 

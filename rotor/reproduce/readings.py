@@ -16,8 +16,8 @@ from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import TOLERANCE, Agreement, Report, TableCell, report, table
-from rotor.reproduce.runs import FIVE_RATES, CachedFunction, Call
+from rotor.reproduce.report import TOLERANCE
+from rotor.reproduce.runs import FIVE_RATES
 from rotor.reproduce.twist_effect import DOCUMENT_HOVER, DOCUMENT_STRONG, HIGH, LOW, MEDIUM, by_parabola
 from rotor.trim.solve import solve
 
@@ -85,7 +85,6 @@ def reading_design(section: str, loss_on: LossOn, rate: float, mu: float) -> Des
     return replace(design, models=replace(design.models, hover_inflow="annulus"))
 
 
-@CachedFunction
 def judge(section: str, loss_on: LossOn) -> tuple[Judgement, ...]:
     """These section data and loss, for every unit of twist and count of power."""
     root = make_design(preset="thesis").rotor.blade.root_cutout
@@ -122,12 +121,8 @@ def judge(section: str, loss_on: LossOn) -> tuple[Judgement, ...]:
     return tuple(judged(unit, count) for unit, count in product(UNITS, COUNTS))
 
 
-def needed() -> list[Call]:
-    """The calls to make ahead."""
-    return [(judge, pair) for pair in product(SECTIONS, LOSS_ON)]
-
-
 def described(section: str) -> str:
+    """Section data in words."""
     if not section.startswith(THESIS_NAME):
         return "table over Mach number"
     reading = parse_reading(section)
@@ -143,48 +138,7 @@ def shortfall(judgement: Judgement) -> float:
     )
 
 
-def readings(sections: tuple[str, ...] = SECTIONS) -> Report:
-    """Reading × statement."""
-    judgements = {judgement.reading: judgement for pair in product(sections, LOSS_ON) for judgement in judge(*pair)}
-    held = {reading: sum(judgement.holds) for reading, judgement in judgements.items()}
-    best = min(judgements, key=lambda reading: (-held[reading], shortfall(judgements[reading])))
-    most = held[best]
-    several = sum(count == most for count in held.values())
-    ways = [*product(LOSS_ON, UNITS, COUNTS)]
-    before = ThesisReading(THESIS_NAME, "lift", best.unit, best.counted)
-    per_radius = best._replace(unit=UNITS[0])
-
-    def statements(reading: ThesisReading) -> tuple[TableCell, ...]:
-        judgement = judgements[reading]
-        cells = [f"{'yes' if yes else 'no'} {100 * value:.2f} %"
-                 for yes, value in zip(judgement.holds, judgement.excess, strict=True)]  # fmt: skip
-        overtakes = f"{judgement.overtakes:.3f}" if np.isfinite(judgement.overtakes) else "–"
-        words = f"{described(reading.section)}; F on {reading.loss_on}; {reading.unit}; {reading.counted}"
-        return words, f"{judgement.optimum_deg:.1f}", *cells, overtakes
-
-    return report(
-        "readings",
-        Agreement.INDICATIVE,
-        tables=(
-            table(
-                "held",
-                ("section data", *(f"{on}, {unit}, {count}" for on, unit, count in ways)),
-                [(described(section), *(held[ThesisReading(section, *way)] for way in ways)) for section in sections],
-                shown=True,
-            ),
-            table(
-                "statements", ("reading", "optimum in hover [°]", *STATEMENTS, "−8° overtakes −12° at µ"),
-                [statements(choice) for choice in (best, per_radius, before)], shown=True,
-            ),
-            table(
-                "readings",
-                (*ThesisReading._fields, "optimum_deg", "cost_13_5", "cost_16", "excess_low", "cost_8", "cost_4",
-                 "overtakes_mu", "holds"),
-                [(*reading, judgement.optimum_deg, *judgement.excess, judgement.overtakes, held[reading])
-                 for reading, judgement in judgements.items()],
-            ),
-        ),
-        numbers={"most": float(most), **{" ".join(reading): float(count) for reading, count in held.items()}},
-        several=several, count=len(judgements), best=str(statements(best)[0]), shortfall=shortfall(judgements[best]),
-        per_radius=held[per_radius], overtakes=judgements[per_radius].overtakes, before=held[before],
-    )  # fmt: skip
+def judged_readings(sections: tuple[str, ...] = SECTIONS) -> list[Judgement]:
+    """Every reading with these section data: first the one that most statements hold of, or that misses least."""
+    found = [judgement for pair in product(sections, LOSS_ON) for judgement in judge(*pair)]
+    return sorted(found, key=lambda judgement: (-sum(judgement.holds), shortfall(judgement)))

@@ -43,8 +43,6 @@ class ReportTable:
     """Short: part of the file name when a figure has several."""
     columns: tuple[str, ...]
     rows: tuple[tuple[TableCell, ...], ...]
-    shown: bool = False
-    """Whether the page shows it open, as the result itself."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,8 +61,6 @@ class Report:
     verdict: Agreement
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
-    caption_only: bool = False
-    """Whether the caption of the thesis is all that is known of it."""
     tables: tuple[ReportTable, ...]
     panels: tuple[Chart, ...] = ()
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
@@ -125,11 +121,9 @@ def floats(values: ArrayLike) -> tuple[float, ...]:
     return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
 
 
-def table(
-    name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]], *, shown: bool = False
-) -> ReportTable:
+def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> ReportTable:
     """A table from any rows; numpy numbers become plain ones."""
-    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows), shown)
+    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
 
 
 @cache
@@ -158,14 +152,9 @@ def report(
     return Report(
         number=number.removeprefix("table ").capitalize(),
         kind="table" if number.startswith("table ") else "figure" if number[0].isdigit() else "claim",
-        caption=caption, statement=known, ours=ours, verdict=verdict, because=because, caption_only=title is not None,
+        caption=caption, statement=known, ours=ours, verdict=verdict, because=because,
         tables=tuple(tables), panels=tuple(panels), numbers=numbers,
     )  # fmt: skip
-
-
-def filled_rows(number: str, **values: str | float) -> list[list[str]]:
-    """The rows of texts that `thesis` has of a report, filled."""
-    return [[_filled(cell, values) for cell in row] for row in thesis()[number]["rows"]]
 
 
 def _filled(text: str, values: Mapping[str, str | float]) -> str:

@@ -79,14 +79,20 @@ def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
     """Write the CSV file, the summary and every page below a folder; the path of the summary."""
     order = list(KINDS)
     sets = sorted(sets, key=lambda data: order.index(data.rows[0].kind))
-    rows = [[_plain(cell) for cell in astuple(row)] for data in sets for row in data.rows]
-    text = csv_text([[field.name for field in fields(TrustRow)], *rows], _HEADING)
-    (folder / "trust.csv").write_text(text, encoding="utf-8", newline="")
+    (folder / "trust.csv").write_text(
+        trust_csv(row for data in sets for row in data.rows), encoding="utf-8", newline=""
+    )
     for data in sets:
         write_set(data, folder)
     path = folder / "validation.md"
     path.write_text(summary(sets), encoding="utf-8")
     return path
+
+
+def trust_csv(rows: Iterable[TrustRow]) -> str:
+    """assets/trust.csv."""
+    cells = ([_plain(cell) for cell in astuple(row)] for row in rows)
+    return csv_text([[field.name for field in fields(TrustRow)], *cells], _HEADING)
 
 
 def write_set(data: TrustSet, folder: Path) -> Path:

@@ -1,27 +1,20 @@
 """Verification: our equations beside what they must satisfy, and beside two independent public codes.
 
 Theory: identities, closed forms and integration in time. Codes: dynbem in forward flight, WISDEM's CCBlade in axial
-flow, both with our trimmed controls, blade and section data, so the remaining differences come from their mathematics.
-Neither is a dependency: they are installed by the extras `test` and `crosscheck`.
+flow. Their numbers are those of the shipped rows: `tests/tools/cross_codes.py` runs the codes.
 """
 
-import importlib
-import importlib.util
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
-from scipy.optimize import root
 
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import build_problem, in_disk_axes
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UR, UT, section
-from rotor.airfoil.sections import load_section
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
@@ -31,17 +24,13 @@ from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.power import profile_power_coefficient
-from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet, description, trust_rows
 
 SPEEDS = (0.1, 0.2, 0.3)
+"""Advance ratios of the identities, and of dynbem."""
 CCBLADE_MASSES = (5000.0, 8322.4)
-RATE_DEG = -8.0
-SECTION = "sc1095-thesis"
-MACH = 0.3
-AXIAL_SPEED = 0.02
-"""CCBlade divides by the axial speed; hover is run as a climb of 0.02 m/s, with about 13 m/s induced."""
+"""[kg] in hover."""
 
 
 def theory() -> TrustSet:
@@ -171,38 +160,9 @@ def _with_inflow(design: Design, inflow: str) -> Design:
     return replace(design, models=replace(design.models, inflow=inflow))
 
 
-@dataclass(frozen=True)
-class CodeComparison:
-    """One condition in both codes."""
-
-    condition: str
-    thrust: float
-    """Thrust of the other code over ours, minus one."""
-    power: float
-    """Torque of the other code over ours, minus one."""
-    detail: str
-    """Behind that of thrust in a remark."""
-
-
-def have(package: str) -> bool:
-    """Whether the code is installed."""
-    return importlib.util.find_spec(package) is not None
-
-
-def _code_rows(name: str, package: str, what: str, beside: Callable[[], list[CodeComparison]]) -> list[TrustRow]:
-    """Each condition in another code; the shipped rows where it is not installed."""
-    if not have(package):
-        return [row for row in trust_rows() if row.set == name]
-    return [
-        description(name).share(f"{what}, {case.condition}", case.power, 5e-4, digits=2,
-                                note=f"Thrust {100 * case.thrust:+.2f} %{case.detail}.")
-        for case in beside()
-    ]  # fmt: skip
-
-
 def dynbem() -> TrustSet:
     """Pitt–Peters inflow in forward flight."""
-    rows = _code_rows("dynbem", "dynbem", "Torque", beside_dynbem)
+    rows = _stored("dynbem")
     power = _percent(rows)
     series = (Line("dynbem's torque over ours", SPEEDS, power, 1, dots=True),)
     chart = Chart("Torque of dynbem over ours", Axis("advance ratio µ"), Axis("difference [%]"), series)
@@ -211,7 +171,7 @@ def dynbem() -> TrustSet:
 
 def ccblade() -> TrustSet:
     """Hover, without and with swirl."""
-    rows = _code_rows("ccblade", "wisdem", "Power", beside_ccblade)
+    rows = _stored("ccblade")
     power = _percent(rows)
     series = (
         Line("without swirl", CCBLADE_MASSES, power[0::2], 1, dots=True),
@@ -221,132 +181,10 @@ def ccblade() -> TrustSet:
     return description("ccblade").page(f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %", rows, (chart,))
 
 
+def _stored(name: str) -> list[TrustRow]:
+    """The shipped rows of a code, which is run by `tests/tools/cross_codes.py`."""
+    return [row for row in trust_rows() if row.set == name]
+
+
 def _percent(rows: list[TrustRow]) -> tuple[float, ...]:
     return tuple(100.0 * (row.error or 0.0) for row in rows)
-
-
-def beside_dynbem() -> list[CodeComparison]:
-    """Pitt–Peters, forward flight, moment trim; dynbem at our controls with its inflow settled."""
-    return [_one_dynbem(mu) for mu in SPEEDS]
-
-
-def beside_ccblade() -> list[CodeComparison]:
-    """Hover: CCBlade at our collective, without and with its swirl."""
-    return [_one_ccblade(mass, swirl) for mass in CCBLADE_MASSES for swirl in (False, True)]
-
-
-def moment_trimmed(mu: float) -> Solution:
-    """The thesis' rotor in propulsive trim with three-state gains, no loss factors and, as dynbem's, rigid blades."""
-    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu, airfoils=SECTION)
-    models = replace(
-        design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
-    )
-    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)  # Too heavy to cone.
-    return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
-
-
-def dynbem_case(ours: Solution) -> tuple[Any, Any, Any]:
-    """Model, inputs and first inflow states of dynbem for a trim of `moment_trimmed`; ImportError without it."""
-    dynbem: Any = importlib.import_module("dynbem")
-    design, controls, rotor = ours.design, ours.controls, ours.design.rotor
-    alpha = np.radians(np.arange(-180.0, 180.1, 0.25))
-    polar = load_section(SECTION)(alpha, MACH)
-    stations = np.linspace(rotor.blade.root_cutout, 1.0, 81)
-    chord = [rotor.reference_chord] * len(stations)
-    blade = dynbem.BladeGeometry(
-        rotor.blades, rotor.radius, rotor.blade.root_cutout * rotor.radius, rotor.reference_chord, 0.0,
-        design.models.elements, (rotor.radius * stations).tolist(), chord, (RATE_DEG * (stations - 0.75)).tolist(),
-        False,
-    )  # fmt: skip
-    definition = dynbem.RotorDefinition(
-        blade,
-        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: replaced by the table below.
-        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
-    )
-    table = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(polar.cl), np.ascontiguousarray(polar.cd))
-    model = dynbem.PittPetersModel(definition, table, design.models.azimuths)
-    speed, tilt = design.airspeed, controls.shaft_tilt
-    # World axes: x forward, z down; azimuth from the nose, so both cyclics change sign.
-    inputs = dynbem.RotorInputs(
-        collective_rad=controls.collective, tilt_lon=controls.cyclic_1c, tilt_lat=-controls.cyclic_1s, R_hub=np.eye(3),
-        v_hub_world=np.array([speed * math.cos(tilt), 0.0, -speed * math.sin(tilt)]), wind_world=np.zeros(3),
-        omega_rad_s=rotor.angular_speed, rho_kg_m3=design.condition.density,
-    )  # fmt: skip
-    return model, inputs, dynbem.PittPetersRotorState(controls.lambda0, 0.0, 0.0)
-
-
-def _one_dynbem(mu: float) -> CodeComparison:
-    ours = moment_trimmed(mu)
-    design, controls = ours.design, ours.controls
-    forces, state = _settle(*dynbem_case(ours))
-    thrust = -float(forces.F_world[2])
-    torque = ours.power.shaft / design.rotor.angular_speed
-    lambda0, gradient, _ = (float(value) for value in state.to_array())
-    return CodeComparison(
-        condition=f"µ {mu:g}",
-        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
-        power=float(forces.Q_spin) / torque - 1.0,
-        detail=f". λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
-        f"{_inflow_gradient(ours):.4f} λ0",
-    )
-
-
-def _inflow_gradient(ours: Solution) -> float:
-    """k_x = 15π/32 tan(χ/2) at the trim."""
-    mu, tilt = ours.design.condition.advance_ratio, ours.controls.shaft_tilt
-    skew = math.atan2(mu * math.cos(tilt), mu * math.sin(tilt) + ours.controls.lambda0)
-    return 15.0 * math.pi / 32.0 * math.tan(0.5 * skew)
-
-
-def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
-    """Forces and inflow states where the rates of these are zero."""
-
-    def rates(x: Array) -> Array:
-        return np.array(model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64)
-
-    solution = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
-    assert np.abs(rates(solution.x)).max() < 1e-10, solution.message
-    settled = state.from_array(solution.x)
-    return model.compute_forces(inputs, settled)[0], settled
-
-
-class _MirroredSection:
-    """Our section table in CCBlade's interface: for a turbine α is φ − θ, and lift changes sign."""
-
-    def __init__(self) -> None:
-        self.table = load_section(SECTION)
-
-    def evaluate(self, alpha: float, reynolds: float, return_cm: bool = False) -> tuple[float, ...]:
-        """(cl, cd) at α [rad], and cm, which CCBlade does not use."""
-        del reynolds
-        forces = self.table(-float(np.asarray(alpha).item()), MACH)
-        pair = (-float(forces.cl), float(forces.cd))
-        return (*pair, 0.0) if return_cm else pair
-
-
-def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
-    ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
-    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass, airfoils=SECTION)
-    models = replace(design.models, hover_inflow="annulus", hub_loss=False)
-    ours = solve(replace(design, models=models)).require()
-    rotor = design.rotor
-    root = rotor.blade.root_cutout
-    n = models.elements
-    r = root + (np.arange(n) + 0.5) / n * (1.0 - root)
-    code = ccblade.CCBlade(
-        rotor.radius * r, np.full(n, rotor.reference_chord), RATE_DEG * (r - 0.75), [_MirroredSection()] * n,
-        rotor.radius * root, rotor.radius, B=rotor.blades, rho=design.condition.density, tiploss=True, hubloss=False,
-        wakerotation=swirl, usecd=True, shearExp=0.0,
-    )  # fmt: skip
-    rpm = rotor.angular_speed * 60.0 / (2.0 * math.pi)
-    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(ours.controls.collective), 0.0)
-    # Summed like ours, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
-    width = rotor.radius * (1.0 - root) / n
-    thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
-    torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
-    return CodeComparison(
-        condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
-        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
-        power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,
-        detail=f", C_T/σ {ours.ct_over_sigma:.3f}",
-    )

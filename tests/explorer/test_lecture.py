@@ -18,9 +18,10 @@ from explorer.story.facts import Facts, facts_of
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, step_text, view_of
 from explorer.story.story_file import answer_record, step_record
 from explorer.tabs.lecture.lecture_panel import CASES, PageSnapshot
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
-from rotor.reproduce.ladder import INFLOW_MODELS, RUNGS, SPEEDS, moving_twist
+from rotor.reproduce.ladder import RUNGS, SPEEDS, moving_twist
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -183,7 +184,7 @@ class TestAnswers:
 
     @pytest.mark.slow
     def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, Facts]):
-        """The band over inflow models is that of `python -m rotor ladder`, row by row."""
+        """The band over inflow models is that of the ladder, row by row."""
         found = facts["fixed_or_moving"]
         gains = [moving_twist(tuple(RUNGS), SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
         numbers = found.numbers

@@ -182,7 +182,6 @@ def until(true: Callable[[], bool]) -> None:
 
 COMMANDS = {
     "schedule": ["--starts", "100", "--processes", "2"],
-    "ladder": ["--processes", "2"],
     "reproduce": ["OUT", "--processes", "2"],
     "study": ["two_segment.toml", "--workers", "2", "--out", "OUT"],
 }

@@ -21,7 +21,7 @@ import numpy as np
 
 from rotor.__main__ import build_parser, main
 
-SHORT = ("solve", "airfoil", "ideal", "stability")
+SHORT = ("solve", "airfoil", "stability")
 COMMANDS = (*SHORT, "sweep", "front", "waterfall", "optimise", "schedule", "envelope", "actuator")
 """Without those that take minutes. Files of studies are tried in tests/rotor/study."""
 PLAUSIBLE = {

@@ -12,7 +12,7 @@ import gc
 from dataclasses import replace
 from numba.core.registry import CPUDispatcher
 from explorer.picture import picture
-from rotor.command.bench import compile_all
+from rotor.command.warm import compile_all
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
 from rotor.trim.adjoint import power_gradient
@@ -64,7 +64,7 @@ class Listener(event.Listener):
 
 event.register("numba:compile", Listener())
 from explorer.picture import picture
-from rotor.command.bench import compile_all
+from rotor.command.warm import compile_all
 from rotor.compiled import _watch
 compile_all()
 picture.warm()

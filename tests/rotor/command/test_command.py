@@ -17,7 +17,6 @@ from rotor.aero.switches import SWITCHES
 from rotor.command.optimise import digits_of_band
 from rotor.design.quantities import HOVER_INFLOWS
 from rotor.files.make_design import make_design
-from rotor.optimisation.ideal_bound import ideal_factor
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.user_input import parse_range
 
@@ -215,7 +214,7 @@ def test_degrees_have_the_digits_that_the_band_deserves():
     assert [digits_of_band(width) for width in (30.0, 3.0, 0.3, 0.0)] == [0, 1, 2, 3]
 
 
-@pytest.mark.parametrize("command", ["", "solve", "sweep", "optimise", "airfoil", "bench", "study"])
+@pytest.mark.parametrize("command", ["", "solve", "sweep", "optimise", "airfoil", "warm", "study"])
 def test_help_says_what_the_command_is_for(command: str, capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main([*command.split(), "--help"])
@@ -261,20 +260,6 @@ def test_airfoil_as_table_and_as_json(capsys: pytest.CaptureFixture[str]):
     for name in ("sc1095", "sc1095-thesis"):
         assert "nan" not in shown(name)
         assert len(shown(name).splitlines()) in (13, 14)  # A long source takes two lines.
-
-
-def test_ideal_states_its_units(capsys: pytest.CaptureFixture[str]):
-    code, out, _ = run(capsys, "ideal", "--mu", "0.2")
-    first, second, units, row = (line.split() for line in out.splitlines())
-    names = ["mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist"]
-    assert code == 0
-    assert first == [name.partition("_")[0] for name in (*names, "linear_twist", "linear_deg")]
-    assert second == ["kg", "kw", "circulation", "limited", "twist", "twist", "deg"]
-    assert units == [*["κ"] * 4, "°/R"]
-    found = dict(zip(names, map(float, row)))  # noqa: B905
-    power = solved(capsys, "--mu", "0.2", "--inflow", "uniform", "--off", "tip-loss", "--twist", "ideal")["power_w"]
-    assert_allclose(found["glauert_kw"], power["induced"] / 1e3, rtol=0.02)
-    assert_allclose(found["lift_limited"], ideal_factor(0.2, found["ct"]) or math.nan, rtol=1e-3)
 
 
 def test_ranges():

@@ -40,13 +40,6 @@ def test_a_sweep_over_two_quantities_is_refused(capsys: pytest.CaptureFixture[st
         assert "give one range" in capsys.readouterr().err
 
 
-def test_ideal_prints_json_and_csv(capsys: pytest.CaptureFixture[str]):
-    (row,) = json.loads(run(capsys, "ideal", "--mu", "0.2", "--json"))
-    lines = [line for line in run(capsys, "ideal", "--mu", "0.2", "--csv", "-").splitlines() if line[0] != "#"]
-    (again,) = csv.DictReader(lines)
-    assert {name: float(value) for name, value in again.items()} == row
-
-
 def test_two_outputs_at_once_are_refused(capsys: pytest.CaptureFixture[str]):
     assert main(["sweep", "--mu", "0.1:0.2:0.1", "--csv", "-", "--json"]) == 2
     assert "both print" in capsys.readouterr().err
@@ -94,7 +87,6 @@ def test_bash_completes_commands_and_flags(capsys: pytest.CaptureFixture[str]):
         ["solve", "--mu", "0.3", "--bending"],
         ["sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16"],
         ["waterfall", "--mu", "0.3"],
-        ["ideal", "--mu", "0.2"],
         ["airfoil", "show", "sc1095"],
         ["optimise", "--mu", "0.2"],
         ["validate", "xv15-hover"],

@@ -8,7 +8,6 @@ from rotor.airfoil.polynomial import THESIS_NAME, THESIS_READING, parse_reading,
 from rotor.airfoil.sections import load_section
 from rotor.files.make_design import make_design
 from rotor.reproduce import readings
-from rotor.reproduce.report import Agreement
 from rotor.reproduce.twist_effect import hover_optimum
 
 
@@ -43,12 +42,12 @@ def test_the_preset_is_one_of_the_readings():
 @pytest.mark.slow
 def test_the_preset_is_the_reading_that_holds_most():
     """The numbers decide what is said to hold; units of twist scale, and torque less parts is what the disk takes."""
-    report = readings.readings()
-    assert report.verdict is Agreement.INDICATIVE
-    assert len(report.tables[-1].rows) == 80
-    most = report.numbers["most"]
-    assert most == max(value for key, value in report.numbers.items() if key != "most")
-    assert report.numbers[f"{THESIS_READING.name} inflow root to tip sum"] == most
+    found = readings.judged_readings()
+    assert len(found) == 80
+    most = max(sum(judgement.holds) for judgement in found)
+    preset = readings.ThesisReading(THESIS_READING.name, "inflow", "root to tip", "sum")
+    assert found[0].reading == preset
+    assert sum(found[0].holds) == most
     radius, _, tip, torque = readings.judge(THESIS_READING.name, "inflow")
     assert_allclose(radius.optimum_deg, hover_optimum("thesis")[0], atol=0.2)
     root = make_design(preset="thesis").rotor.blade.root_cutout

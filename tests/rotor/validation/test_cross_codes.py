@@ -2,7 +2,8 @@
 
 import pytest
 
-from rotor.validation.verification import beside_ccblade, beside_dynbem
+from tests.shipped_rows import still_true
+from tests.tools.cross_codes import PACKAGES, beside_ccblade, beside_dynbem, code_rows, have
 
 
 def test_dynbem_pitt_peters_forward_flight():
@@ -23,3 +24,11 @@ def test_ccblade_hover():
             assert abs(one.power) < 2e-3, one
         else:
             assert -0.04 < one.power < 0.0, one
+
+
+def test_the_shipped_rows_are_reproduced():
+    installed = [name for name, package in PACKAGES.items() if have(package)]
+    assert installed, "pip install 'rotor-explorer[test]'"
+    for name in installed:
+        for row in code_rows(name):
+            still_true(row)

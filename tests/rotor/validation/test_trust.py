@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.chart_svg import small_svg, svg
-from rotor.validation import verification
 from rotor.validation.page import LONGEST, SETS
 from rotor.validation.trust import KINDS, trust_rows
 from tests.shipped_rows import still_true
@@ -112,9 +111,3 @@ def test_rows_are_reproduced():
     for make in SETS.values():
         for row in make().rows:
             still_true(row)
-
-
-def test_public_code_rows_are_reproduced():
-    assert verification.have("dynbem") or verification.have("wisdem"), "pip install 'rotor-explorer[test]'"
-    for row in (*verification.dynbem().rows, *verification.ccblade().rows):
-        still_true(row)

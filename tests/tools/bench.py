@@ -1,16 +1,21 @@
-"""`bench`: processor times of evaluations, trims, searches and studies, beside their targets and other codes."""
+"""Processor times of evaluations, trims, searches and studies, beside their targets and other codes.
+
+`python -m tests.tools.bench [--long] [--json] [--against DIR]`
+"""
 
 import argparse
 import importlib
 import json
 import os
 import statistics
+import subprocess
 import sys
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import starmap
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,10 +23,7 @@ from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, repor
 
 from rotor.aero.problem import Problem, build_problem
 from rotor.columns.flight import flight_system
-from rotor.command.common import add_command
-from rotor.compiled import tell_in_a_log
 from rotor.design.design import Design
-from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
@@ -37,7 +39,7 @@ from rotor.trim.forward import first_guess
 from rotor.trim.newton import first_point, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.verification import dynbem_case, moment_trimmed
+from tests.tools.cross_codes import dynbem_case, moment_trimmed
 
 T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
@@ -102,67 +104,76 @@ def _points_per_second(call: Callable[[], Any]) -> float:
     return _POINTS / (time.process_time() - begin)
 
 
-def add_warm(commands: Any) -> None:
-    add_command(
-        commands, "warm", _warm, "compiles all kernels, once after installing",
-        "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
-    )  # fmt: skip
-
-
-def _warm(_: argparse.Namespace) -> int:
-    tell_in_a_log()
-    compile_all()
-    print("All kernels are compiled.")
-    return 0
-
-
-def compile_all() -> None:
-    """Compile every kernel of the solver: both presets in flight and hover, blades that bend, stall with lags."""
-    for preset in PRESETS:
-        for advance_ratio in (0.2, 0.0):
-            power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
-    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
-    power_gradient(solve(make_design(mu=0.2, bending=True)))
-    power_gradient(solve(make_design(mu=0.2, bending=True, dynamic_stall="on")))
-
-
-def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "bench", run, "times evaluations and trims beside their targets and other codes")
+def main(argv: list[str] | None = None) -> int:
+    """Exit code 0: targets are printed, not enforced."""
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-
-
-def run(args: argparse.Namespace) -> int:
-    """Exit code 0: targets are printed, not enforced."""
-    figures, baselines, notes = measure()
-    searches = measure_searches(long=args.long)
-    batch = measure_batch()
-    if args.json:
-        answer = {
-            "ms": figures, "targets_ms": TARGETS_MS, "seconds": searches, "targets_s": TARGETS_S,
-            "trims_per_second_and_core": batch, "target_per_second": TARGET_PER_SECOND,
-            "baselines": [asdict(baseline) | {"ratio": baseline.ratio} for baseline in baselines], "notes": notes,
-        }  # fmt: skip
-        print(json.dumps(answer, indent=2, allow_nan=False))
-        return 0
-    print("milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade")
-    print("where nothing else is said, linear inflow on 40 × 120\n")
-    for name, value in figures.items():
-        print(_line(name, value, "10.3f", TARGETS_MS.get(name), "≤"))
-    print("\nseconds, lifting line, elastic blade\n")
-    for name, value in searches.items():
-        print(_line(name, value, "10.2f", TARGETS_S.get(name), "≤"))
-    print("\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n")
-    for name, value in batch.items():
-        print(_line(name, value, "10.0f", TARGET_PER_SECOND, "≥"))
-    minutes = 1e5 / (2.0 * 60.0 * batch["as a study works them off"])
-    print(_line("10⁵ of them on two cores [minutes]", minutes, "10.1f", 30.0, "≤"))
-    print("\nother codes [ms], and how often ours runs in that time\n")
-    for baseline in baselines:
-        print(f"{baseline.name:<44}{baseline.ms:10.3f}   {baseline.ratio:8.2g} × {baseline.ours}; {baseline.physics}")
-    for note in notes:
-        print(f"note: {note}", file=sys.stderr)
+    parser.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
+    args = parser.parse_args(argv)
+    ms, baselines, notes = measure()
+    answer: dict[str, Any] = {
+        "ms": ms,
+        "targets_ms": TARGETS_MS,
+        "seconds": measure_searches(long=args.long),
+        "targets_s": TARGETS_S,
+        "trims_per_second_and_core": measure_batch(),
+        "target_per_second": TARGET_PER_SECOND,
+        "baselines": [asdict(baseline) | {"ratio": baseline.ratio} for baseline in baselines],
+        "notes": notes,
+    }
+    if args.against is not None:
+        answer["time_over_theirs"] = time_ratios(answer, measured_in(args.against, long=args.long))
+    print(json.dumps(answer, indent=2, allow_nan=False) if args.json else report(answer))
     return 0
+
+
+def report(answer: dict[str, Any]) -> str:
+    batch, targets = answer["trims_per_second_and_core"], answer["targets_ms"] | answer["targets_s"]
+    minutes = 1e5 / (2.0 * 60.0 * batch["as a study works them off"])
+    lines = [
+        "milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade",
+        "where nothing else is said, linear inflow on 40 × 120\n",
+        *(_line(name, value, "10.3f", targets.get(name), "≤") for name, value in answer["ms"].items()),
+        "\nseconds, lifting line, elastic blade\n",
+        *(_line(name, value, "10.2f", targets.get(name), "≤") for name, value in answer["seconds"].items()),
+        "\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n",
+        *(_line(name, value, "10.0f", answer["target_per_second"], "≥") for name, value in batch.items()),
+        _line("10⁵ of them on two cores [minutes]", minutes, "10.1f", 30.0, "≤"),
+        "\nother codes [ms], and how often ours runs in that time\n",
+        *(
+            f"{other['name']:<44}{other['ms']:10.3f}   {other['ratio']:8.2g} × {other['ours']}; {other['physics']}"
+            for other in answer["baselines"]
+        ),
+        *(f"note: {note}" for note in answer["notes"]),
+    ]
+    if ratios := answer.get("time_over_theirs"):
+        lines += ["\ntime here over time in the other checkout\n"]
+        lines += [f"{name:<44}{ratio:10.2f}" for name, ratio in ratios.items()]
+    return "\n".join(lines)
+
+
+def measured_in(checkout: Path, *, long: bool) -> dict[str, Any]:
+    """The figures of another checkout, by its own bench and this Python."""
+    own = (checkout / "tests/tools/bench.py").exists()
+    words = ["tests.tools.bench"] if own else ["rotor", "bench"]  # A command of rotor until version 0.3.
+    call = [sys.executable, "-m", *words, "--json", *(["--long"] if long else [])]
+    done = subprocess.run(call, cwd=checkout, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SystemExit(f"{str(checkout)!r} could not be timed: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+def time_ratios(ours: dict[str, Any], theirs: dict[str, Any]) -> dict[str, float]:
+    """Time of each figure here over that of the other; below one: faster here."""
+    ratios = {
+        name: value / theirs[kind][name]
+        for kind in ("ms", "seconds")
+        for name, value in ours[kind].items()
+        if name in theirs[kind]
+    }
+    batch = "trims_per_second_and_core"
+    return ratios | {name: theirs[batch][name] / rate for name, rate in ours[batch].items() if name in theirs[batch]}
 
 
 def _line(name: str, value: float, form: str, target: float | None, sign: str) -> str:
@@ -272,13 +283,14 @@ def _dynbem(evaluation: float, cold: float) -> list[OtherCode]:
     trimmed = _time(lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0), 3)
     return [
         OtherCode(
-            "dynbem evaluation", evaluated, "evaluation", evaluation,
+            "dynbem evaluation",
+            evaluated,
+            "evaluation",
+            evaluation,
             "40 × 120 elements both; theirs without derivatives, Mach number, sweep and radial friction",
         ),
-        OtherCode(
-            "dynbem trim", trimmed, "cold trim", cold, "theirs of two hub moments, ours of six equations"
-        ),
-    ]  # fmt: skip
+        OtherCode("dynbem trim", trimmed, "cold trim", cold, "theirs of two hub moments, ours of six equations"),
+    ]
 
 
 def _ccblade(evaluation: float) -> OtherCode:
@@ -292,14 +304,19 @@ def _ccblade(evaluation: float) -> OtherCode:
         alpha, [1e6], 1.1 * np.sin(2.0 * np.radians(alpha)), 0.01 + 1.2 * np.sin(np.radians(alpha)) ** 2
     )
     code = ccblade.CCBlade(
-        rotor.radius * r, np.full(40, rotor.reference_chord), -16.0 * (r - 0.75), [polar] * 40,
-        rotor.radius * root, rotor.radius, B=rotor.blades, shearExp=0.0,
-    )  # fmt: skip
+        rotor.radius * r,
+        np.full(40, rotor.reference_chord),
+        -16.0 * (r - 0.75),
+        [polar] * 40,
+        rotor.radius * root,
+        rotor.radius,
+        B=rotor.blades,
+        shearExp=0.0,
+    )
     rpm = rotor.angular_speed * 30.0 / np.pi
-    return OtherCode(
-        "CCBlade evaluation", _time(lambda: code.distributedAeroLoads(8.0, rpm, 8.0, 0.0), 10), "evaluation",
-        evaluation, "theirs of 40 elements at one azimuth, ours of 40 × 120",
-    )  # fmt: skip
+    ms = _time(lambda: code.distributedAeroLoads(8.0, rpm, 8.0, 0.0), 10)
+    words = "theirs of 40 elements at one azimuth, ours of 40 × 120"
+    return OtherCode("CCBlade evaluation", ms, "evaluation", evaluation, words)
 
 
 def _mean(call: Callable[[T], Any], cases: list[T], runs: int) -> float:
@@ -315,3 +332,7 @@ def _time(call: Callable[[], Any], runs: int) -> float:
         call()
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,38 @@
+"""`warm`: compiles all kernels ahead."""
+
+import argparse
+from typing import Any
+
+from rotor.command.common import add_command
+from rotor.compiled import tell_in_a_log
+from rotor.design.quantities import PRESETS
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.solve import solve
+
+
+def add_parser(commands: Any) -> None:
+    add_command(
+        commands,
+        "warm",
+        run,
+        "compiles all kernels, once after installing",
+        "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
+    )
+
+
+def run(_: argparse.Namespace) -> int:
+    tell_in_a_log()
+    compile_all()
+    print("All kernels are compiled.")
+    return 0
+
+
+def compile_all() -> None:
+    """Compile every kernel of the solver: both presets in flight and hover, blades that bend, stall with lags."""
+    for preset in PRESETS:
+        for advance_ratio in (0.2, 0.0):
+            power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
+    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
+    power_gradient(solve(make_design(mu=0.2, bending=True)))
+    power_gradient(solve(make_design(mu=0.2, bending=True, dynamic_stall="on")))
