@@ -44,7 +44,6 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
-from explorer.text.readout import fineness
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
@@ -121,7 +120,7 @@ class Page:
         self.optimise.challenge = self.rival.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome, self._shared_lines)
+            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)
@@ -180,7 +179,7 @@ class Page:
 
     def preview(self, design: Design) -> Design | None:
         """The design of a search to show in place of the one on the sliders, which the search began from."""
-        return self.schedule.preview() or self.optimise.preview(design)
+        return self.optimise.preview(design)
 
     @property
     def pin(self) -> Pinned | None:
@@ -329,7 +328,7 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh()
         self.schedule.refresh()
-        notice = self.schedule.notice() or self.optimise.notice(reading.sliders) or self.rival.notice()
+        notice = self.optimise.notice(reading.sliders) or self.rival.notice()
         context.bridge.set(notice=notice)
         self.results.strip.show_starts(self.optimise.starts_chart() if self.layout.mode == "optimise" else None)
 
@@ -377,12 +376,6 @@ class Page:
             hand["rival"] = round(units.power[0].of(other.power.total), 2)
         self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
 
-    def _shared_lines(self) -> list[str]:
-        """What the picture to be shared says beside the design: the optimiser's power, the supposed actuator."""
-        other, units, supposed = self.rival.solution, self.context.units, self.actuator.pay.sentence
-        optimum = [] if other is None else [f"optimiser {units.watts(other.power.total, fineness(other.power))}"]
-        return optimum + ([f"actuator of {supposed}"] if supposed else [])
-
     def _theme(self) -> None:
         self._client.gui.configure_theme(
             dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
@@ -398,9 +391,8 @@ class Page:
             (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
 
     def _reset(self) -> None:
-        """The design of a page without a link; what is shown in its place, a preview or a flight, ends."""
+        """The design of a page without a link; what is shown in its place, a preview, ends."""
         self.context.tracker.reset()
-        self.schedule.land()
         self.optimise.withdraw()
         self.actuator.reset()
         self.rival.begin(None)

@@ -150,7 +150,7 @@ _radius, _hand = _number(0.0, 1.0), _word("start", "end")
 PRESSES: dict[str, Check] = {
     **dict.fromkeys(
         ("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard",
-         "halt", "land", "nearest", "aim", "beat", "rival_take", "rival_end"),
+         "halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
         _nothing,
     ),
     **dict.fromkeys(("along", "hold"), _flag),
