@@ -115,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         type=_sessions,
         default=SESSIONS,
-        help=f"pages at work at once (default {SESSIONS}); further visitors are let in as others leave",
+        help=f"pages at work at once (default {SESSIONS}); further pages say so and try again",
     )
     return parser
 

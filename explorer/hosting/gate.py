@@ -242,7 +242,7 @@ def give_back() -> None:
 SESSIONS = 24
 """Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
 _SPARE = 40
-"""Connections beyond the pages at work: pages that wait, or have only just connected."""
+"""Connections beyond the pages at work: pages that were turned away, or have only just connected."""
 
 
 @dataclass(frozen=True)

@@ -199,6 +199,8 @@ class RequestFilter:
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
     first_answer: Callable[[str], str] = lambda query: ""
     """What the loading screen says of the design in an address's query; it must not block."""
+    place_free: Callable[[], bool] = lambda: True
+    """Whether there is a place for another page."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the filter before them."""
@@ -235,6 +237,8 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.OK, compiling())
             if not upgrade and path == "/first-answer":
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
+            if not upgrade and path == "/place":  # A page that was turned away asks.
+                return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
                 answer = inner(connection, request)
             except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
