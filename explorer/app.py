@@ -14,8 +14,9 @@ import viser
 from explorer import web
 from explorer.hosting import gate as memory
 from explorer.hosting import viser_compat
-from explorer.hosting.browser import PageFacts, call, page_facts
+from explorer.hosting.browser import call, page_facts
 from explorer.hosting.gate import ServerLimits
+from explorer.hosting.messages import PageFacts
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, UNITS

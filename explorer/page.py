@@ -12,7 +12,8 @@ from functools import partial
 import viser
 
 from explorer.charts.plots import PowerCurve
-from explorer.hosting.browser import PageFacts, set_query
+from explorer.hosting.browser import set_query
+from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim

@@ -14,7 +14,7 @@ from viser import UploadedFile
 from viser.infra import Message
 
 from explorer.app import App
-from explorer.hosting.gate import LONGEST_TEXT, accepted_value
+from explorer.hosting.messages import LONGEST_TEXT, accepted_value
 from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
