@@ -175,9 +175,9 @@ _Switch = Literal["on", "off"]
 _Knot = tuple[Annotated[float, Meta(ge=-2.0, le=2.0)] | None, Annotated[float, Meta(ge=-360.0, le=360.0)]]
 _Wave = tuple[_Index, _Amplitude, _Azimuth]
 _ALONE = (
-    "pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard", "halt", "nearest",
-    "aim", "beat", "rival_take", "rival_end",
-)  # fmt: skip
+    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard"),
+    *("halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
+)
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {
     **dict.fromkeys(_ALONE),

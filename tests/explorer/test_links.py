@@ -100,8 +100,9 @@ def _waves(chance: random.Random) -> dict[str, Any]:
     def waves(lowest: int) -> tuple[Harmonic, ...]:
         text = ",".join(
             f"{n}:{chance.randint(1, 200) / 20:g}:{chance.randint(0, 71) * 5}"
-            for n in range(lowest, 9) if chance.random() < 0.3
-        )  # fmt: skip
+            for n in range(lowest, 9)
+            if chance.random() < 0.3
+        )
         return read_harmonics(text, "test")
 
     twist = waves(1)
