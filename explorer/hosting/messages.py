@@ -85,6 +85,10 @@ class GuiUpdateMessage(_Sent):
     updates: Updates
 
 
+class CommandTriggerMessage(_Sent):
+    uuid: Name
+
+
 class FileTransferStartUpload(_Sent):
     source_component_uuid: Name
     transfer_uuid: Name
@@ -117,6 +121,7 @@ Sent = (
     | ScenePointerMessage
     | SceneNodeDragMessage
     | GuiUpdateMessage
+    | CommandTriggerMessage
     | FileTransferStartUpload
     | FileTransferPart
     | GetRenderResponseMessage

@@ -182,6 +182,7 @@ def edit(value: Any, uuid: Any = "a") -> dict[str, Any]:
     [
         ("ViewerCameraMessage", _CAMERA),
         *(("GuiUpdateMessage", edit(value)) for value in (True, 3, -0.5, "text", [1, 2.5], None)),
+        ("CommandTriggerMessage", {"uuid": "a"}),
         ("FileTransferStartUpload", UPLOAD),
         ("FileTransferPart", PART),
         ("SceneNodeDragMessage", DRAG),
@@ -253,8 +254,8 @@ def test_the_messages_are_those_of_viser():
     package = Path(_messages.__file__).parent
     handled = "".join((package / f"{file}.py").read_text("utf-8") for file in ("_gui_api", "_scene_api", "_viser"))
     named = set(re.findall(r"register_(?:owner_scoped_)?handler\(\s*_messages\.(\w+)", handled))
-    # Of forms, commands, handles and nodes to be clicked our page has none; its share button is hidden.
-    never = re.compile(r"Gui(ButtonHold|Form)|CommandTrigger|SceneNodeClick|TransformControls|ShareUrl")
+    # Of held buttons, forms, handles and nodes to be clicked our page has none; its share button is hidden.
+    never = re.compile(r"Gui(ButtonHold|Form)|SceneNodeClick|TransformControls|ShareUrl")
     assert [name for name in named - kinds.keys() if not never.match(name)] == []
 
 
