@@ -32,11 +32,6 @@ _COMMANDS = {
     "story": "explorer.story.story_file",
 }
 """Modules with commands of their own, loaded when one is asked for."""
-_GONE = {
-    "demo": "the lecture has its rotor to drag: python -m explorer story FILE",
-    "--studies": "open a row of a study by python -m rotor solve --row DIR:N --save FILE and explorer --design FILE",
-}
-"""What version 0.2 had, and what takes its place."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -49,9 +44,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return import_module(_COMMANDS[given[0]]).main(given[1:])
 
     def run() -> int:
-        for name, instead in _GONE.items():
-            if any(argument.partition("=")[0] == name for argument in given):
-                raise ValueError(f"{name} is gone: {instead}")
         try:
             return _run(_parser().parse_args(given))
         except KeyboardInterrupt:
@@ -103,7 +95,7 @@ def _parser() -> argparse.ArgumentParser:
         prog=called("explorer", "rotor-explorer"),
         description="Explore helicopter blade twist in a browser.",
         epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), story "
-        "(the lecture as an HTML file), blade (shapes for CAD).",
+        "(the lecture as an HTML file), blade (its shape as STL).",
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
@@ -123,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         type=_sessions,
         default=SESSIONS,
-        help=f"pages at work at once (default {SESSIONS}); further visitors wait in a queue",
+        help=f"pages at work at once (default {SESSIONS}); further pages say so and try again",
     )
     return parser
 

@@ -8,15 +8,15 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import viser
 
 from explorer import web
 from explorer.hosting import gate as memory
 from explorer.hosting import viser_compat
-from explorer.hosting.browser import PageFacts, page_facts
+from explorer.hosting.browser import call, page_facts
 from explorer.hosting.gate import ServerLimits
+from explorer.hosting.messages import PageFacts
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, UNITS
@@ -51,7 +51,6 @@ class ClientConnection:
         self.client = client
         self._lock = threading.Lock()
         self._facts = PageFacts()
-        self._waiting: WaitingPage | None = None
         self.session: Session | None = None
         """Behind the page, once it has a place."""
         self._gone = False
@@ -61,24 +60,11 @@ class ClientConnection:
         """Ask the browser for its address and theme; blocks up to some seconds."""
         self._facts = page_facts(self.client)
 
-    def wait(self, places: int, ahead: int) -> None:
-        """All places are taken and `ahead` others wait before this one."""
-        with self._lock:
-            if self._gone or self.session is not None:
-                return
-            if self._waiting is None:
-                self._waiting = WaitingPage(self.client, places, ahead, self._facts.dark)
-            else:
-                self._waiting.show(ahead)
-
     def begin(self, make: MakeSession) -> None:
         """A place is free: make the session and show it."""
         with self._lock:
-            if self._gone or self.session is not None:
+            if self._gone:
                 return
-            if self._waiting is not None:
-                self._waiting.close()
-                self._waiting = None
             viser_compat.guard_uploads(self.client, self._refused)
             viser_compat.guard_values(self.client, self._ignored)
             with viser_compat.at_once(self.client):
@@ -90,6 +76,16 @@ class ClientConnection:
                     show_dialogue(self.client, web.fill("crashed.html", {"error": type(error).__name__}))
                     return
                 self.session.until_shown(FIRST)
+
+    def turn_away(self, places: int) -> None:
+        """All places are taken: the page says so, asks now and then, and loads again once there is one."""
+        taken = f"All {places} places are taken." if places > 1 else "The place is taken."
+        with self._lock:
+            if self._gone:
+                return
+            self.client.gui.configure_theme(dark_mode=self._facts.dark, show_logo=False, show_share_button=False)
+            show_dialogue(self.client, web.fill("lobby.html", {"taken": taken}))
+            call(self.client, "RX.awaitPlace")
 
     def leave(self) -> None:
         """The connection has ended."""
@@ -110,39 +106,11 @@ class ClientConnection:
         self.client.add_notification("File refused", sentence, color="red", auto_close_seconds=10)
 
 
-def show_dialogue(client: viser.ClientHandle, content: str) -> tuple[Any, viser.GuiHtmlHandle]:
-    """A dialogue on an empty page, and its words."""
+def show_dialogue(client: viser.ClientHandle, content: str) -> None:
+    """A dialogue on an empty page."""
     client.gui.main_panel.minimize()
-    modal = client.gui.add_modal("Rotor explorer")
-    with modal:
-        return modal, client.gui.add_html(content)
-
-
-class WaitingPage:
-    """What a browser shows while all places are taken: a dialogue on an empty page, without rotor or worker."""
-
-    def __init__(self, client: viser.ClientHandle, places: int, ahead: int, dark: bool) -> None:
-        self._places = places
-        gui = self._gui = client.gui
-        gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
-        self._modal, self._words = show_dialogue(client, _waiting_text(places, ahead))
-
-    def show(self, ahead: int) -> None:
-        """`ahead` others wait before this one."""
-        self._words.content = _waiting_text(self._places, ahead)
-
-    def close(self) -> None:
-        """Make room for the session."""
-        self._modal.close()
-        self._gui.main_panel.expand()
-
-
-def _waiting_text(places: int, ahead: int) -> str:
-    """The sentences, as HTML."""
-    taken = f"All {places} places are taken." if places > 1 else "The place is taken."
-    place = "second" if ahead == 1 else f"number {ahead + 1}"
-    line = f"You are {place} in the queue." if ahead else "You are next."
-    return web.fill("lobby.html", {"taken": taken, "line": line})
+    with client.gui.add_modal("Rotor explorer"):
+        client.gui.add_html(content)
 
 
 class FirstAnswers:
@@ -179,7 +147,7 @@ def _first_words(query: str, start: Inputs) -> str:
     if parameter(query, FOLLOW):
         return ""  # Another page says what is shown.
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
-    design = (start if code is None else inputs_from(code, tell=lambda _: None)).design()
+    design = (start if code is None else inputs_from(code)).design()
     units = UNITS[view_from(view).units] if view is not None else SI
     solution = solve(design)
     if not solution.converged:
@@ -203,8 +171,6 @@ class App:
         self._connections: dict[int, ClientConnection] = {}
         self._lock = threading.Lock()
         self._seated: set[ClientConnection] = set()
-        self._waiting: list[ClientConnection] = []
-        """For a place, in order of arrival."""
         self.pool = Pool()
         self._warmed = threading.Event()
         self.presentations = Presentations()
@@ -213,7 +179,9 @@ class App:
             with_loading_screen(viser_compat.client_html(), web.frame()),
         )
         first = FirstAnswers(lambda: self._start)
-        request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors, first)
+        request_filter = RequestFilter(
+            hosts, self._limits.connections, page, self._limits.frame_ancestors, first, lambda: not self._full
+        )
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
         viser_compat.remove_share_tunnel(self.server)
         viser_compat.log_failed_callbacks()
@@ -247,6 +215,11 @@ class App:
         self.pool.close()
         viser_compat.quiet_stop(self.server)
 
+    @property
+    def _full(self) -> bool:
+        """Whether all places are taken."""
+        return len(self._seated) >= self._limits.sessions
+
     def _connected(self, client: viser.ClientHandle) -> None:
         connection = self._connections[client.client_id] = ClientConnection(client)
         # On its own thread: viser's are shared by all pages, and a slow browser would block one.
@@ -259,32 +232,22 @@ class App:
 
     def _welcome(self, connection: ClientConnection) -> None:
         connection.ask()
-        self._give_places(arrived=connection)
+        with self._lock:
+            seated = not self._full
+            if seated:
+                self._seated.add(connection)
+        if seated:
+            connection.begin(self._session)
+        else:
+            connection.turn_away(self._limits.sessions)
         if connection.client.client_id not in self._connections:  # It left before it had a place.
             self._leave(connection)
 
     def _leave(self, connection: ClientConnection) -> None:
         connection.leave()
-        self._give_places(left=connection)
-        memory.give_back_soon()
-
-    def _give_places(self, arrived: ClientConnection | None = None, left: ClientConnection | None = None) -> None:
-        """Begin the sessions of those for whom there is a place now, and tell the others their position."""
         with self._lock:
-            self._waiting = [
-                client for client in (*self._waiting, arrived) if client is not None and client is not left
-            ]
-            if left is not None:
-                self._seated.discard(left)
-            free = max(self._limits.sessions - len(self._seated), 0)
-            coming, self._waiting = self._waiting[:free], self._waiting[free:]
-            self._seated.update(coming)
-            waiting = tuple(self._waiting)
-        for connection in coming:
-            begin = partial(connection.begin, self._session)
-            begin() if connection is arrived else _in_thread(f"seat-{connection.client.client_id}", begin)
-        for ahead, connection in enumerate(waiting):
-            connection.wait(self._limits.sessions, ahead)
+            self._seated.discard(connection)
+        memory.give_back_soon()
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
         shared = SharedServices(self.pool, self.presentations)

@@ -45,12 +45,8 @@ LIMIT = "#b5179e"
 PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "climb": "#2f9e44", "tail": "#983a6e"}
 """Power parts, told apart by every eye (tested, as are the lines of charts and the maps)."""
 
-MARKED_BLADE: Rgb = (130, 20, 8)
-"""Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""
-BLADE: Rgb = (40, 43, 50)
 PINNED_GHOST: Rgb = (96, 58, 214)
 """The blade of A, in the violet that A has in the frame; an albedo."""
-HUB: Rgb = (30, 32, 37)
 RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""
 VOID: Rgb = (150, 152, 156)

@@ -12,7 +12,8 @@ from functools import partial
 import viser
 
 from explorer.charts.plots import PowerCurve
-from explorer.hosting.browser import PageFacts, set_query
+from explorer.hosting.browser import set_query
+from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
@@ -42,7 +43,6 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
-from explorer.text.readout import fineness
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
@@ -64,8 +64,7 @@ class Page:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
-        retired = partial(share.tell_retired, problems)
-        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=retired)
+        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
         self._opening, start = (
             start,
             address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems),
@@ -114,11 +113,11 @@ class Page:
                 RotorUpload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self.rival = Rival(context, address, problems, retired)
+        self.rival = Rival(context, address, problems)
         self.optimise.challenge = self.rival.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome, self._shared_lines)
+            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)
@@ -138,7 +137,7 @@ class Page:
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.pay.on_stage:
             layout.show_mode("actuate")
-        self.file.begin(problems, retired)
+        self.file.begin(problems)
         self.top.refresh()
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
@@ -174,7 +173,7 @@ class Page:
 
     def preview(self, design: Design) -> Design | None:
         """The design of a search to show in place of the one on the sliders, which the search began from."""
-        return self.schedule.preview() or self.optimise.preview(design)
+        return self.optimise.preview(design)
 
     @property
     def pin(self) -> Pinned | None:
@@ -321,7 +320,7 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-        notice = self.schedule.notice() or self.optimise.notice(reading.sliders) or self.rival.notice()
+        notice = self.optimise.notice(reading.sliders) or self.rival.notice()
         context.bridge.set(notice=notice)
 
     def _prompt(self) -> None:
@@ -368,12 +367,6 @@ class Page:
             hand["rival"] = round(units.power[0].of(other.power.total), 2)
         self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
 
-    def _shared_lines(self) -> list[str]:
-        """What the picture to be shared says beside the design: the optimiser's power, the supposed actuator."""
-        other, units, supposed = self.rival.solution, self.context.units, self.actuator.pay.sentence
-        optimum = [] if other is None else [f"optimiser {units.watts(other.power.total, fineness(other.power))}"]
-        return optimum + ([f"actuator of {supposed}"] if supposed else [])
-
     def _theme(self) -> None:
         self._client.gui.configure_theme(
             dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
@@ -389,9 +382,8 @@ class Page:
             (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
 
     def _reset(self) -> None:
-        """The design of a page without a link; what is shown in its place, a preview or a flight, ends."""
+        """The design of a page without a link; what is shown in its place, a preview, ends."""
         self.context.tracker.reset()
-        self.schedule.land()
         self.optimise.withdraw()
         self.actuator.reset()
         self.rival.begin(None)

@@ -30,7 +30,7 @@ import viser
 
 from explorer.charts.measured import set_shown
 from explorer.charts.plots import PowerCurves
-from explorer.hosting.browser import PageFacts
+from explorer.hosting.messages import PageFacts
 from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import FailedTrim, Reading, SessionState

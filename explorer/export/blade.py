@@ -1,9 +1,8 @@
-"""The blade as STL and as section curves for printing and CAD, and the rotor as GLB: closed surfaces in metres.
+"""The blade as STL, for printing and CAD: a closed surface in metres.
 
 Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. The jig shape has
 the twist law alone; the flown shape also has what elasticity and an active twist add at one azimuth.
-`python -m explorer blade` writes both. STEP is left to the CAD program: the permissive libraries that write it bring a
-whole geometry kernel, and every CAD program lofts curves.
+`python -m explorer blade` writes both.
 """
 
 import argparse
@@ -15,34 +14,19 @@ from typing import cast
 
 import numpy as np
 import trimesh
-from trimesh.visual.material import PBRMaterial
-from trimesh.visual.texture import TextureVisuals
 
-from explorer import colours
 from explorer.export.provenance import PROGRAM, file_stem
-from explorer.picture.airframe import mast, rotor_head
-from explorer.picture.blade_mesh import BladeShape, Detail, Faces, blade_shape, blade_vertices
-from explorer.picture.picture import (
-    Pose,
-    at_azimuth,
-    blade_pose,
-    flown_twist,
-    follows_azimuth,
-    rotor_pose,
-    with_active_twist,
-)
+from explorer.picture.blade_mesh import Detail, blade_shape, blade_vertices
+from explorer.picture.picture import at_azimuth, with_active_twist
 from rotor import Design, Solution, load_design, make_design, solve
-from rotor.arrays import Array
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import called, help_formatter, run_command
-from rotor.user_input import csv_text, write_whole
+from rotor.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
 _HEADER = 80
 """Bytes of free text at the head of a binary STL file."""
-_Z_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
-"""From z up, as here, to y up, as in glTF."""
 
 
 def blade_mesh(design: Design) -> trimesh.Trimesh:
@@ -50,8 +34,11 @@ def blade_mesh(design: Design) -> trimesh.Trimesh:
 
     Pitch is zero at 0.75 R, the twist on both sides of it, without active twist.
     """
-    shape, vertices = _loft(design)
-    return trimesh.Trimesh(vertices + np.array([_hinge(design), 0.0, 0.0]), shape.faces)
+    active = () if design.active_twist is None else design.active_twist.stations
+    places = tuple(sorted({*kinks(design.twist), *active}))
+    shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
+    hinge = design.rotor.blade.flap_hinge * design.rotor.radius
+    return trimesh.Trimesh(blade_vertices(shape, design.twist) + np.array([hinge, 0.0, 0.0]), shape.faces)
 
 
 def blade_stl(design: Design) -> bytes:
@@ -59,22 +46,6 @@ def blade_stl(design: Design) -> bytes:
     body = cast(bytes, blade_mesh(design).export(file_type="stl"))
     header = f"{PROGRAM}: {design.rotor.name} blade, twist {design.twist.spec()}; unit metre"
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]
-
-
-def section_curves(design: Design) -> bytes:
-    """The blade's sections as closed curves, CSV: one curve after another from the hinge to the tip, points in metres.
-
-    Axes as in `blade_mesh`. The first point of a curve is repeated at its end; all curves begin at the trailing edge
-    and have as many points, so that a loft through them does not twist.
-    """
-    shape, vertices = _loft(design)
-    count = len(shape.r)
-    curves = vertices[: count * POINTS].reshape(count, POINTS, 3) + np.array([_hinge(design), 0.0, 0.0])
-    rows: list[tuple[object, ...]] = [("section", "r_over_R", "x_m", "y_m", "z_m")]
-    for k, (r, curve) in enumerate(zip(shape.r.tolist(), curves, strict=True)):
-        for x, y, z in [*curve.tolist(), curve[0].tolist()]:
-            rows.append((k, f"{r:.6g}", f"{x:.6f}", f"{y:.6f}", f"{z:.6f}"))
-    return csv_text(rows).encode("ascii")
 
 
 def flown_design(solution: Solution, psi: float) -> Design:
@@ -90,33 +61,6 @@ def flown_design(solution: Solution, psi: float) -> Design:
     return replace(design, twist=law, active_twist=None)
 
 
-def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
-    """Blades as flown, hub and mast, as on the page, y up; blades share one mesh unless twist follows the azimuth."""
-    design, controls = solution.design, solution.controls
-    scene = trimesh.Scene()
-    body = _Z_UP @ _matrix(rotor_pose(controls))
-    for name, mesh in (("hub", rotor_head(design.rotor)), ("mast", mast(design.rotor.radius))):
-        scene.add_geometry(_painted(mesh.vertices, mesh.faces, colours.HUB), name, name, transform=body)
-    step = 2.0 * math.pi / design.rotor.blades
-    azimuths = tuple(math.radians(azimuth_deg) + k * step for k in range(design.rotor.blades))
-    differ = follows_azimuth(solution)
-    for k, psi in enumerate(azimuths):
-        shared = "blade" if k else "marked_blade"
-        name = f"blade_{k + 1}" if differ else shared
-        if name not in scene.geometry:
-            shape, vertices = _loft(design, flown_twist(solution, psi))
-            colour = colours.BLADE if k else colours.MARKED_BLADE
-            scene.geometry[name] = _painted(vertices, shape.faces, colour)
-        place = body @ _matrix(blade_pose(controls, psi, _hinge(design), design))
-        scene.graph.update(frame_to=f"blade_{k + 1}", matrix=place, geometry=name)
-    return scene
-
-
-def rotor_glb(solution: Solution, azimuth_deg: float) -> bytes:
-    """The whole rotor as GLB: metres, y up, as the format has it."""
-    return cast(bytes, rotor_scene(solution, azimuth_deg).export(file_type="glb", include_normals=True))
-
-
 def kinks(law: TwistLaw) -> tuple[float, ...]:
     """Stations r/R where the slope of the law jumps."""
     match law:
@@ -128,32 +72,6 @@ def kinks(law: TwistLaw) -> tuple[float, ...]:
             return (*kinks(base), *kinks(change))
         case _:
             return ()
-
-
-def _loft(design: Design, flown: TwistLaw | None = None) -> tuple[BladeShape, Array]:
-    """In the blade's own axes, from its hinge; `flown`: a twist in place of the design's."""
-    active = design.active_twist.stations if design.active_twist is not None and flown is not None else ()
-    places = tuple(sorted({*kinks(design.twist), *active}))
-    shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
-    return shape, blade_vertices(shape, flown or design.twist)
-
-
-def _hinge(design: Design) -> float:
-    return design.rotor.blade.flap_hinge * design.rotor.radius
-
-
-def _painted(vertices: Array, faces: Faces, colour: colours.Rgb) -> trimesh.Trimesh:
-    """Vertices are kept as they are: the caps have their own, for a sharp edge."""
-    mesh = trimesh.Trimesh(vertices, faces, process=False)
-    material = PBRMaterial(baseColorFactor=[*colour, 255], metallicFactor=0.1, roughnessFactor=0.6)
-    mesh.visual = TextureVisuals(material=material)
-    return mesh
-
-
-def _matrix(pose: Pose) -> Array:
-    matrix = trimesh.transformations.quaternion_matrix(pose.wxyz)
-    matrix[:3, 3] = pose.position
-    return np.asarray(matrix, dtype=np.float64)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -174,10 +92,9 @@ def _run(options: argparse.Namespace) -> int:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, design in shapes.items():
-            stem = folder / file_stem(jig, "blade", name)
-            for path, content in ((f"{stem}.stl", blade_stl(design)), (f"{stem}.csv", section_curves(design))):
-                write_whole(path, content)
-                print(f"{path}: {len(content) / 1e6:.1f} MB")
+            path, content = folder / f"{file_stem(jig, 'blade', name)}.stl", blade_stl(design)
+            write_whole(path, content)
+            print(f"{path}: {len(content) / 1e6:.1f} MB")
     except OSError as error:
         raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None
     if len(shapes) == 1:
@@ -189,7 +106,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         formatter_class=help_formatter,
         prog=called("explorer", "rotor-explorer") + " blade",
-        description="One blade for CAD, in metres, in jig shape and as flown: STL, and section curves to loft as CSV.",
+        description="One blade as STL, in metres, in jig shape and as flown.",
     )
     parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")
     parser.add_argument("--psi", type=float, default=90.0, metavar="DEG", help="azimuth as flown (default 90)")

@@ -4,15 +4,13 @@ import json
 import logging
 import secrets
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from typing import Any
 
 import viser
 
-from explorer.hosting.gate import PRESSES, checked_press
-from explorer.hosting.request_filter import LONGEST_HEAD
+from explorer.hosting.messages import PRESSES, PageFacts, checked_press, read_facts
 from explorer.hosting.viser_compat import run_in_page, widget_id
 
 _log = logging.getLogger(__name__)
@@ -23,20 +21,6 @@ def call(client: viser.ClientHandle, function: str, *arguments: Any) -> None:
     run_in_page(client, f"{function}({','.join(json.dumps(argument, ensure_ascii=False) for argument in arguments)})")
 
 
-@dataclass(frozen=True)
-class PageFacts:
-    """What only the browser knows when a page opens."""
-
-    dark: bool = False
-    """Whether it asks for dark pages."""
-    query: str | None = ""
-    """The query of the page's address, from the question mark on; None where the browser did not tell."""
-    kept: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Texts that it was given to keep by name: see `keep`."""
-    page: str = ""
-    """Another one each time that a tab is loaded; the same when a page connects again."""
-
-
 def page_facts(client: viser.ClientHandle) -> PageFacts:
     """Ask the browser. Blocks, on a busy machine for seconds; not to be called on the event loop."""
     key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
@@ -44,13 +28,9 @@ def page_facts(client: viser.ClientHandle) -> PageFacts:
     try:
         text = client.local_storage.get_item(key, timeout=20.0)
         client.local_storage.remove_item(key)
-        facts = json.loads(text or "{}")
-        kept = {str(name): str(value) for name, value in facts.get("kept", {}).items()}
-        return PageFacts(
-            bool(facts.get("dark")), str(facts.get("query", ""))[:LONGEST_HEAD], kept, str(facts.get("page", ""))[:40]
-        )
-    except (TimeoutError, RuntimeError, ValueError, AttributeError):
+    except (TimeoutError, RuntimeError):
         return PageFacts(query=None)
+    return read_facts(text or "{}")
 
 
 def keep(client: viser.ClientHandle, name: str, text: str) -> None:
@@ -89,12 +69,12 @@ class Bridge:
         call(client, "RX.begin", widget_id(self._heard))
 
     def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
-        """Call `action` with the value that comes with each press of `name`, which `gate.PRESSES` lists.
+        """Call `action` with the value that comes with each press of `name`, which `messages.PRESSES` lists.
 
         ValueError for a name that is taken, or not listed.
         """
         if name in self._actions or name not in PRESSES:
-            raise ValueError(f"the frame's {name!r} has an action already, or no row in gate.PRESSES")
+            raise ValueError(f"the frame's {name!r} has an action already, or no row in messages.PRESSES")
         self._actions[name] = action
         if at_once:
             self._at_once.add(name)

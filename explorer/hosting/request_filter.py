@@ -25,6 +25,7 @@ from websockets.protocol import Event
 
 from explorer import web
 from explorer.hosting.gate import FRAMES, LARGEST_MESSAGE, RateLimiter
+from explorer.hosting.messages import LONGEST_HEAD, dropped, message_fault
 from rotor.compiled import compiling
 from rotor.markup import end_of, start_of, with_title
 
@@ -199,13 +200,15 @@ class RequestFilter:
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
     first_answer: Callable[[str], str] = lambda query: ""
     """What the loading screen says of the design in an address's query; it must not block."""
+    place_free: Callable[[], bool] = lambda: True
+    """Whether there is a place for another page."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the filter before them."""
         filtered = {
             **options,
             "max_size": LARGEST_MESSAGE,
-            "create_connection": RateLimitedConnection,
+            "create_connection": GuardedConnection,
             "logger": _visitors,
         }
         filtered["process_request"] = self._process(options["process_request"])
@@ -235,6 +238,8 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.OK, compiling())
             if not upgrade and path == "/first-answer":
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
+            if not upgrade and path == "/place":  # A page that was turned away asks.
+                return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
                 answer = inner(connection, request)
             except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
@@ -247,13 +252,11 @@ class RequestFilter:
         return process_request
 
 
-LONGEST_HEAD = 2**16
-"""[bytes] of a request's head."""
 _TOO_LONG = "This address is too long: ask for a shorter link, or for the design as a file."
 
 
-class RateLimitedConnection(ServerConnection):
-    """A connection that is closed when it sends more than it may."""
+class GuardedConnection(ServerConnection):
+    """A connection that is closed when it sends more than it may; of its messages those arrive that fit."""
 
     def __init__(self, *positional: Any, **named: Any) -> None:
         super().__init__(*positional, **named)
@@ -283,13 +286,17 @@ class RateLimitedConnection(ServerConnection):
         super().process_event(event)
 
     async def recv(self, decode: bool | None = None) -> Any:
-        """The next message, counted."""
-        message = await super().recv(decode)
-        if not self._limiter.allows(len(message), time.monotonic()):
-            _log.warning("a browser sent too much; its connection was closed")
-            # The page shows the reason for this code alone.
-            await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)
-        return message
+        """The next message that fits; all are counted."""
+        while True:
+            message = await super().recv(decode)
+            if not self._limiter.allows(len(message), time.monotonic()):
+                _log.warning("a browser sent too much; its connection was closed")
+                # The page shows the reason for this code alone.
+                await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)
+            fault = message_fault(message) if isinstance(message, bytes) else ""  # A text is no message of viser's.
+            if not fault:
+                return message
+            dropped(fault)
 
 
 def _contained(handler: Handler) -> Handler:

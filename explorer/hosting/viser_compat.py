@@ -10,7 +10,6 @@
 | the handlers of `ShareUrl…` messages | any client could open a public tunnel | `remove_share_tunnel` |
 | the handlers of `FileTransfer…` messages | uploads have no limit | `guard_uploads` |
 | the handler of `GuiUpdateMessage` messages | any value is taken | `guard_values` |
-| `WebsockMessageHandler._handle_incoming_message` | cameras and presses may be NaN | `_through_gate` |
 | the threads of callbacks | a thread costs more than a quick callback takes | `quick` |
 
 `tests/explorer/hosting/test_viser_compat.py` has a test for each, or says where it is. What is changed in viser's
@@ -38,8 +37,9 @@ from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from explorer.hosting.gate import accepted_value, dropped, message_fault, refuse_upload
-from explorer.hosting.request_filter import LONGEST_HEAD, RequestFilter
+from explorer.hosting.gate import refuse_upload
+from explorer.hosting.messages import LONGEST_HEAD, accepted_value
+from explorer.hosting.request_filter import RequestFilter
 from rotor.arrays import Array
 
 VISER, WEBSOCKETS = "1.1.1", "16.1"
@@ -80,20 +80,6 @@ class ThreadedBuffer(AsyncMessageBuffer):
 
 
 setattr(_infra, "AsyncMessageBuffer", ThreadedBuffer)  # noqa: B010 - its module does not export it
-
-_handle_incoming = _infra.WebsockMessageHandler._handle_incoming_message
-
-
-async def _through_gate(handler: Any, client_id: Any, message: Any) -> None:
-    """A message for the server, and again for its client, unless the gate drops it."""
-    if fault := message_fault(vars(message)):
-        if isinstance(handler, _infra.WebsockServer):
-            dropped(f"{type(message).__name__}: {fault}")
-        return
-    await _handle_incoming(handler, client_id, message)
-
-
-setattr(_infra.WebsockMessageHandler, "_handle_incoming_message", _through_gate)  # noqa: B010 - as above
 
 _cast = AssignablePropsBase._cast_value_recursive
 _PLAIN = frozenset((str, bool, int, float, type(None)))
@@ -231,7 +217,7 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
 def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
     """Let widgets take only values that they can hold; `tell` is called with the sentence when one is refused.
 
-    viser assigns whatever comes, also to other properties, and calls the callbacks with it.
+    viser assigns whatever comes, and calls the callbacks with it.
     """
     gui, connection = client.gui, client._websock_connection
     assign = gui._handle_gui_updates
@@ -244,8 +230,6 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
         # viser queues the value for its other pages, of which there is none: each time that wakes what sends, in vain.
         handle._impl.sync_cb = None
         try:
-            if set(message.updates) != {"value"}:
-                raise ValueError("This page sent more than a value: that is ignored.")
             message.updates["value"] = accepted_value(
                 message.updates["value"],
                 handle._impl.value,

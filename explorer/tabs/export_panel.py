@@ -4,18 +4,18 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import viser
 
 from explorer.charts.plots import PowerCurves
 from explorer.charts.svg import disk_svg
-from explorer.export.blade import blade_stl, flown_design, rotor_glb
-from explorer.export.card import card_png, view_png
+from explorer.export.blade import blade_stl, flown_design
 from explorer.export.contents import ReportEntry, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
+from explorer.export.view_picture import view_png
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
@@ -69,11 +69,6 @@ def flown_file(state: SessionState) -> File:
     return _file(solution.design, "stl", stl, "blade", "flown", f"psi{azimuth:.0f}")
 
 
-def _rotor(state: SessionState) -> File:
-    """The rotor in trim as GLB."""
-    return _file(state.solution.design, "glb", rotor_glb(state.solution, state.view.azimuth_deg), "rotor")
-
-
 def _disk_table(state: SessionState) -> File:
     """Every field over the disk as CSV."""
     return _file(state.solution.design, "csv", disk_csv(state.solution), "disk")
@@ -95,19 +90,16 @@ class ExportPanel(Tab):
         scene: SceneController,
         history: HistoryPanel,
         actuator: Callable[[], Verdict | str],
-        lines: Callable[[], Sequence[str]],
     ) -> None:
-        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was. `lines`: what the
-        picture to be shared says beside power and change."""
-        self._lines = lines
+        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         self._stale = False
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
-        shapes = {"Jig STL": jig_file, "Flown STL": flown_file, "Rotor GLB": _rotor}
+        shapes = {"Jig STL": jig_file, "Flown STL": flown_file}
         tables = {"Disk": _disk_table, "Blade": _blade_table, "Power": self._power_table}
-        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture, "To share": self._card}
+        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
         gui = context.gui
         with gui.add_folder("Export"):
             for label, makers, name in (
@@ -158,16 +150,6 @@ class ExportPanel(Tab):
         seen = pixels[round(above * height) : height - round(below * height)]
         png = view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark)
         return _file(state.solution.design, "png", png, "view")
-
-    def _card(self, state: SessionState) -> File:
-        """Blade, disk, power, change and title in one picture, to be shared with the link."""
-        view, solution = state.view, state.solution
-        pinned = state.pinned if state.pinned is not None and state.pinned.converged else None
-        against, name = (state.baseline, baseline_title(solution.design)) if pinned is None else (pinned, "A")
-        field = FIELDS[view.field]
-        ends = self._scene.held_range(field)
-        picture = card_png(solution, against, name, field, ends, UNITS[view.units], self._lines())
-        return _file(solution.design, "png", picture, "card")
 
     def _scene_page(self, state: SessionState) -> File:
         """The rotor in trim as one HTML page to be turned with the mouse, without a server."""

@@ -47,6 +47,15 @@
     keep(name, text) {
       try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); } catch { sessionStorage.removeItem(KEPT); }
     },
+    // All places are taken: ask until one is free, then begin anew. Pages that were turned away together ask at other times.
+    awaitPlace() {
+      setTimeout(async () => {
+        if (!document.querySelector('[data-explorer=lobby]')) return;  // The server has come back, with a place.
+        const reply = await fetch('place').catch(() => null);
+        if (reply?.ok && (await reply.text()).trim() === 'free') location.reload();
+        else RX.awaitPlace();
+      }, 3000 + 4000 * Math.random());
+    },
     address(query) { history.replaceState(null, '', location.pathname + query); },
     copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
     copyLink(query) { RX.copy(location.origin + location.pathname + query); },

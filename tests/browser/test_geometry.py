@@ -186,7 +186,7 @@ def _the_bar_of_a_preview_stays_on_the_stage(watched: Watched) -> None:
     """The longest: that of a schedule in flight, also beside an open rail."""
     page = watched.page
     text = "Speed µ 0.10 · twist, root to tip −11.0° · saved vs. starting design 6.6 kW h"
-    page.evaluate("text => RX.set({notice: {text, actions: [['land', 'Stop'], ['apply', 'Apply']]}})", text)
+    page.evaluate("text => RX.set({notice: {text, actions: [['discard', 'Discard'], ['apply', 'Apply']]}})", text)
     page.wait_for_selector(".rxf-notice [data-do=apply]")
     toggle = page.get_by_role("button", name="Controls")
     for _ in range(2 if toggle.is_visible() else 1):

@@ -80,7 +80,7 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         first.wait_for_function(OPEN)
         second.goto(app.address)
         second.wait_for_selector("[data-explorer=lobby]")
-        assert "You are next" in second.locator("[data-explorer=lobby]").inner_text()
+        assert "The place is taken." in second.locator("[data-explorer=lobby]").inner_text()
         assert second.locator("[role=slider]:visible").count() == 0
         second.wait_for_timeout(400)
         second.screenshot(path=artefacts / "full-house.png")

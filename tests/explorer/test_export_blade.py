@@ -1,34 +1,24 @@
-"""The exported blade: closed, to scale, twisted by any law, and the same rotor as on the page."""
+"""The exported blade: closed, to scale and twisted by any law."""
 
 import io
 import math
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-import pyarrow.csv
 import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
 from explorer.__main__ import main
-from explorer.export.blade import (
-    POINTS,
-    blade_mesh,
-    blade_stl,
-    rotor_glb,
-    section_curves,
-)
+from explorer.export.blade import blade_mesh, blade_stl
 from explorer.export.provenance import file_stem
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
-from explorer.picture.blade_mesh import swept_back
 from explorer.picture.picture import with_active_twist
 from explorer.tabs.export_panel import flown_file, jig_file
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.design import Design
 from rotor.design.twist import (
     IdealTwist,
     LinearTwist,
@@ -121,39 +111,6 @@ def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
     assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # On its own: the law alone.
 
 
-def scene_of(design: Design) -> trimesh.Scene:
-    scene = trimesh.load_scene(io.BytesIO(rotor_glb(solve(design), 60.0)), file_type="glb")
-    assert isinstance(scene, trimesh.Scene)
-    return scene
-
-
-def test_the_rotor_has_its_blades_hub_and_mast_in_metres_with_y_up():
-    scene = scene_of(Inputs().design())
-    rotor = DESIGN.rotor
-    nodes = set(scene.graph.nodes_geometry)
-    assert nodes == {"hub", "mast", *(f"blade_{k + 1}" for k in range(rotor.blades))}
-    assert len(scene.geometry) == 2 + rotor.blades  # As flown: each blade has its own elastic twist.
-    # Marked blade at ψ 60°: its tip lies a radius away, aft (+x) and to starboard (−z where y is up).
-    matrix, name = scene.graph["blade_1"]
-    blade = scene.geometry[name]
-    assert isinstance(blade, trimesh.Trimesh)
-    tip = blade.vertices[blade.vertices[:, 0] > blade.vertices[:, 0].max() - 1e-6].mean(axis=0)
-    tip = tip + np.array([0.0, swept_back(rotor, 1.0), 0.0])  # Where it would be were it not swept.
-    x, y, z = trimesh.transformations.transform_points([tip], matrix)[0]
-    assert math.sqrt(x * x + y * y + z * z) == pytest.approx(rotor.radius, rel=2e-3)
-    assert math.degrees(math.atan2(-z, x)) == pytest.approx(60.0, abs=2.0)
-    assert 0.0 < y < 0.2 * rotor.radius  # Coned up.
-    for geometry in scene.geometry.values():
-        assert isinstance(geometry, trimesh.Trimesh)
-        geometry.merge_vertices(merge_norm=True, merge_tex=True)
-        assert geometry.is_watertight
-
-
-def test_rigid_blades_are_one_mesh_placed_thrice():
-    design = Inputs(elastic_twist=False).design()
-    assert set(scene_of(design).geometry) == {"hub", "mast", "blade", "marked_blade"}
-
-
 def test_the_files_of_the_page_are_the_jig_and_the_flown_blade():
     """The tip is turned by the elastic twist there less that at 0.75 R, where the pitch of a shape is zero."""
     solution = solve(Inputs(advance_ratio=0.3).design()).require()
@@ -185,37 +142,8 @@ def test_file_names_hold_nothing_that_a_system_refuses():
     assert len(file_stem(replace(DESIGN, twist=LAWS[4]))) < 120
 
 
-def curves_of(content: bytes) -> dict[float, np.ndarray]:
-    """Closed curves (points, 3) [m] by r/R, read by a library without any of our code."""
-    table = pyarrow.csv.read_csv(io.BytesIO(content)).to_pydict()
-    points = np.stack([table[name] for name in ("x_m", "y_m", "z_m")], axis=1)
-    sections = np.array(table["section"])
-    return {table["r_over_R"][np.argmax(sections == k)]: points[sections == k] for k in np.unique(sections)}
-
-
-def test_section_curves_lie_on_the_blade_of_the_mesh():
-    """Closed, as many points in each, and where a plane cuts the mesh between two of them the outline is in between."""
-    curves = curves_of(section_curves(DESIGN))
-    mesh, radius = blade_mesh(DESIGN), DESIGN.rotor.radius
-    stations = sorted(curves)
-    assert stations[0] == pytest.approx(DESIGN.rotor.blade.flap_hinge, rel=1e-5)
-    assert stations[-1] == 1.0
-    for r, curve in curves.items():
-        assert curve.shape == (POINTS + 1, 3)
-        assert_allclose(curve[0], curve[-1])
-        assert_allclose(curve[:, 0], r * radius, atol=1e-4)
-    for low, high in list(pairwise(stations))[20::25]:
-        middle = 0.5 * (curves[low] + curves[high])[:, 1:]
-        assert_allclose(reach(cut(mesh, 0.5 * (low + high))), reach(middle), atol=2e-4)
-
-
 def test_the_command_writes_both_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["blade", "--out", str(tmp_path), "--psi", "270"]) == 0
     names = sorted(path.name for path in tmp_path.iterdir())
-    assert [name.partition("-blade-")[2] for name in names] == [
-        "flown-psi270.csv",
-        "flown-psi270.stl",
-        "jig.csv",
-        "jig.stl",
-    ]
-    assert capsys.readouterr().out.count("MB") == 4
+    assert [name.partition("-blade-")[2] for name in names] == ["flown-psi270.stl", "jig.stl"]
+    assert capsys.readouterr().out.count("MB") == 2

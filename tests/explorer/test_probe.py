@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from explorer.charts import svg
-from explorer.hosting.gate import PRESSES
+from explorer.hosting.messages import checked_press
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
@@ -290,10 +290,9 @@ class TestRide:
                 assert turn["theta"][k] - turn["phi"][k] == pytest.approx(turn["alpha"][k], abs=0.02)
 
     def test_a_ride_is_asked_for_by_its_place_and_ended_by_a_word(self):
-        check = PRESSES["ride"]
-        assert check([0.75, 270.0]) == [0.75, 270.0]
-        assert check("off") == "off"
-        assert check(None) is None
+        assert checked_press('[1,"ride",[0.75,270]]') == ("ride", (0.75, 270.0))
+        assert checked_press('[1,"ride","off"]') == ("ride", "off")
+        assert checked_press('[1,"ride",null]') == ("ride", None)
 
 
 @pytest.fixture(scope="module")

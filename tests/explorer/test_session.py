@@ -10,7 +10,7 @@ import pytest
 
 from explorer import session as session_module
 from explorer.charts import plots
-from explorer.hosting.browser import PageFacts
+from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page

@@ -27,8 +27,9 @@ FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio,
 def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: str):
     inputs = with_rotor(OPENING, name)
     assert inputs.stand is not None
-    assert any((one.advance_ratio, one.stand) == (inputs.advance_ratio, inputs.stand)
-               for one in measured_conditions(name))  # fmt: skip
+    assert any(
+        (one.advance_ratio, one.stand) == (inputs.advance_ratio, inputs.stand) for one in measured_conditions(name)
+    )
     assert inputs_from(code_of(inputs.design())) == inputs
     assert with_rotor(inputs, "uh60a").stand is None
 

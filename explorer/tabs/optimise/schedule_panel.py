@@ -8,12 +8,12 @@ import viser
 
 from explorer.model.inputs import with_optimum
 from explorer.tabs.background import BackgroundWork
-from explorer.tabs.context import Player, TabContext
+from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import PanelChart
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.schedule_view import PlanProgress, ScheduleFlight
+from explorer.tabs.optimise.schedule_view import PlanProgress
 from explorer.text.glossary import hint
 from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
@@ -24,8 +24,6 @@ from rotor.optimisation.search import STARTS
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""
-_STAYS = 1.5
-"""[s] the end of the playback is shown."""
 _URGENCY = 1
 """After searches."""
 
@@ -37,10 +35,6 @@ class SchedulePanel(BackgroundWork):
         self._context = context
         self._request, gui = search.request, context.gui
         search.legs = self.legs
-        self._flight: ScheduleFlight | None = None
-        self._time = 0.0
-        self._player = Player(self._fly_on, "schedule-flight")
-        context.bridge.on("land", lambda _: self.land())
         self._progress: PlanProgress | None = None
         self.line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
@@ -52,7 +46,7 @@ class SchedulePanel(BackgroundWork):
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         self._results = gui.add_button_group(
-            "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
+            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._results.on_click(self._result_clicked)
@@ -81,59 +75,6 @@ class SchedulePanel(BackgroundWork):
         if self.running:
             self.line = "Stopping …"
         super().halt()
-
-    def play(self) -> None:
-        """Fly the schedule: speed runs, the blade untwists, savings count up; pressed again, stop."""
-        if self._flight is not None:
-            self.land()
-            return
-        progress = self._progress
-        if progress is None:
-            return
-        try:
-            self._flight, self._time = ScheduleFlight(progress), 0.0
-        except ValueError as error:
-            self.line = str(error)
-        else:
-            self._context.tracker.reset()
-            self._player.play()
-        self._context.wake()
-
-    def land(self) -> None:
-        """Stop the playback; the page shows the sliders again."""
-        if self._flight is not None:
-            self._context.tracker.reset()
-        self._flight = None
-        self._player.pause()
-        self._context.wake()
-
-    def preview(self) -> Design | None:
-        """The design of the playback to show instead of the sliders'."""
-        flight = self._flight
-        return None if flight is None else flight.at(self._time).design
-
-    def notice(self) -> dict[str, object] | None:
-        """The bar over the scene during the playback."""
-        flight = self._flight
-        if flight is None:
-            return None
-        numbers = flight.at(self._time).numbers(self._context.units)
-        text = " · ".join(f"{caption} {value}" for caption, value in numbers)
-        return {"text": text[:1].upper() + text[1:], "actions": [("land", "Stop")]}
-
-    def _fly_on(self, seconds: float) -> None:
-        flight = self._flight
-        if flight is None:
-            return
-        self._time += seconds
-        if self._time > flight.seconds + _STAYS:
-            self.land()
-        else:
-            self._context.wake()
-
-    def stop(self) -> None:
-        self._player.pause()
-        super().stop()
 
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
@@ -188,9 +129,6 @@ class SchedulePanel(BackgroundWork):
             return
         if event.target.value == "Save CSV":
             self._context.download("twist-schedule.csv", schedule_view.csv_of(progress))
-            return
-        if event.target.value == "Play":
-            self.play()
             return
         fixed = progress.at(None)
         if fixed is not None and fixed.best is not None:

@@ -1,19 +1,17 @@
-"""A schedule as charts, words and CSV, and played as a flight."""
+"""A schedule as charts, words and CSV."""
 
 import csv
 import io
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
-from rotor import Design, Optimum
-from rotor.arrays import Array
+from rotor import Optimum
 from rotor.chart import Axis, Chart, Line
-from rotor.design import TableTwist, TwistLaw
 from rotor.design.aircraft import told
 from rotor.markup import Markup, tag
 from rotor.optimisation import Cell, Plan, Schedule
@@ -151,118 +149,3 @@ def csv_of(progress: PlanProgress) -> bytes:
 
 def _kilowatt(watts: float | None) -> str:
     return "" if watts is None else f"{watts / 1e3:.3f}"
-
-
-SECONDS = 16.0
-"""[s] a playback takes."""
-_CHANGING = 0.45
-"""Part of the playback that passes between legs."""
-_STATIONS = np.linspace(0.05, 1.0, 77)
-"""r/R of a twist between two laws; some laws are singular at the centre."""
-
-
-@dataclass(frozen=True)
-class FlownLeg:
-    """One leg of the mission with its best twist."""
-
-    advance_ratio: float
-    hours: float
-    design: Design
-    moving: float
-    """Power with the best twist of this leg [W]."""
-    starting: float
-    """Power of the blade that the schedule began from [W]."""
-
-
-@dataclass(frozen=True)
-class FlightInstant:
-    """What the page shows at one time of the playback."""
-
-    design: Design
-    hours: float
-    """Flown so far."""
-    saved: float
-    """Energy saved so far against the starting design [J]."""
-
-    def numbers(self, units: Units = SI) -> tuple[tuple[str, str], ...]:
-        """Three large numbers with their captions: speed, twist, and what has been saved so far."""
-        mu = self.design.condition.advance_ratio
-        root, tip = self.design.twist(np.array([self.design.rotor.blade.root_cutout, 1.0]))
-        return (
-            ("speed", "hover" if mu == 0.0 else f"µ {number(mu, 2)}"),
-            ("twist, root to tip", f"{number(math.degrees(float(tip - root)), 1)}°"),
-            ("saved vs. starting design", _energy(self.saved, units)),
-        )
-
-
-class ScheduleFlight:
-    """The playback of the legs that a schedule has, in the order of speed.
-
-    Each leg stays as long as its share of the hours; in between, speed and twist pass to those of the next.
-    """
-
-    def __init__(self, progress: PlanProgress, seconds: float = SECONDS) -> None:
-        """ValueError with one sentence where no leg has an optimum yet."""
-        self.legs = flown_legs(progress)
-        if not self.legs:
-            raise ValueError("The schedule has no optimum to play yet: compute it first.")
-        self.seconds = seconds
-        hours = np.array([leg.hours for leg in self.legs])
-        saved = 3600.0 * hours * np.array([leg.starting - leg.moving for leg in self.legs])
-        passages = len(hours) - 1
-        changing = _CHANGING * seconds if passages else 0.0
-        stays = (seconds - changing) * hours / hours.sum()
-        arrivals = np.concatenate(([0.0], np.cumsum(stays)[:-1])) + np.arange(len(hours)) * changing / max(passages, 1)
-        # Arrival at each leg and departure from it, with what changes there and what adds up.
-        self._times = np.stack((arrivals, arrivals + stays), axis=1).ravel()
-        self._places = np.repeat(np.arange(len(hours)), 2)
-        self._hours, self._saved = (_running(values) for values in (hours, saved))
-
-    def at(self, time: float) -> FlightInstant:
-        """What is shown `time` [s] after the start; the last leg's end stays."""
-        place = float(np.interp(time, self._times, self._places))
-        k = min(int(place), len(self.legs) - 1)
-        leg, following, weight = self.legs[k], self.legs[min(k + 1, len(self.legs) - 1)], place - k
-        design = leg.design
-        if weight > 0.0:
-            mu = leg.advance_ratio + weight * (following.advance_ratio - leg.advance_ratio)
-            condition = replace((leg if weight < 0.5 else following).design.condition, advance_ratio=mu)
-            design = replace(design, twist=twist_between(design.twist, following.design.twist, weight))
-            design = replace(design, condition=condition)
-        hours, saved = (float(np.interp(time, self._times, values)) for values in (self._hours, self._saved))
-        return FlightInstant(design, hours, saved)
-
-
-def _running(values: Array) -> Array:
-    """Sums before and after each of the values."""
-    after = np.cumsum(values)
-    return np.stack((after - values, after), axis=1).ravel()
-
-
-def flown_legs(progress: PlanProgress) -> tuple[FlownLeg, ...]:
-    """The legs whose optimum is known, in the order of speed."""
-    legs: list[FlownLeg] = []
-    for k, leg in enumerate(progress.plan.conditions):
-        optimum = progress.at(k)
-        if optimum is None or optimum.best is None or optimum.baseline_power is None:
-            continue
-        design = replace(progress.plan.design, twist=optimum.design.twist, condition=leg.flight)
-        power = optimum.best.power
-        legs.append(FlownLeg(leg.flight.advance_ratio, leg.hours, design, power, optimum.baseline_power))
-    return tuple(sorted(legs, key=lambda leg: leg.advance_ratio))
-
-
-def twist_between(before: TwistLaw, after: TwistLaw, weight: float) -> TwistLaw:
-    """The angles on the way from one law to another as a table; `weight` 0…1, exact at both ends."""
-    if weight <= 0.0 or before == after:
-        return before
-    if weight >= 1.0:
-        return after
-    angles = (1.0 - weight) * before(_STATIONS) + weight * after(_STATIONS)
-    return TableTwist(tuple(_STATIONS.tolist()), tuple(angles.tolist()), "between two legs")
-
-
-def _energy(joules: float, units: Units) -> str:
-    """kW h, or hp h where power is shown in horsepower."""
-    unit = units.power[0]
-    return f"{number(unit.of(joules / 3600.0), 1)} {unit.symbol}\u202fh"

@@ -16,9 +16,16 @@ from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"
 FOREIGN_PAGES = (
-    "http://evil.example", "https://127.0.0.1.evil.example:8080", "https://127.0.0.1", "null", "file://", "",
-    "chrome-extension://abcdef", "http://127.0.0.1:9999", "http://localhost:8080",  # Other origins to the browser, too.
-)  # fmt: skip
+    "http://evil.example",
+    "https://127.0.0.1.evil.example:8080",
+    "https://127.0.0.1",
+    "null",
+    "file://",
+    "",
+    "chrome-extension://abcdef",
+    "http://127.0.0.1:9999",
+    "http://localhost:8080",  # Other origins to the browser, too.
+)
 
 
 class TestAllowedHosts:

@@ -104,9 +104,13 @@ def patched(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def faults(folder: Path) -> list[str]:
     """What is wrong with the viser in a folder."""
     done = subprocess.run(
-        [sys.executable, "-c", FAULTS], cwd=folder, capture_output=True, text=True, check=True,
+        [sys.executable, "-c", FAULTS],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
         env={**os.environ, "PYTHONPATH": str(folder)},
-    )  # fmt: skip
+    )
     return json.loads(done.stderr.splitlines()[-1])
 
 

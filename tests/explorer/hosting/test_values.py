@@ -14,7 +14,7 @@ from viser import UploadedFile
 from viser.infra import Message
 
 from explorer.app import App
-from explorer.hosting.gate import LONGEST_TEXT, accepted_value
+from explorer.hosting.messages import LONGEST_TEXT, accepted_value
 from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
@@ -27,12 +27,25 @@ DIGITS = "9" * 400
 @pytest.mark.parametrize(
     ("value", "current", "limits"),
     [
-        (math.nan, 1.0, {}), (math.inf, 1.0, {}), ("1", 1.0, {}), (True, 1.0, {}), (None, 1.0, {}), ([1], 1.0, {}),
-        ({}, 1, {}), (int(DIGITS), 1.0, {}), ("c", "a", {"choices": ("a", "b")}), (1, "a", {}), ("x", True, {}),
-        ([1, 2], UploadedFile("", b""), {}), ([], UploadedFile("", b""), {}), (1.0, (1.0, 2.0), {}),
-        ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0,), (1.0, 2.0), {}), ((1.0, math.nan), (1.0, 2.0), {}),
+        (math.nan, 1.0, {}),
+        (math.inf, 1.0, {}),
+        ("1", 1.0, {}),
+        (True, 1.0, {}),
+        (None, 1.0, {}),
+        ([1], 1.0, {}),
+        ({}, 1, {}),
+        (int(DIGITS), 1.0, {}),
+        ("c", "a", {"choices": ("a", "b")}),
+        (1, "a", {}),
+        ("x", True, {}),
+        ([1, 2], UploadedFile("", b""), {}),
+        ([], UploadedFile("", b""), {}),
+        (1.0, (1.0, 2.0), {}),
+        ("x" * (LONGEST_TEXT + 1), "a", {}),
+        ((1.0,), (1.0, 2.0), {}),
+        ((1.0, math.nan), (1.0, 2.0), {}),
     ],
-)  # fmt: skip
+)
 def test_a_value_that_a_widget_cannot_hold_is_refused(value: Any, current: Any, limits: dict[str, Any]):
     with pytest.raises(ValueError, match="cannot hold") as refusal:
         accepted_value(value, current, **limits)

@@ -1,0 +1,78 @@
+"""The view of the page as a picture, with title, flight, power and the scale of its disk."""
+
+import io
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from explorer.colours import colour_map
+from explorer.model.units import Units
+from explorer.picture.fields import Field
+from explorer.text.design_words import flight_words, title_words
+from explorer.text.readout import fineness
+from rotor import Solution
+from rotor.chart import bar_ticks
+
+Ink = tuple[int, int, int]
+_NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
+_INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
+_SKY = (243, 246, 250), (25, 31, 41)
+"""Behind the view of the page, light and dark."""
+_STRIP = 112
+"""[px] above the view of the page, and below it."""
+_WIDTH = 500
+"""[px] of the scale."""
+
+
+def view_png(
+    scene: NDArray[np.uint8],
+    solution: Solution,
+    scale: tuple[Field, tuple[float, float]] | None,
+    units: Units,
+    dark: bool,
+) -> bytes:
+    """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
+    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk."""
+    rows, columns = scene.shape[:2]
+    below = 0 if scale is None else _STRIP
+    picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
+    drawn = Image.fromarray(scene)
+    picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
+    picture.paste(drawn, (0, _STRIP), drawn)
+    draw = ImageDraw.Draw(picture)
+    ink, dim = (_PALE, _GHOST) if dark else (_INK, _DIM)
+
+    def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
+        draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
+
+    write(40, 52, title_words(solution.design), 32, ink)
+    write(40, 90, flight_words(solution.design, units), 22, dim)
+    write(columns - 40, 72, units.watts(solution.power.total, fineness(solution.power)), 52, ink, "rs")
+    if scale is not None:
+        field, ends = scale
+        x, y = columns // 2 - _WIDTH // 2, _STRIP + rows + 50
+        colours = colour_map(field.colours, 256)[None, :, :3]
+        picture.paste(Image.fromarray(colours).resize((_WIDTH, 12)), (x, y))
+        for percent, words in bar_ticks(*ends):
+            write(x + 0.01 * _WIDTH * float(percent), y + 30, words, 16, dim, "ms")
+        write(x + _WIDTH // 2, y - 8, field.label, 18, ink, "ms")
+    out = io.BytesIO()
+    picture.save(out, "PNG")
+    return out.getvalue()
+
+
+@cache
+def font_path() -> str:
+    """A font with Greek letters, × and the minus, which that of Pillow lacks: what matplotlib brings, which is not
+    imported for that, or one of the system. ValueError where there is none."""
+    spec = find_spec("matplotlib")
+    brought = () if spec is None else (str(Path(str(spec.origin)).parent / "mpl-data/fonts/ttf/DejaVuSans.ttf"),)
+    for name in (*brought, "DejaVuSans.ttf", "LiberationSans-Regular.ttf", "Arial.ttf", "arial.ttf"):
+        with suppress(OSError):
+            return str(ImageFont.truetype(name).path)
+    raise ValueError("No font for the words of a picture: install DejaVu Sans, or pip install 'rotor-explorer[plot]'.")

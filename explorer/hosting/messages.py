@@ -1,0 +1,283 @@
+"""What a page may say, with types and bounds: messages of viser's client, presses of our own scripts, what the browser
+knows, and values of widgets.
+
+msgspec reads each of them before anything else does. A value that does not fit is dropped, and the log says which field
+it is, what it holds and what is allowed. What is no message of the page ends its connection, see `request_filter`.
+"""
+
+import logging
+import re
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, get_args, get_type_hints
+
+import msgspec
+from msgspec import Meta, Struct
+
+from rotor.user_input import brief
+
+LONGEST_HEAD = 2**16
+"""[bytes] of a request's head."""
+LONGEST_TEXT = 20_000
+"""Characters of a text field."""
+LONGEST_PRESS = 300
+"""Characters of a press: name and value as JSON."""
+LONGEST_SHOWN = 60
+"""Characters of a refused value that its sentence repeats."""
+_READABLE = 1000
+"""[bytes] of a refused field that the log repeats in part."""
+_log = logging.getLogger(__name__)
+
+Number = Annotated[float, Meta(gt=-1e15, lt=1e15)]
+"""Neither endless nor NaN."""
+Count = Annotated[int, Meta(ge=0, lt=10**15)]
+Name = Annotated[str, Meta(max_length=300)]
+Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
+Pixel = tuple[Number, Number]
+Point = tuple[Number, Number, Number]
+Turn = tuple[Number, Number, Number, Number]
+Keys = Literal["cmd/ctrl", "alt", "shift", "cmd/ctrl+alt", "cmd/ctrl+shift", "alt+shift", "cmd/ctrl+alt+shift"]
+WidgetValue = bool | Number | Text | Annotated[list[Number], Meta(max_length=1000)] | None
+
+
+class _Sent(Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
+    """A message of viser's client. Classes and fields have viser's names."""
+
+
+class ViewerCameraMessage(_Sent):
+    wxyz: Turn
+    position: Point
+    fov: Number
+    near: Number
+    far: Number
+    image_height: Count
+    image_width: Count
+    look_at: Point
+    up_direction: Point
+
+
+class ScenePointerMessage(_Sent):
+    event_type: Literal["click", "rect-select"]
+    ray_origin: Point | None
+    ray_direction: Point | None
+    screen_pos: Annotated[list[Pixel], Meta(min_length=1, max_length=2)]
+    modifier: Keys | None
+
+
+class SceneNodeDragMessage(_Sent):
+    phase: Literal["start", "update", "end"]
+    name: Name
+    instance_index: Count | None
+    start_position: Point
+    start_screen_pos: Pixel
+    end_position: Point
+    end_screen_pos: Pixel
+    button: Literal["left", "middle", "right"]
+    modifier: Keys | None
+    owner: Name = ""
+
+
+class Updates(Struct, forbid_unknown_fields=True):
+    value: WidgetValue
+
+
+class GuiUpdateMessage(_Sent):
+    uuid: Name
+    updates: Updates
+
+
+class CommandTriggerMessage(_Sent):
+    uuid: Name
+
+
+class FileTransferStartUpload(_Sent):
+    source_component_uuid: Name
+    transfer_uuid: Name
+    filename: Text
+    mime_type: Name
+    part_count: Count
+    size_bytes: Count
+
+
+class FileTransferPart(_Sent):
+    source_component_uuid: Name | None
+    transfer_uuid: Name
+    part_index: Count
+    content: memoryview
+
+
+class GetRenderResponseMessage(_Sent):
+    payload: memoryview
+    render_uuid: Name
+
+
+class LocalStorageGetItemResponseMessage(_Sent):
+    value: str | None
+    error: Text | None
+    request_uuid: Name
+
+
+Sent = (
+    ViewerCameraMessage
+    | ScenePointerMessage
+    | SceneNodeDragMessage
+    | GuiUpdateMessage
+    | CommandTriggerMessage
+    | FileTransferStartUpload
+    | FileTransferPart
+    | GetRenderResponseMessage
+    | LocalStorageGetItemResponseMessage
+)
+"""Every kind of message that viser's client sends from our page."""
+_sent = msgspec.msgpack.Decoder(Sent)
+
+
+def message_fault(message: bytes) -> str:
+    """What is wrong with a value of a message; empty where it fits. ValueError for what is no message of the page: of
+    no known kind, or with other fields."""
+    try:
+        _sent.decode(message)
+    except msgspec.ValidationError as error:
+        reason, _, place = str(error).removesuffix("`").partition(" - at `$.")
+        field = re.match(r"\w*", place)
+        if field is None or field[0] in ("", "type"):
+            raise
+        parts = msgspec.msgpack.decode(message, type=dict[str, msgspec.Raw])
+        kind, part = msgspec.msgpack.decode(parts["type"]), parts[field[0]]
+        size = len(memoryview(part))
+        shown = _shown(msgspec.msgpack.decode(part)) if size <= _READABLE else f"{size} bytes"
+        (fields,) = (get_type_hints(one) for one in get_args(Sent) if one.__name__ == kind)
+        return f"{kind}: {field[0]} is {shown}: {reason}{_choices(reason, fields[field[0]])} at {place}"
+    return ""
+
+
+def dropped(what: str) -> None:
+    """Tell that something was dropped."""
+    _log.warning("dropped from a page: %s", what)
+
+
+def _choices(reason: str, kind: Any) -> str:
+    """The words of a type, where msgspec refused another word: it does not name them."""
+    return f", expected one of {', '.join(_words(kind))}" if "enum value" in reason else ""
+
+
+def _words(kind: Any) -> list[str]:
+    return [word for part in get_args(kind) for word in ([part] if isinstance(part, str) else _words(part))]
+
+
+def _shown(value: object) -> str:
+    return brief(repr(value)[:200])
+
+
+_Label = Annotated[str, Meta(max_length=100)]
+_Index = Annotated[int, Meta(ge=0, lt=10**6)]
+_Radius = Annotated[float, Meta(ge=0.0, le=1.0)]
+_Azimuth = Annotated[float, Meta(ge=-3600.0, le=3600.0)]
+_Amplitude = Annotated[float, Meta(ge=0.0, le=90.0)]
+_Share = Annotated[float, Meta(ge=-10.0, le=10.0)]
+_Pull = _Share | None
+_Hand = Literal["start", "end"]
+_Switch = Literal["on", "off"]
+_Knot = tuple[Annotated[float, Meta(ge=-2.0, le=2.0)] | None, Annotated[float, Meta(ge=-360.0, le=360.0)]]
+_Wave = tuple[_Index, _Amplitude, _Azimuth]
+_ALONE = (
+    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard"),
+    *("halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
+)
+"""Presses whose names say it all: what comes with them is not read."""
+PRESSES: dict[str, Any] = {
+    **dict.fromkeys(_ALONE),
+    **dict.fromkeys(("along", "hold"), bool),
+    **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
+    **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
+    **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
+    **dict.fromkeys(("difference", "more"), _Switch),
+    "ride": Literal["off"] | tuple[_Radius, _Azimuth] | None,
+    "azimuth": _Azimuth,
+    "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
+    "suppose": _Switch | tuple[_Amplitude, Annotated[float, Meta(ge=0.001, le=1e4)]],
+    "map_at": tuple[_Radius, _Radius],
+    "pull": _Pull,
+    "wiped": Annotated[float, Meta(ge=-1.0, le=2.0)],
+    "covered": tuple[_Share, _Share],
+    "view": Literal["actuator", "3d", "disk", "blade", "top", "side"],
+    "colours": Literal["Rescale", "Default"],
+    "lecture": Literal["back", "next", "end"],
+    "idle": tuple[_Index, bool],
+    "knot": tuple[_Label, Literal["start", "end", "undo"] | _Knot],
+    "dial": _Hand | Annotated[list[_Wave], Meta(min_length=1, max_length=9)],
+}
+"""Every press of the page's scripts, and what its value must be."""
+
+
+class Press(Struct, array_like=True, forbid_unknown_fields=True):
+    """What a script of the page sends: a number that rises, a name, a value."""
+
+    serial: Number
+    name: Name
+    value: msgspec.Raw
+
+
+def checked_press(text: Any) -> tuple[str, Any] | None:
+    """Name and value of a press; None, and a line in the log, for what no page of ours sends."""
+    kind: Any = None
+    try:
+        if not isinstance(text, str) or len(text) > LONGEST_PRESS:
+            raise ValueError(f"at most {LONGEST_PRESS} characters are allowed")
+        press = msgspec.json.decode(text, type=Press)
+        if press.name not in PRESSES:
+            raise ValueError("there is no such press")
+        kind = PRESSES[press.name]
+        # A button has its number as text: not strictly.
+        return press.name, None if kind is None else msgspec.json.decode(press.value, type=kind, strict=False)
+    except ValueError as error:
+        dropped(f"press {_shown(text)}: {error}{_choices(str(error), kind)}")
+        return None
+
+
+class PageFacts(Struct, frozen=True):
+    """What only the browser knows when a page opens."""
+
+    dark: bool = False
+    """Whether it asks for dark pages."""
+    query: Annotated[str, Meta(max_length=LONGEST_HEAD)] | None = ""
+    """The query of the page's address, from the question mark on; None where the browser did not tell."""
+    kept: dict[str, str] = {}
+    """Texts that it was given to keep by name: see `browser.keep`."""
+    page: Annotated[str, Meta(max_length=40)] = ""
+    """Another one each time that a tab is loaded; the same when a page connects again."""
+
+
+def read_facts(text: str) -> PageFacts:
+    """What the browser answered; without its query, and with a line in the log, where no page of ours says that."""
+    try:
+        return msgspec.json.decode(text, type=PageFacts)
+    except ValueError as error:
+        dropped(f"facts {_shown(text)}: {error}")
+        return PageFacts(query=None)
+
+
+def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None) -> Any:
+    """What a widget takes of a value that its page sent; ValueError with one sentence for what no page of ours sends.
+
+    `current`: its present value, which has the type of every other. A number is brought between `low` and `high`,
+    which may have changed while it was on its way.
+    """
+    kind: Any = None  # An upload button's value is a file, which comes in another way.
+    if isinstance(current, bool) or current is None:
+        kind = bool
+    elif isinstance(current, str):
+        kind = Text
+    elif isinstance(current, (int, float)):
+        kind = Number
+    elif isinstance(current, (list, tuple)):
+        kind = tuple[(Number,) * len(current)]
+    try:
+        msgspec.convert(value, kind)
+        if kind is None or (choices and value not in choices):
+            raise ValueError("not a choice")
+    except ValueError:
+        shown = brief(repr(value))[:LONGEST_SHOWN]
+        raise ValueError(f"A field of this page cannot hold {shown}: it stays as it was.") from None
+    if kind is Number and low is not None and high is not None:
+        return min(max(value, low), high)
+    return value
