@@ -179,7 +179,7 @@ def _first_words(query: str, start: Inputs) -> str:
     if parameter(query, FOLLOW):
         return ""  # Another page says what is shown.
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
-    design = (start if code is None else inputs_from(code, tell=lambda _: None)).design()
+    design = (start if code is None else inputs_from(code)).design()
     units = UNITS[view_from(view).units] if view is not None else SI
     solution = solve(design)
     if not solution.converged:

@@ -66,8 +66,7 @@ class Page:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
-        retired = partial(share.tell_retired, problems)
-        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=retired)
+        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
         self._opening, start = (
             start,
             address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems),
@@ -117,7 +116,7 @@ class Page:
                 RotorUpload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self.rival = Rival(context, address, problems, retired)
+        self.rival = Rival(context, address, problems)
         self.optimise.challenge = self.rival.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
@@ -144,7 +143,7 @@ class Page:
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.pay.on_stage:
             layout.show_mode("actuate")
-        self.file.begin(problems, retired)
+        self.file.begin(problems)
         self.top.refresh()
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")

@@ -12,7 +12,6 @@ The server keeps the query of the address, in which several parts of the page ha
 
 import json
 import math
-import re
 import threading
 import time
 import unicodedata
@@ -28,8 +27,7 @@ from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from rotor import Design, make_design
 from rotor.design.quantities import BY_KEY
-from rotor.files.design_file import READS, design_from_record, parse_design
-from rotor.files.make_design import Tell, warn
+from rotor.files.design_file import design_from_record, parse_design
 from rotor.user_input import refusing
 
 VERSION = 1
@@ -40,24 +38,17 @@ PINNED = "a"
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 
-RETIRED_TITLE = "A retired model"
-"""Title of the notice that says which model stands in."""
-
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
 
 _PLUS = "~"
 """Stands for a plus sign."""
-_LOST_PLUS = re.compile(r"(?<=[\w.]) (?=[a-z\d])")
-"""The space that a link of an earlier version arrives with in place of a plus sign."""
 
 _SHORT = {key: row.word for key, row in BY_KEY.items() if row.word}
 _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
 _NEVER = ("format", "version", "twist")
-_ALWAYS = ("loss_on",)
-"""Written wherever a record has it: a link of the preset `thesis` without it is from before this choice."""
 STEPS_KEPT = "steps"
 MOST_STEPS = 50
 """Most steps before the present that are kept, and most after it."""
@@ -84,9 +75,7 @@ def code_of(design: Design) -> str:
     plain = make_design()
     usual = make_design(preset=record["preset"], rotor=design.aircraft).to_dict()
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
-    changed = {
-        key: value for key, value in record.items() if key not in _NEVER and (key in _ALWAYS or value != usual.get(key))
-    }
+    changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
@@ -95,17 +84,17 @@ def code_of(design: Design) -> str:
 
 
 @refusing("The design in the address", "ask for a new link")
-def design_from(code: str, tell: Tell = warn) -> Design:
-    """The design of a text; ValueError with one sentence for an invalid one. `tell` as in `design_from_record`."""
+def design_from(code: str) -> Design:
+    """The design of a text; ValueError with one sentence for an invalid one."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
     if len(code) > LONGEST:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
-    twist, *words = _LOST_PLUS.sub("+", rest).replace(_PLUS, "+").split(";")
+    twist, *words = rest.replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
-    record: dict[str, Any] = {"version": READS[-1], "twist": twist}
+    record: dict[str, Any] = {"twist": twist}
     for word in words:
         key, equals, value = word.partition("=")
         if not equals:
@@ -114,27 +103,21 @@ def design_from(code: str, tell: Tell = warn) -> Design:
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
-        return design_from_record(record, tell=tell)
+        return design_from_record(record)
     except ValueError as error:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
 @refusing("The design in the address", "ask for a new link")
-def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs:
+def inputs_from(code: str, kept: str | None = None) -> Inputs:
     """The slider positions of a text; ValueError also for a position outside a slider's range.
 
-    `kept`: the design file that the page has where the text is `KEPT`. `tell` as in `design_from_record`.
+    `kept`: the design file that the page has where the text is `KEPT`.
     """
     if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
     record = kept if code == KEPT else None
-    return within(inputs_of(parse_design(record.encode(), "of this page", tell) if record else design_from(code, tell)))
-
-
-def tell_retired(notices: list[tuple[str, str]], sentence: str) -> None:
-    """Add the sentence about a retired model to what the page is to say when it opens, once."""
-    if (notice := (RETIRED_TITLE, sentence)) not in notices:
-        notices.append(notice)
+    return within(inputs_of(parse_design(record.encode(), "of this page") if record else design_from(code)))
 
 
 def within(inputs: Inputs) -> Inputs:
@@ -227,7 +210,7 @@ def _inputs(codes: list[Any]) -> tuple[Inputs, ...]:
     steps: list[Inputs] = []
     for code in codes[: 2 * MOST_STEPS]:
         try:
-            steps.append(inputs_from(str(code), tell=lambda _: None))
+            steps.append(inputs_from(str(code)))
         except ValueError:
             continue  # Of another version of the program, or changed in the page.
     return tuple(steps)

@@ -1,7 +1,7 @@
 """Files of the page: a design's link and file, and the user's own rotor file with its section files."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -174,12 +174,9 @@ class FilePanel(Tab):
             self._records[name] = design.to_dict()
             return share.KEPT
 
-    def begin(self, problems: list[tuple[str, str]], retired: Callable[[str], None]) -> None:
-        """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read.
-
-        `retired` is called with a sentence for a model that is no longer there.
-        """
-        inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED), tell=retired)
+    def begin(self, problems: list[tuple[str, str]]) -> None:
+        """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read."""
+        inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED))
         pinned = self._address.read(share.PINNED, inputs_from, None, "Not the A of the link", problems)
         if pinned is not None:
             self._context.pin(pinned)
@@ -212,15 +209,14 @@ class FilePanel(Tab):
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
         name = shorten(file.name)
-        remarks: list[str] = []
         try:
             if len(file.content) > MOST_BYTES:
                 raise ValueError(f"{name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
             with refusing(f"design file {name!r}", "check its values"):
-                design = parse_design(file.content, name, remarks.append)
+                design = parse_design(file.content, name)
                 inputs = share.within(inputs_of(design))
         except ValueError as error:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
-        self._context.notify("Loaded", " ".join([f"{name} is on the sliders.", *remarks]))
+        self._context.notify("Loaded", f"{name} is on the sliders.")

@@ -95,14 +95,6 @@ def there_and_back(app: App, watched: Watched, designs: list[Inputs]) -> None:
 
 
 @pytest.mark.slow
-def test_a_link_that_names_a_retired_model_opens_and_says_so(visit: Visit, app: App):
-    watched = visit(COARSE + "&d=1;linear:-8;mu=0;hover_inflow=free-wake")
-    watched.page.get_by_text("hover is solved by the annulus balance").wait_for()
-    assert app.sessions[-1].page.controls.inputs().hover_inflow == "annulus"
-    watched.page.wait_for_function("() => !location.search.includes('free-wake')")
-
-
-@pytest.mark.slow
 def test_a_link_that_cannot_be_read_is_said_and_stays(visit: Visit):
     watched = visit(COARSE + "&d=1;uh60a~bends:3;mu=0.3")
     page = watched.page

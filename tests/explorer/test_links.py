@@ -1,13 +1,9 @@
 """The address: random designs through it as viser's client rewrites it, links that cannot be read, and its writing."""
 
-import json
 import random
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 from urllib.parse import parse_qsl, quote
 
@@ -17,23 +13,17 @@ from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
 from explorer.model.stand import StandInputs
 from explorer.sharing.share import (
     DESIGN,
-    KEPT,
-    PINNED,
     Address,
     code_of,
     design_from,
     inputs_from,
     parameter,
-    read_history,
-    tell_retired,
     with_parameter,
 )
-from explorer.tabs.design_files import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
-from rotor.files.make_design import RETIRED
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
 """Characters of a query that the parser of addresses leaves as they are; a `#` would end the query."""
@@ -165,96 +155,11 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
     assert {random_inputs(chance).law for _ in range(200)} == set(LAWS) - {"optimised"}
 
 
-LINKS_OF_0_2 = (Path(__file__).parents[1] / "data" / "links_0.2.txt").read_text(encoding="utf-8").split()
-"""What the page of version 0.2.0 wrote of random designs."""
-
-
-@pytest.mark.parametrize("code", LINKS_OF_0_2)
-def test_a_link_of_0_2_opens_with_the_design_that_it_names(code: str):
-    words = dict(part.split("=", 1) for part in code.split(";")[2:])
-    said: list[str] = []
-    inputs = inputs_from(code, tell=said.append)
-    design = inputs.design()
-    assert len(said) == (words.get("preset") == "thesis")  # That preset has another meaning now.
-    assert design.aircraft.key == words.get("rotor", "uh60a")
-    assert design.condition.advance_ratio == pytest.approx(float(words.get("mu", "0.2")))
-    assert design.models.bending == ("bending" in words)
-    if "mass" in words:
-        assert design.condition.mass == pytest.approx(float(words["mass"]))
-    r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
-    wanted = design.with_twist(code.split(";")[1].replace("~", "+")).twist
-    assert design.twist(r) == pytest.approx(wanted(r), abs=1e-6)
-    assert code_of(inputs_from(code_of(design)).design()) == code_of(design)
-
-
 def test_the_changed_twist_as_built_is_again_on_its_sliders():
     inputs = replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25)
     code = code_of(inputs.design())
     assert code == "1;uh60a~segments:-2,1.5@0.6;mu=0.25;mass=8320"
     assert inputs_from(code) == inputs
-
-
-@pytest.mark.parametrize(
-    ("query", "changed"),
-    [
-        ("?d=1;uh60a%2Bsegments:-2,1@0.5;mu=0.25;mass=8320", {"advance_ratio": 0.25}),
-        ("?d=1;uh60a+segments:-2,1@0.5;mu=0.25;mass=8320", {"advance_ratio": 0.25}),
-        ("?d=1;uh60a%20segments:-2,1@0.5;mu=0.3;mass=9000", {"advance_ratio": 0.3, "mass_t": 9.0}),
-    ],
-)
-def test_links_with_a_plus_sign_still_open(query: str, changed: dict[str, float]):
-    """As earlier versions wrote them, and as viser's client leaves them after one connection and after two."""
-    spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
-    assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
-    for _ in range(3):
-        inputs = inputs_from(parameter(query, DESIGN) or "")
-        assert inputs == replace(OPENING, built_inner=-2.0, built_outer=1.0, **changed)
-        query = rewritten(query)
-
-
-class TestRetired:
-    CODE = "1;linear:-8;mu=0;hover_inflow=free-wake"
-    SENTENCE = "The free wake in hover was retired; hover is solved by the annulus balance."
-
-    def test_an_old_link_opens_and_the_page_says_once_what_stands_in(self):
-        notices: list[tuple[str, str]] = []
-        address = Address(f"?d={self.CODE}&a={self.CODE}", lambda _: None)
-        meaning = partial(inputs_from, tell=partial(tell_retired, notices))
-        for name in (DESIGN, PINNED):
-            found = address.read(name, meaning, OPENING, "", notices)
-            assert (found.linear, found.hover_inflow) == (-8.0, "annulus")
-            assert "inflow" not in code_of(found.design())  # What the page writes then does not name it.
-        assert notices == [("A retired model", self.SENTENCE)]
-
-    @pytest.mark.parametrize("name", [name for name, one in RETIRED.items() if one.option == "inflow"])
-    def test_an_old_inflow_in_forward_flight(self, name: str):
-        said: list[str] = []
-        found = inputs_from(f"1;linear:-8;mu=0.2;inflow={name}", tell=said.append)
-        assert found.inflow == "lifting-line"
-        assert said == [RETIRED[name].sentence]
-        assert "inflow" not in code_of(found.design())
-
-    def test_what_the_page_has_kept(self):
-        """A rotor of one's own is told; steps of the history are read silently, as is the annulus balance by name."""
-        kept = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"})
-        said: list[str] = []
-        assert inputs_from(KEPT, kept, said.append) == OPENING
-        assert said == [self.SENTENCE]
-        history = read_history(json.dumps({"past": [self.CODE], "bookmarks": [self.CODE]}), OPENING)
-        assert [one.hover_inflow for one in (*history.past, *history.bookmarks)] == ["annulus", "annulus"]
-        assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
-
-    def test_a_loaded_file(self):
-        content = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"}).encode()
-        said: list[tuple[str, str]] = []
-        taken: list[Inputs] = []
-        context = SimpleNamespace(notify=lambda *words: said.append(words), set_inputs=taken.append)
-        panel: Any = SimpleNamespace(_context=context)
-        file = SimpleNamespace(name="old.json", content=content)
-        event: Any = SimpleNamespace(target=SimpleNamespace(value=file))
-        FilePanel._loaded(panel, event)
-        assert taken == [OPENING]
-        assert said == [("Loaded", f"old.json is on the sliders. {self.SENTENCE}")]
 
 
 class TestUnreadable:

@@ -43,7 +43,6 @@ INSTEAD = {
     "pulsates": "unsteady wake at N/rev",
     "the link for others": "copy link",
     "moves by itself": "controlled by the presenter",
-    "visitor waits": "You are second in the queue",
 }
 """Phrase → the one to use."""
 

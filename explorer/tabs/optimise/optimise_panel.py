@@ -271,14 +271,10 @@ class OptimisePanel(BackgroundWork):
 class Rival:
     """One session's. The design is kept, never its power: whoever opens the link computes it again."""
 
-    def __init__(
-        self, context: TabContext, address: Address, problems: list[tuple[str, str]], tell: Callable[[str], None]
-    ) -> None:
-        """`problems` get a title and a sentence where the address cannot be read; `tell` as in `design_from`."""
+    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
+        """`problems` get a title and a sentence where the address cannot be read."""
         self._context, self._address, self._solved = context, address, BaselineCache()
-        self._design = address.read(
-            RIVAL, lambda code: design_from(code, tell), None, "Not the optimiser's design of the link", problems
-        )
+        self._design = address.read(RIVAL, design_from, None, "Not the optimiser's design of the link", problems)
         self._now: tuple[SessionState, Solution] | None = None
         """What is shown, and the optimiser's trim beside it; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())
