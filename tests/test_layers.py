@@ -24,7 +24,7 @@ PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
 ORDER = {
     "rotor": (
         "arrays", "units", "user_input", "terminal", "markup", "chart", "chart_svg", "compiled", "blas_threads",
-        "processes", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files",
+        "worker_process", "processes", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files",
         "trim", "optimisation", "study", "validation", "actuator", "reproduce", "command",
     ),
     "explorer": (

@@ -15,13 +15,13 @@ from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEnded, JobEvent, JobProgress
 from rotor import Design, envelope
 from rotor.chart import Axis, Chart, Line, Rule
 from rotor.markup import Markup, tag
-from rotor.processes import Stop, Tell
+from rotor.processes import JobEnded, JobEvent, JobProgress
 from rotor.study.envelope import SPEEDS, Envelope, EnvelopePoint, Reach, limit_line
 from rotor.units import KNOT
+from rotor.worker_process import Stop, Tell
 
 _LIMIT = 600.0
 """Longest time of an envelope [s], which takes half a minute on an idle machine."""

@@ -10,8 +10,8 @@ import viser
 from explorer.model.units import number
 from explorer.tabs import envelope_panel
 from explorer.tabs.envelope_panel import EnvelopePanel, EnvelopeTask, envelope_chart
-from explorer.workers.pool import Job, JobEnded, JobProgress
 from rotor import make_design, solve
+from rotor.processes import Job, JobEnded, JobProgress
 from rotor.study.envelope import Envelope, EnvelopePoint, Reach
 from tests.curves import curves
 

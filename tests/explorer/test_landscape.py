@@ -13,7 +13,6 @@ from explorer.picture.landscape import HEIGHT, SIZE, Landscape, refined
 from explorer.tabs.optimise.landscape_panel import design_at, half_widths, paths_on, valley_words
 from explorer.tabs.optimise.map_panel import Map
 from explorer.tabs.optimise.search_run import SearchRun
-from explorer.workers.pool import JobEnded, JobProgress
 from explorer.workers.solver import MapTask, StartPower
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -21,6 +20,7 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.search import Search
+from rotor.processes import JobEnded, JobProgress
 from tests.explorer.test_pictures import on_canvas
 
 LEAST, CURVES = 1e6, (4e5, 1e5)

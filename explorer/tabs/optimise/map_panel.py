@@ -12,12 +12,12 @@ from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.solver import MapLevel, MapTask
 from rotor.arrays import Array
 from rotor.design import TwistLaw
 from rotor.markup import group, tag
 from rotor.optimisation import Concept, Parameter, nearest
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,6 @@ from typing import Literal
 
 from explorer.model.units import SI, Units
 from explorer.tabs.background import FRAME
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
@@ -27,6 +26,7 @@ from rotor.optimisation import (
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
 from rotor.optimisation.search import STARTS
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 
 
 @dataclass(frozen=True)
