@@ -26,8 +26,11 @@ from rotor import Design, Solution
 from rotor.chart import Chart, as_json
 from rotor.markup import Markup, tag
 
+_HEIGHT = 94.0
+"""Height of the axes [px]."""
 
-def chart_box(chart: Chart, height: float = 94.0) -> Markup:
+
+def chart_box(chart: Chart, height: float = _HEIGHT) -> Markup:
     """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
     told = json.dumps(as_json(chart), ensure_ascii=False, separators=(",", ":"))
     return tag("div.rx-chart", data_chart=told, data_high=height)
@@ -36,14 +39,14 @@ def chart_box(chart: Chart, height: float = 94.0) -> Markup:
 class PanelChart:
     """A chart in a panel; nothing until it is shown one."""
 
-    def __init__(self, gui: viser.GuiApi, height: float = 94.0) -> None:
-        self._html, self._height = gui.add_html(""), height
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._html = gui.add_html("")
         self._chart: Chart | None = None
 
     def show(self, chart: Chart | None) -> None:
         """None: no chart."""
         self._chart = chart
-        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart, self._height))
+        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart))
 
     @property
     def y_range(self) -> Range | None:
