@@ -28,9 +28,9 @@ from explorer.tabs.context import SharedServices
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
 from explorer.workers import solver
-from explorer.workers.pool import Pool
 from rotor import solve
 from rotor.compiled import compiling
+from rotor.processes import Processes
 
 FIRST = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
@@ -40,6 +40,8 @@ MakeSession = Callable[[viser.ClientHandle, PageFacts], Session]
 _log = logging.getLogger(__name__)
 _FIRST_ANSWERS = 32
 """Addresses whose first answer is kept."""
+_WORKERS = 2
+"""Processes for the long work of all pages."""
 _SWITCH = 1e-3
 """[s] after which a thread that computes lets another run: what sends frames must not wait 5 ms behind it."""
 
@@ -171,7 +173,7 @@ class App:
         self._connections: dict[int, ClientConnection] = {}
         self._lock = threading.Lock()
         self._seated: set[ClientConnection] = set()
-        self.pool = Pool()
+        self.pool = Processes(_WORKERS, solver.prepare_worker)
         self._warmed = threading.Event()
         self.presentations = Presentations()
         hosts, page = (
@@ -212,7 +214,7 @@ class App:
         connections, self._connections = list(self._connections.values()), {}
         for connection in connections:
             connection.leave()
-        self.pool.close()
+        self.pool.shutdown(wait=False, cancel_futures=True)
         viser_compat.quiet_stop(self.server)
 
     @property

@@ -1,42 +1,40 @@
-"""Processes of this machine: one way to start and to end them, for commands, studies and the page.
-
-A process ends with its parent, however that one ends. It leaves Ctrl-C to its parent, keeps BLAS to one thread, and
-does not run the caller's script again. Parent and process talk through a pipe and share no semaphore, so a parent that
-is killed leaves none in the system.
+"""One pool of processes of this machine, for commands, studies and the page.
 
 `concurrent.futures.ProcessPoolExecutor` (and loky, which is built on it) was tried and does not do: its processes go on
 when their parent is killed, one lost process breaks them all, it cannot end a task that ignores its stop, and the
 interpreter waits for running tasks at exit (8 s measured for a task of 8 s).
+
+One file: what is said of a job, the queue and the thread that feeds a process are read together.
 """
 
-import os
-import pickle
-import signal
-import sys
+import itertools
 import threading
-import traceback
-from collections.abc import Callable, Generator, Iterator, Sequence
+import time
+from bisect import insort
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
-from importlib.machinery import ModuleSpec
-from multiprocessing import Pipe, get_context, parent_process
-from multiprocessing.connection import Connection, wait
-from multiprocessing.context import SpawnProcess
 from queue import Empty, SimpleQueue
-from typing import Any, Literal
+from typing import Any
 
-from rotor.blas_threads import keep_one_blas_thread
+from rotor.worker_process import Stop, Task, Tell, WorkerProcess
 
-Tell = Callable[[Any], None]
-Stop = Callable[[], bool]
 Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items."""
 
+_PATIENCE = 0.12
+"""[s] a process has to answer the stop of a job with a limit; then the job ends with what was reported."""
+_GRACE = 3.0
+"""[s] after that stop until a process that goes on is killed."""
+_IDLE = 2.0
+"""[s] between the checks of an idle thread whether its prepared process still runs."""
+_HEAR = 0.01
+"""[s] between two looks at what ends a job with a limit."""
 _LOOK = 0.1
-"""[s] between the questions whether to stop."""
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-_one_at_a_time = threading.Lock()
+"""[s] between the questions whether to stop, for all others."""
+_START = 300.0
+"""[s] a new process may take to prepare, on a busy machine: it may have to compile."""
 
 
 class WorkerLost(BrokenExecutor):
@@ -48,309 +46,374 @@ class WorkerLost(BrokenExecutor):
         )
 
 
-def start_process(work: Callable[..., None], arguments: tuple[Any, ...], name: str) -> SpawnProcess:
-    """Start work(*arguments), a function of an importable module, in a daemonic process of that name."""
-    process = get_context("spawn").Process(target=_work, args=(work, arguments), name=name, daemon=True)
-    with _one_at_a_time, _inherited():
-        process.start()
-    return process
+@dataclass(frozen=True)
+class _Called:
+    """A function as a task that reports nothing and runs to its end."""
 
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...] = ()
+    keywords: dict[str, Any] = field(default_factory=dict[str, Any])
 
-@contextmanager
-def _inherited() -> Generator[None]:
-    """What a new process takes over from this one.
-
-    A main module without a name: a process imports that of its parent, and a script that opens a page, and has no
-    `if __name__ == "__main__"`, would open it again there. SIGINT blocked: Ctrl-C in a terminal reaches all processes,
-    also one that has just begun. A BLAS that makes no threads when it is loaded.
-    """
-    main = sys.modules["__main__"]
-    spec, main.__spec__ = main.__spec__, ModuleSpec("__main__", None)
-    unset = [name for name in _THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(unset, "1"))
-    mask: set[int] | None = None
-    if hasattr(signal, "pthread_sigmask"):
-        from multiprocessing.resource_tracker import ensure_running
-
-        ensure_running()  # The first process starts it, which lifts the block.
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        if mask is not None:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for name in unset:
-            del os.environ[name]
-        main.__spec__ = spec
-
-
-def _work(work: Callable[..., None], arguments: tuple[Any, ...]) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-    keep_one_blas_thread()
-    work(*arguments)
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    assert parent is not None
-    wait([parent.sentinel])
-    os._exit(1)
+    def run(self, tell: Tell, stop: Stop) -> Any:
+        del tell, stop
+        return self.function(*self.arguments, **self.keywords)
 
 
 @dataclass(frozen=True)
-class _Request:
-    function: Callable[..., Any]
+class _Yielded:
+    """Work as a task that reports each item."""
+
+    work: Work
     arguments: tuple[Any, ...]
-    keywords: dict[str, Any]
-    streams: bool
-    """Whether the function is also given `tell` and `stop`."""
-    number: int
+
+    def run(self, tell: Tell, stop: Stop) -> None:
+        for item in self.work(*self.arguments, stop):
+            tell(item)
 
 
 @dataclass(frozen=True)
-class Reply:
-    kind: Literal["item", "result", "error"]
-    value: Any
-    """What the function told or returned, or the exception that it raised."""
-    number: int = 0
-    """Number of the call; 0 where the request could not be read."""
+class JobQueued:
+    """The job waits behind `ahead` others."""
+
+    ahead: int
 
 
-class WorkerProcess:
-    """A process that makes one call after the other. Its methods raise EOFError or OSError once it is lost."""
-
-    def __init__(self, name: str) -> None:
-        self._pipe, theirs = Pipe()
-        self._process = start_process(_serve, (theirs,), name)
-        theirs.close()  # So that the pipe ends with the process.
-        self._number = 0
-        """Number of the last call."""
-
-    @property
-    def pid(self) -> int | None:
-        """Number of the process while it runs."""
-        return self._process.pid if self._process.is_alive() else None
-
-    def call(self, function: Callable[..., Any], *arguments: Any, **keywords: Any) -> None:
-        """Begin function(*arguments, **keywords)."""
-        self._begin(function, arguments, keywords, streams=False)
-
-    def stream(self, function: Callable[..., Any], *arguments: Any) -> None:
-        """Begin function(*arguments, tell, stop): each `tell(item)` is a reply, `stop()` is True once asked for."""
-        self._begin(function, arguments, {}, streams=True)
-
-    def _begin(self, function: Callable[..., Any], arguments: Any, keywords: dict[str, Any], *, streams: bool) -> None:
-        self._pipe.send(_Request(function, arguments, keywords, streams, self._number + 1))
-        self._number += 1
-
-    def ask_to_stop(self) -> None:
-        self._pipe.send(None)
-
-    def receive(self, seconds: float | None) -> Reply | None:
-        """The next reply to the last call; None if none came in time, or one to a call that was given up."""
-        reply: Reply | None = self._pipe.recv() if self._pipe.poll(seconds) else None
-        return reply if reply is not None and reply.number in (0, self._number) else None
-
-    def kill(self) -> None:
-        self._process.kill()
-        self._process.join(1.0)
-
-    def close(self) -> None:
-        self.kill()
-        self._pipe.close()
+@dataclass(frozen=True)
+class JobStarted:
+    """A process runs the job."""
 
 
-def _serve(pipe: "Connection[Any, Any]") -> None:
-    """What a `WorkerProcess` does until its pipe closes."""
-    with suppress(EOFError, OSError):
-        while True:
-            try:
-                request: _Request | None = pipe.recv()
-            except (EOFError, OSError):
-                raise
-            except Exception as error:  # Names a function, for example, that is not here.
-                _send_error(pipe, error)
-                continue
-            if request is not None:  # Else the stop of a call that was done meanwhile.
-                _answer(pipe, request)
+@dataclass(frozen=True)
+class JobProgress:
+    """What the task reported."""
+
+    item: Any
 
 
-def _answer(pipe: "Connection[Any, Any]", request: _Request) -> None:
-    stopped = False
+@dataclass(frozen=True)
+class JobEnded:
+    """The end: the task's result, or None if it was stopped before it had one."""
 
-    def stop() -> bool:
-        nonlocal stopped
-        while not stopped and pipe.poll():
-            stopped = pipe.recv() is None
-        return stopped
-
-    def tell(item: Any) -> None:
-        pipe.send(Reply("item", item, request.number))
-
-    more = (tell, stop) if request.streams else ()
-    try:
-        value = request.function(*request.arguments, *more, **request.keywords)
-        pipe.send(Reply("result", value, request.number))
-    except BrokenPipeError:
-        raise
-    except Exception as error:  # The process goes on whatever a function does.
-        _send_error(pipe, error, request.number)
+    result: Any
+    stopped: bool = False
+    late: bool = False
+    """Stopped by the time limit."""
 
 
-def _send_error(pipe: "Connection[Any, Any]", error: Exception, number: int = 0) -> None:
-    error.add_note(traceback.format_exc())
-    try:
-        pickle.loads(pickle.dumps(error))
-    except Exception:  # Some exceptions cannot be pickled, or cannot be made again from what was.
-        error = RuntimeError(f"{type(error).__name__}: {error}")
-    pipe.send(Reply("error", error, number))
+@dataclass(frozen=True)
+class JobFailed:
+    """The end without a result, with a sentence for who waits for it."""
+
+    message: str
+    error: Exception | None = None
+    """What was raised."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Call:
-    function: Callable[..., Any]
-    arguments: tuple[Any, ...]
-    keywords: dict[str, Any]
-    tell: Tell | None = None
-    stopping: threading.Event = field(default_factory=threading.Event)
-    future: Future[Any] = field(default_factory=Future[Any])
+JobEvent = JobQueued | JobStarted | JobProgress | JobEnded | JobFailed
+
+
+class Job:
+    """One task in the pool; of two that wait the one of lower urgency number runs first, then the older one."""
+
+    def __init__(
+        self, number: int, task: Task, on_event: Callable[[JobEvent], None], limit: float | None, urgency: int
+    ) -> None:
+        self.number, self.task, self.limit, self.urgency = number, task, limit, urgency
+        self.stopping = threading.Event()
+        self._on_event = on_event
+        self._lock = threading.Lock()
+        self.over = False
+
+    def tell(self, event: JobEvent) -> None:
+        """Pass an event on; none follows the end."""
+        with self._lock:
+            if self.over:
+                return
+            self.over = isinstance(event, (JobEnded, JobFailed))
+            self._on_event(event)
+
+    def silence(self) -> None:
+        """Pass on no further event."""
+        with self._lock:
+            self.over = True
 
 
 class Processes(Executor):
-    """So many processes of this machine as an executor. A lost one costs its own call, and is replaced."""
+    """So many processes of this machine, safe from any thread: as an executor, and for jobs with progress and a stop.
 
-    def __init__(self, count: int) -> None:
-        self._calls: SimpleQueue[_Call | None] = SimpleQueue()
-        self._workers: dict[str, WorkerProcess] = {}
-        self._change = threading.Lock()
+    Each has a thread that feeds it through a pipe, so a process that ends or hangs costs only its own job, and is
+    replaced. They are started once there is work.
+    """
+
+    def __init__(self, count: int, prepare: Callable[[], object] | None = None) -> None:
+        """`prepare`: what a new process does first. One more process than had work is then kept ready for the next."""
+        self.prepare = prepare
+        self._count = count
+        self._numbers = itertools.count(1)
+        self._waiting: list[Job] = []
+        self._change = threading.Condition()
+        self._workers: list[_Worker] = []
         self._closed = self._killed = False
-        self._threads = [threading.Thread(target=self._feed, args=(f"worker-{k}",), daemon=True) for k in range(count)]
-        for thread in self._threads:
-            thread.start()
+
+    def warm(self) -> None:
+        """Start the first process before it is needed."""
+        with self._change:
+            if not self._workers:
+                self._add_worker()
+
+    def begin(
+        self, task: Task, on_event: Callable[[JobEvent], None], limit: float | None = None, urgency: int = 0
+    ) -> Job:
+        """Queue a task. `on_event` is called from threads of the pool and must be quick. Lower `urgency` goes first.
+
+        `limit`: of its time [s]; its process is killed where it does not heed a stop. None: a task of any length, which
+        also ends by itself after a stop, and hears nothing of its place in the queue.
+        """
+        job = Job(next(self._numbers), task, on_event, limit, urgency)
+        try:
+            self._queue(job)
+        except RuntimeError as error:
+            job.tell(JobFailed(str(error), error))
+        return job
+
+    def stop(self, job: Job, quiet: bool = False) -> None:
+        """Stop a job, waiting or running; `quiet`: nobody listens any more."""
+        if quiet:
+            job.silence()
+        job.stopping.set()
+        with self._change:
+            waits = job in self._waiting
+            if waits:
+                self._waiting.remove(job)
+        self._tell_positions()
+        if waits:
+            job.tell(JobEnded(None, stopped=True))
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        return self._enter(_Call(fn, args, kwargs))
+        future: Future[Any] = Future()
+
+        def hear(event: JobEvent) -> None:
+            match event:
+                case JobStarted() if not future.set_running_or_notify_cancel():
+                    job.stopping.set()
+                case JobEnded(stopped=True):
+                    future.cancel()
+                case JobEnded(result):
+                    future.set_result(result)
+                case JobFailed(message, error):
+                    future.set_exception(error or RuntimeError(message))
+                case _:
+                    pass
+
+        job = Job(next(self._numbers), _Called(fn, args, kwargs), hear, None, 0)
+        self._queue(job)
+        return future
 
     def stream(self, tasks: Sequence[tuple[Work, tuple[Any, ...]]], deliver: Tell, stop: Stop | None = None) -> bool:
         """Run tasks and deliver their items in this thread as they come; True when stopped before the end.
 
         `stop` is called several times a second. Raises WorkerLost, and what a task raises.
         """
-        items: SimpleQueue[Any] = SimpleQueue()
-        stopping = threading.Event()
-        calls = [_Call(_yielded, task, {}, items.put, stopping) for task in tasks]
+        events: SimpleQueue[JobEvent] = SimpleQueue()
+        jobs = [self.begin(_Yielded(*task), events.put) for task in tasks]
+        under_way, stopping = len(jobs), False
         try:
-            waiting = [self._enter(call) for call in calls]
-            while waiting:
-                ended = [future for future in waiting if future.done()]  # Before the items: none comes after the end.
+            while under_way:
                 with suppress(Empty):
-                    deliver(items.get(timeout=0.0 if ended else _LOOK))
-                    while True:
-                        deliver(items.get_nowait())
-                for future in ended:
-                    if not future.cancelled():
-                        future.result()
-                waiting = [future for future in waiting if future not in ended]
-                if waiting and stop is not None and not stopping.is_set() and stop():
-                    stopping.set()
-                    waiting = [future for future in waiting if not future.cancel()]
-            return stopping.is_set()
+                    match events.get(timeout=_LOOK):
+                        case JobProgress(item):
+                            deliver(item)
+                        case JobFailed(message, error):
+                            raise error or RuntimeError(message)
+                        case JobEnded():
+                            under_way -= 1
+                        case _:
+                            pass
+                if under_way and stop is not None and not stopping and stop():
+                    stopping = True
+                    for job in jobs:
+                        self.stop(job)
+            return stopping
         finally:
-            stopping.set()
-            for call in calls:
-                call.future.cancel()
+            for job in jobs:
+                self.stop(job)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End the processes after the calls made so far; with `cancel_futures` at once, also in the midst of a call."""
+        """End the processes after the jobs queued so far; with `cancel_futures` at once, also in the midst of a job."""
         with self._change:
+            self._closed = True
             self._killed |= cancel_futures
-            if not self._closed:
-                self._closed = True
-                for _ in self._threads:
-                    self._calls.put(None)
+            cancelled = self._waiting if self._killed else []
+            self._waiting = [] if self._killed else self._waiting
+            self._change.notify_all()
+        for job in cancelled:
+            job.tell(JobEnded(None, stopped=True))
+        for worker in self._workers:
             if self._killed:
-                for worker in self._workers.values():
-                    worker.kill()
-        if wait:
-            for thread in self._threads:
-                thread.join()
+                worker.kill()
+        for worker in self._workers if wait else ():
+            worker.join()
 
     def __exit__(self, error: type[BaseException] | None, *_: object) -> None:
         self.shutdown(cancel_futures=error is not None)
 
-    def _enter(self, call: _Call) -> Future[Any]:
+    def next(self, worker: "_Worker") -> Job | None:
+        """The next job of an idle thread; None when none came in time, or ever will."""
+        with self._change:
+            self._change.wait_for(lambda: self._waiting or self._closed, _IDLE if self.prepare is not None else None)
+            job = self._waiting.pop(0) if self._waiting else None
+            worker.idle = job is None
+        if job is not None:
+            self._tell_positions()
+        return job
+
+    def ends(self) -> bool:
+        """Whether there will be no further job."""
+        with self._change:
+            return self._closed and not self._waiting
+
+    def keep(self, worker: "_Worker", process: WorkerProcess) -> None:
+        """A new process; killed where the pool was ended while it started."""
+        with self._change:
+            worker.process = process
+            if self._killed:
+                process.kill()
+
+    def done(self) -> None:
+        """A process is free again. Where one had work another may soon, so a further one is prepared."""
+        with self._change:
+            if self.prepare is not None:
+                self._add_worker()
+
+    @property
+    def _idle(self) -> int:
+        return sum(worker.idle for worker in self._workers)
+
+    def _queue(self, job: Job) -> None:
         with self._change:
             if self._closed:
                 raise RuntimeError("these processes have been shut down")
-            self._calls.put(call)
-        return call.future
+            insort(self._waiting, job, key=lambda one: (one.urgency, one.number))
+            if self._idle < len(self._waiting):
+                self._add_worker()
+            self._change.notify_all()
+        self._tell_positions()
 
-    def _feed(self, name: str) -> None:
-        """What the thread of each process does."""
-        while (call := self._calls.get()) is not None:
-            if self._killed:
-                call.future.cancel()
-            if not call.future.set_running_or_notify_cancel():
+    def _add_worker(self) -> None:
+        if len(self._workers) < self._count and not self._closed:
+            worker = _Worker(self, f"worker-{len(self._workers)}")
+            self._workers.append(worker)
+            worker.start()
+
+    def _tell_positions(self) -> None:
+        with self._change:
+            behind = self._waiting[self._idle :]
+        for ahead, job in enumerate(behind):
+            if job.limit is not None:
+                job.tell(JobQueued(ahead))
+
+
+class _Worker(threading.Thread):
+    """A thread and the process that it feeds: killed when it does not stop, replaced when lost."""
+
+    def __init__(self, pool: Processes, name: str) -> None:
+        super().__init__(name=name, daemon=True)
+        self.idle = True
+        self.process: WorkerProcess | None = None
+        self._pool = pool
+
+    @property
+    def pid(self) -> int | None:
+        process = self.process
+        return process.pid if process is not None else None
+
+    def run(self) -> None:
+        while not self._pool.ends():
+            if self._pool.prepare is not None:
+                with suppress(OSError, EOFError):
+                    self._ready()  # Before it is needed, and again after it was lost.
+            job = self._pool.next(self)
+            if job is None:
                 continue
             try:
-                reply = self._run(call, self._worker(name))
-            except (EOFError, OSError):
-                self._drop(name)
-                reply = Reply("error", WorkerLost())
-            except Exception as error:  # Arguments, for example, that cannot be pickled.
-                reply = Reply("error", error)
-            if reply.kind == "result":
-                call.future.set_result(reply.value)
-            else:
-                call.future.set_exception(reply.value)
-        self._drop(name)
+                self._do(job)
+            except (OSError, EOFError):
+                self._drop()
+                sentence = "The worker process ended unexpectedly; a new one is on its way. Press again."
+                job.tell(JobFailed(sentence, WorkerLost()))
+            except Exception as error:  # A task that cannot be pickled, for example: the thread must go on.
+                job.tell(JobFailed(f"The work could not be done: {error}", error))
+            self.idle = True
+            self._pool.done()
+        self._drop()
 
-    def _run(self, call: _Call, worker: WorkerProcess) -> Reply:
-        if call.tell is None:
-            worker.call(call.function, *call.arguments, **call.keywords)
-        else:
-            worker.stream(call.function, *call.arguments)
+    def kill(self) -> None:
+        process = self.process
+        if process is not None:
+            process.kill()
+
+    def _ready(self) -> WorkerProcess:
+        """A live process, prepared."""
+        process = self.process
+        if process is not None and process.pid is not None:
+            return process
+        self._drop()
+        process = WorkerProcess(self.name)
+        self._pool.keep(self, process)
+        if self._pool.prepare is not None:
+            process.begin(_Called(self._pool.prepare))
+            if process.receive(_START) is None:
+                self._drop()  # Its answer would be taken for that of the next job.
+                raise EOFError
+        return process
+
+    def _do(self, job: Job) -> None:
+        job.tell(JobStarted())
+        if job.stopping.is_set():
+            job.tell(JobEnded(None, stopped=True))
+            return
+        process = self._ready()
+        process.begin(job.task)
         try:
-            return self._reply_of(call, worker)
-        except Exception:  # What hears of its items failed: the process is still at this call.
-            worker.kill()
+            self._hear(job, process)
+        except Exception:  # The page could not be told: the process is still at this job.
+            self._drop()
             raise
 
-    @staticmethod
-    def _reply_of(call: _Call, worker: WorkerProcess) -> Reply:
-        asked = False
+    def _hear(self, job: Job, process: WorkerProcess) -> None:
+        """Pass on what a process says of a job, until it ends."""
+        begun, asked, late = time.monotonic(), None, False
         while True:
-            if call.stopping.is_set() and not asked:
-                asked = True
-                worker.ask_to_stop()
-            reply = worker.receive(None if call.tell is None else _LOOK)
-            if reply is not None and reply.kind != "item":
-                return reply
-            if reply is not None and call.tell is not None:
-                call.tell(reply.value)
+            now = time.monotonic()
+            if job.limit is not None and now - begun > job.limit and asked is None:
+                late = True
+                job.stopping.set()
+            if job.stopping.is_set() and asked is None:
+                asked = now
+                process.ask_to_stop()
+            if job.limit is not None and asked is not None and now - asked > _PATIENCE:
+                job.tell(JobEnded(None, stopped=True, late=late))
+                if now - asked > _GRACE:
+                    self._drop()
+                    return
+            reply = process.receive(_LOOK if job.limit is None else _HEAR)
+            if reply is None:
+                continue
+            match reply.kind:
+                case "item":
+                    job.tell(JobProgress(reply.value))
+                case "result":
+                    job.tell(JobEnded(reply.value, stopped=asked is not None, late=late))
+                    return
+                case "error":
+                    sentence = f"The work failed ({str(reply.value) or type(reply.value).__name__})."
+                    job.tell(JobFailed(sentence, reply.value))
+                    return
 
-    def _worker(self, name: str) -> WorkerProcess:
-        if name in self._workers and self._workers[name].pid is None:  # Lost while idle.
-            self._drop(name)
-        if name not in self._workers:
-            worker = WorkerProcess(name)
-            with self._change:
-                self._workers[name] = worker
-                if self._killed:
-                    worker.kill()
-        return self._workers[name]
-
-    def _drop(self, name: str) -> None:
-        with self._change:
-            worker = self._workers.pop(name, None)
-        if worker is not None:
-            worker.close()
-
-
-def _yielded(work: Work, arguments: tuple[Any, ...], tell: Tell, stop: Stop) -> None:
-    for item in work(*arguments, stop):
-        tell(item)
+    def _drop(self) -> None:
+        process, self.process = self.process, None
+        if process is not None:
+            process.close()
 
 
 def run_tasks(

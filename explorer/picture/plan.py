@@ -104,9 +104,9 @@ def crossings(x: Array, y: Array, above: Array) -> Array:
     return np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
 
 
-def joined(segments: Array, tolerance: float = 1e-6) -> list[Array]:
+def joined(segments: Array) -> list[Array]:
     """Segments (n, 2, 2) joined to lines where they share an end."""
-    keys = [tuple(map(tuple, np.rint(segment / tolerance).astype(int))) for segment in segments]
+    keys = [tuple(map(tuple, np.rint(segment / 1e-6).astype(int))) for segment in segments]
     at: dict[tuple[int, ...], list[int]] = {}
     for k, ends in enumerate(keys):
         for end in ends:

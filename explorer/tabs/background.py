@@ -15,7 +15,8 @@ from typing import Any
 import viser
 
 from explorer.text.glossary import hint
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, Pool, Task
+from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
+from rotor.worker_process import Task
 
 FRAME = 0.1
 """Between two progress reports that wake the page [s]; the end always does."""
@@ -25,10 +26,10 @@ class BackgroundWork:
     """Begins, stops and hears of one task; a part of the page says which, and shows it in its own `refresh`."""
 
     def __init__(
-        self, pool: Pool, wake: Callable[[], None], limit: float, urgency: int = 0, *, restarts: bool = False
+        self, pool: Processes, wake: Callable[[], None], limit: float, urgency: int = 0, *, restarts: bool = False
     ) -> None:
-        """`wake`: the page follows. `limit`: of its time [s]. `urgency` as in `Pool.submit`. `restarts`: a second begin
-        ends the first."""
+        """`wake`: the page follows. `limit`: of its time [s]. `urgency`: as in `Processes.begin`. `restarts`: a second
+        begin ends the first."""
         self._pool, self._wake = pool, wake
         self._limit, self._urgency, self._restarts = limit, urgency, restarts
         self._beginning = threading.Lock()
@@ -62,7 +63,7 @@ class BackgroundWork:
 
     def _submit(self, task: Task, hear: Callable[[JobEvent], None]) -> None:
         self.running = True
-        self._job = self._pool.submit(
+        self._job = self._pool.begin(
             task, lambda news: self._heard(hear, news), limit=self._limit, urgency=self._urgency
         )
 
@@ -142,7 +143,7 @@ _known: OrderedDict[Call, Any] = OrderedDict()
 class PoolAnswers(BackgroundWork):
     """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
 
-    def __init__(self, pool: Pool, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
+    def __init__(self, pool: Processes, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
         """`answered` is called after every answer, on a thread of the pool; `limit`: for each task [s]."""
         super().__init__(pool, answered, limit, urgency)
         self._tasks: tuple[Call, ...] = ()

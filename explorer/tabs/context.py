@@ -17,7 +17,7 @@ from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
-from explorer.workers.pool import Pool
+from rotor.processes import Processes
 from rotor.user_input import brief
 
 _log = logging.getLogger(__name__)
@@ -30,7 +30,7 @@ BEAT = 0.05
 class SharedServices:
     """What the pages of one server share."""
 
-    pool: Pool
+    pool: Processes
     presentations: Presentations
 
 
@@ -54,7 +54,7 @@ class TabContext:
     controls: DesignControls
     display: Display
 
-    def __init__(self, client: viser.ClientHandle, pool: Pool, callbacks: SessionCallbacks) -> None:
+    def __init__(self, client: viser.ClientHandle, pool: Processes, callbacks: SessionCallbacks) -> None:
         self.client, self.gui, self.pool = client, client.gui, pool
         self.bridge = Bridge(client)
         self.keyboard = Keyboard(client)

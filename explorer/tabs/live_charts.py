@@ -26,8 +26,11 @@ from rotor import Design, Solution
 from rotor.chart import Chart, as_json
 from rotor.markup import Markup, tag
 
+_HEIGHT = 94.0
+"""Height of the axes [px]."""
 
-def chart_box(chart: Chart, height: float = 94.0) -> Markup:
+
+def chart_box(chart: Chart, height: float = _HEIGHT) -> Markup:
     """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
     told = json.dumps(as_json(chart), ensure_ascii=False, separators=(",", ":"))
     return tag("div.rx-chart", data_chart=told, data_high=height)

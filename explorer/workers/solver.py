@@ -3,6 +3,7 @@
 Tasks are values that can be pickled. Nothing here imports viser.
 """
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -22,12 +23,22 @@ from rotor.optimisation import (
 )
 from rotor.trim import power_gradient
 
+_NICE = 5
+"""Lower priority than the server, so that frames come before searches where processors are short."""
+
 
 def warm() -> None:
     """Compile and load everything that a solution and its gradient would wait for, the default's first."""
     for preset in PRESETS:
         for advance_ratio in (0.2, 0.0):
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
+
+
+def prepare_worker() -> None:
+    """In a new process: a lower priority, and what every solution would wait for."""
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
+    warm()
 
 
 @dataclass

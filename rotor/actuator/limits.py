@@ -91,6 +91,10 @@ HALF_THICKNESS = 0.0475
 """Half the thickness of the SC1095, in chords: how far a skin is from the middle."""
 
 
+_STATIONS = 25
+"""Along the plies."""
+
+
 @dataclass(frozen=True, eq=False)
 class FibreStrain:
     """Largest tension along the fibres where the plies are [-], (stations,)."""
@@ -106,14 +110,14 @@ class FibreStrain:
         return self.centrifugal + self.flap + self.twist
 
 
-def fibre_strain(installed: InstalledActuator, solution: Solution | None = None, stations: int = 25) -> FibreStrain:
+def fibre_strain(installed: InstalledActuator, solution: Solution | None = None) -> FibreStrain:
     """ε_f = ½ε_x(1 − ν) + ½γ at 45°, from F_c/EA, M_flap h/EI and the twist's own shear.
 
     At another angle ε_f = ε_x(c² − ν s²) + γ s c. Without a solution the flap part is zero. The shear of a full
     voltage swing is taken from the twist rate, γ = 2A θ'/s of a closed cell, a bound for sheets that follow the skin.
     """
     rotor_structure = uh60a_structure(float(installed.beam.r[-1]))
-    r = np.linspace(*installed.placement.span, stations)
+    r = np.linspace(*installed.placement.span, _STATIONS)
     metres = r * rotor_structure.radius
     speed = installed.beam.angular_speed
     pull = rotor_structure.centrifugal_force(metres, speed) + added_pull(installed.added, metres, speed)

@@ -124,11 +124,6 @@ def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Wa
     return build_section(_panels(spec, passive_skin(spec, ply, plain), placement, active))
 
 
-def passive_section(spec: SectionSpec) -> WallSection:
-    """The section before anything is bonded to it."""
-    return build_section(_panels(spec, passive_wall(spec), None, None))
-
-
 @lru_cache(maxsize=32)
 def passive_wall(spec: SectionSpec) -> float:
     """Wall thickness [m] (spar of the flown blade, skin of a new one) that gives the wanted GJ without plies."""

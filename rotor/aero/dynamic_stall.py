@@ -114,7 +114,7 @@ def lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> None
 
 
 @_compile
-def lag_steps(row: Any, fine: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
+def lag_steps(row: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
     """Steps over a lag time, and their slopes by the sum of the Mach numbers at their ends.
 
     row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel over the sum.
@@ -240,7 +240,7 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
     rows = np.empty((8, 2, fine))
     _numbers(data.numbers[element], ms, cells, places, rows)
     h, by_mach = np.empty(fine), np.empty(fine)
-    lag_steps(rows[LAG_PRESSURE], fine, ms, unit, h, by_mach)
+    lag_steps(rows[LAG_PRESSURE], ms, unit, h, by_mach)
     xf, dxf = np.empty(fine), np.empty((fine, seeds))
     lag(xs, dx, h, by_mach, dm, xf, dxf)
     _along(element, data.tables, data.section, data.weight[element], cells, places, xf, fm)
@@ -298,7 +298,7 @@ def _separation(
     """f″ and m″ with their slopes; df is overwritten."""
     fine = len(ms)
     h, by_mach = np.empty(fine), np.empty(fine)
-    lag_steps(rows[LAG_SEPARATION], fine, ms, unit, h, by_mach)
+    lag_steps(rows[LAG_SEPARATION], ms, unit, h, by_mach)
     for k in range(fine):
         _combine(df[k], fm[1, k], dxf[k], fm[2, k], dm[k])
     lag(fm[0], df, h, by_mach, dm, f, dfs)
@@ -406,7 +406,7 @@ def _vortex(
             whole -= dwide * inside + wide * dinside + (g[low] + v * rise) * by_v
             dtau[k, j] = (whole - tau[k] * by_time * dm[k, j]) / time
     steps, by_mach = np.empty(n), np.empty(n)
-    lag_steps(rows[LAG_VORTEX], n, ms, unit, steps, by_mach)
+    lag_steps(rows[LAG_VORTEX], ms, unit, steps, by_mach)
     decay = np.exp(-steps)
     for k in range(n):
         after = (k + 1) % n

@@ -109,9 +109,7 @@ REVERSE_FLOW_DEG = (165.0, 172.0)
 
 @lru_cache(maxsize=32)
 @read_only
-def moment_table(
-    table: SectionTable, only_mach: float | None, reverse: tuple[float, float] = REVERSE_FLOW_DEG
-) -> Array:
+def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     """C_m of a section about the quarter chord, (α cells, Mach cells, 4, 4); zero where its source has none.
 
     Near ±180° the air attaches to the trailing edge first and its force acts at the three-quarter chord, half a chord
@@ -125,7 +123,7 @@ def moment_table(
     alpha = np.deg2rad(degrees)[:, None]
     flow, moment = held(alpha, mach), held.moment(alpha, mach)
     assert moment is not None
-    start, end = reverse
+    start, end = REVERSE_FLOW_DEG
     t = np.clip((np.abs(degrees) - start) / (end - start), 0.0, 1.0)[:, None]
     share = t * t * (3.0 - 2.0 * t)
     reversed_flow = -0.5 * (flow.cl * np.cos(alpha) + flow.cd * np.sin(alpha))

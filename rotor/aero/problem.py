@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -143,21 +143,9 @@ class Problem:
         )
 
 
-class Truncation(NamedTuple):
-    """Where the series of an elastic blade end."""
-
-    torsion: int = TORSION_MODES
-    bending: tuple[int, int] = MODES
-    """In flap and in lag."""
-    harmonics: int = BENDING_HARMONICS
-    """Harmonics of a blade that bends."""
-    reference: float = REFERENCE_COLLECTIVE
-    """Pitch at 0.75 R of the modes of bending [rad]."""
-
-
-def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
+def build_problem(design: Design) -> Problem:
     """The design on its grid."""
-    rotor, condition, models, cut = design.rotor, design.condition, design.models, cut or Truncation()
+    rotor, condition, models = design.rotor, design.condition, design.models
     drag, down = design.drag_parts
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
@@ -180,8 +168,8 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
     if models.bending and models.flapping and not design.hovering and can_bend(rotor):
-        bending = build_bending(rotor, disk, condition.density, cut.bending, cut.harmonics, cut.reference)
-    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else cut.harmonics)
+        bending = build_bending(rotor, disk, condition.density, MODES, BENDING_HARMONICS, REFERENCE_COLLECTIVE)
+    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
             rotor,
@@ -190,7 +178,7 @@ def build_problem(design: Design, cut: Truncation | None = None) -> Problem:
             None if models.compressibility else LOW_MACH,
             models.has("swept_tip"),
             highest,
-            cut.torsion,
+            TORSION_MODES,
         )
     stall = _stall_data(design, disk, inflow)
     return Problem(

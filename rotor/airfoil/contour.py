@@ -152,10 +152,10 @@ def leading_edge_index(contour: Contour) -> int:
     return int(np.argmax(np.hypot(*(contour.points - trailing_edge(contour)).T)))
 
 
-def thickness_and_camber(contour: Contour, stations: int = 501) -> tuple[float, float, float]:
+def thickness_and_camber(contour: Contour) -> tuple[float, float, float]:
     """Largest thickness, its x, and largest camber, all in chord lengths, measured across the x axis."""
     nose = leading_edge_index(contour)
-    x = np.linspace(0.0, 1.0, stations)
+    x = np.linspace(0.0, 1.0, 501)
     upper = np.interp(x, contour.points[nose::-1, 0], contour.points[nose::-1, 1])
     lower = np.interp(x, contour.points[nose:, 0], contour.points[nose:, 1])
     thickest = int(np.argmax(upper - lower))

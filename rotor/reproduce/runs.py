@@ -113,9 +113,9 @@ def solved(name: str, twist: str, mu: float, mass: float | None = None) -> Solut
     return solve(variant(name, twist=twist, mu=mu, mass=mass))
 
 
-def main_rotor_kw(name: str, rate: float, mu: float, mass: float | None = None) -> float:
+def main_rotor_kw(name: str, rate: float, mu: float) -> float:
     """Main-rotor power of a linear twist [kW]; RuntimeError with the sentence where it does not trim."""
-    return solved(name, f"linear:{rate:g}", mu, mass).require().power.main_rotor / 1e3
+    return solved(name, f"linear:{rate:g}", mu).require().power.main_rotor / 1e3
 
 
 BASELINE = "linear:-16"

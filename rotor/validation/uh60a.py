@@ -146,7 +146,8 @@ def section() -> TrustSet:
     return words.page(f"C_d {rows[-1].shown}, others met", rows, charts)
 
 
-def _over_angle(name: str, label: str, mach: float = 0.4) -> Chart:
+def _over_angle(name: str, label: str) -> Chart:
+    mach = 0.4
     table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
     alpha = np.arange(-5.0, 9.1, 0.25)
     ours = getattr(table(np.radians(alpha), mach), name)

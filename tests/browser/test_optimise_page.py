@@ -209,7 +209,7 @@ def test_the_best_linear_twist_has_its_ranges_in_flight_and_in_hover(page: tuple
 
 @pytest.mark.slow
 def test_stop_keeps_the_best(page: tuple[Watched, Session]):
-    """That it answers at once is proved where jobs are: `tests/explorer/workers/test_pool.py`."""
+    """That it answers at once is proved where jobs are: `tests/rotor/test_processes.py`."""
     watched, session = page
     watched.choose("Concept", SLOW)
     optimise(watched, session)

@@ -33,12 +33,12 @@ from explorer.tabs.actuator.actuator_inputs import (
 from explorer.tabs.actuator.actuator_words import section_svg
 from explorer.tabs.actuator.lifted_picture import TIMES, drive_colour, flown_twist, glow, lifted_picture
 from explorer.tabs.background import Call, PoolAnswers
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
 from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
 from tests.curves import curves
 from tests.explorer.test_pictures import on_canvas
@@ -287,7 +287,7 @@ class FakePool:
         self.jobs: list[tuple[Call, Callable[[JobEvent], None]]] = []
         self.stopped: list[object] = []
 
-    def submit(self, task: Call, on_event: Callable[[JobEvent], None], **_: object) -> Call:
+    def begin(self, task: Call, on_event: Callable[[JobEvent], None], **_: object) -> Call:
         self.jobs.append((task, on_event))
         on_event(JobStarted())
         return task

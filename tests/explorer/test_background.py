@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from explorer.tabs.background import BackgroundWork
-from explorer.workers.pool import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobStarted
+from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobStarted
 
 
 class FakePool:
@@ -16,7 +16,7 @@ class FakePool:
         self.jobs: list[Job] = []
         self.stopped: list[tuple[int, bool]] = []
 
-    def submit(self, task: Any, on_event: Callable[[JobEvent], None], limit: float, urgency: int) -> Job:
+    def begin(self, task: Any, on_event: Callable[[JobEvent], None], limit: float, urgency: int) -> Job:
         self.jobs.append(Job(len(self.jobs), task, on_event, limit, urgency))
         return self.jobs[-1]
 

@@ -16,13 +16,13 @@ from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words, place_on, refined
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_words import concept_picture
-from explorer.workers.pool import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.results import SearchStatus as Status
+from rotor.processes import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)

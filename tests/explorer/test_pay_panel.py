@@ -15,7 +15,6 @@ from explorer.model.units import SI
 from explorer.sharing.share import Address
 from explorer.tabs.actuator.pay_panel import PayAnswer, PayPanel, PayTask, drive_chart, mass_chart, pay_panel, place_of
 from explorer.tabs.background import PoolAnswers
-from explorer.workers.pool import Job, JobEnded, JobProgress
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.estimate import Estimate
 from rotor.actuator.installation import InstalledActuator, install
@@ -26,6 +25,7 @@ from rotor.actuator.verdict import judge
 from rotor.chart import Points
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from rotor.processes import Job, JobEnded, JobProgress
 from tests.curves import curves
 
 DESIGN = make_design(inflow="drees")

@@ -1,4 +1,4 @@
-"""Processes of this machine: results and errors of calls, lost processes, stops, and none that outlives its parent."""
+"""Processes of this machine: calls and jobs, their order and their stop, what goes wrong, none outlives its parent."""
 
 import os
 import signal
@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,19 @@ import psutil
 import pytest
 
 from rotor.blas_threads import _libraries
-from rotor.processes import Processes, WorkerLost, WorkerProcess, run_tasks
+from rotor.processes import (
+    Job,
+    JobEnded,
+    JobEvent,
+    JobFailed,
+    JobProgress,
+    JobQueued,
+    JobStarted,
+    Processes,
+    WorkerLost,
+    run_tasks,
+)
+from rotor.worker_process import WorkerProcess
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 120.0
@@ -53,6 +66,71 @@ def count(first: int, last: int, pause: float, stop: Callable[[], bool] | None) 
         yield k
 
 
+def pids_of(pool: Processes) -> tuple[int, ...]:
+    """Ids of the processes that run."""
+    return tuple(pid for worker in pool._workers if (pid := worker.pid) is not None)
+
+
+@dataclass(frozen=True)
+class Count:
+    """Tells 1, 2, … with pauses, and returns how far it came."""
+
+    to: int
+    pause: float = 0.0
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> int:
+        for k in range(self.to):
+            if stop():
+                return k
+            time.sleep(self.pause)
+            tell(k + 1)
+        return self.to
+
+
+@dataclass(frozen=True)
+class Deaf:
+    """Never asks whether to stop."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        tell("here")
+        time.sleep(3600.0)
+
+
+@dataclass(frozen=True)
+class Failing:
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        raise ValueError("a value that nobody wants")
+
+
+@dataclass(frozen=True)
+class Killed:
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+class Heard(list[JobEvent]):
+    """News of one job."""
+
+    def until(self, kind: type, seconds: float = PATIENCE) -> Any:
+        """The first event of that kind."""
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            for event in list(self):
+                if isinstance(event, kind):
+                    return event
+            time.sleep(0.002)
+        raise AssertionError(f"no {kind.__name__} in {seconds:g} s: {list(self)}")
+
+    @property
+    def items(self) -> list[Any]:
+        return [event.item for event in self if isinstance(event, JobProgress)]
+
+
+def begin(pool: Processes, task: Any, limit: float = PATIENCE, urgency: int = 0) -> tuple[Job, Heard]:
+    heard = Heard()
+    return pool.begin(task, heard.append, limit, urgency), heard
+
+
 def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread():
     with Processes(2) as pool:
         assert list(pool.map(pow, range(20), [2] * 20)) == [k**2 for k in range(20)]
@@ -70,17 +148,22 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         pool.submit(pow, 2, 3)
 
 
-def echo(value: Any, pause: float = 0.0) -> Any:
-    time.sleep(pause)
-    return value
+@dataclass(frozen=True)
+class Echo:
+    value: Any
+    pause: float = 0.0
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Any:
+        time.sleep(self.pause)
+        return self.value
 
 
-def test_no_call_takes_the_answer_of_one_that_was_given_up():
+def test_no_task_takes_the_answer_of_one_that_was_given_up():
     """A warm-up of more than a minute was given up; from then on each job had the answer of the one before."""
     process = WorkerProcess("late")
     try:
-        process.call(echo, "first", 0.5)
-        process.call(echo, "second")
+        process.begin(Echo("first", 0.5))
+        process.begin(Echo("second"))
         begin, reply = time.monotonic(), None
         while reply is None and time.monotonic() < begin + PATIENCE:
             reply = process.receive(0.1)
@@ -107,17 +190,44 @@ def test_a_lost_process_costs_its_own_call_and_is_replaced():
         with pytest.raises(WorkerLost, match="use fewer processes"):
             lost.result(PATIENCE)
         assert next_call.result(PATIENCE) == 8
+        _, heard = begin(pool, Killed())
+        assert "ended unexpectedly" in heard.until(JobFailed).message
+        assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
 
 
 def test_a_shutdown_ends_calls_at_once_where_asked():
     pool = Processes(1)
     process, _ = pool.submit(settings).result(PATIENCE)
-    begin = time.monotonic()
+    begun = time.monotonic()
     calls = [pool.submit(time.sleep, 3600.0) for _ in range(2)]
     pool.shutdown(cancel_futures=True)
-    assert time.monotonic() - begin < PATIENCE
+    assert time.monotonic() - begun < PATIENCE
     assert not lives(process)
     assert all(call.done() for call in calls)
+    _, after = begin(pool, Count(1))
+    assert "shut down" in after.until(JobFailed).message
+
+
+def test_a_shutdown_ends_what_is_under_way_and_leaves_no_process():
+    pool = Processes(1)
+    _, running = begin(pool, Count(10_000, 0.01))
+    running.until(JobProgress)
+    _, waiting = begin(pool, Count(1))
+    pids = pids_of(pool)
+    pool.shutdown(wait=False, cancel_futures=True)
+    assert pids
+    assert pids_of(pool) == ()
+    assert waiting.until(JobEnded) == JobEnded(None, stopped=True)
+    assert running.until(JobFailed)
+
+
+def test_a_call_that_was_cancelled_in_the_queue_is_not_made(tmp_path: Path):
+    with Processes(1) as pool:
+        pool.submit(time.sleep, 0.3)
+        cancelled = pool.submit(Path.touch, tmp_path / "made")
+        assert cancelled.cancel()
+        assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("processes", [0, 2])
@@ -141,6 +251,146 @@ def test_items_come_in_order_until_a_stop(processes: int):
 def _dying(stop: Callable[[], bool]) -> Iterator[int]:
     yield 1
     die()
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Processes]:
+    pool = Processes(1, settings)
+    pool.warm()
+    yield pool
+    pool.shutdown(cancel_futures=True)
+
+
+def test_reports_in_order_and_returns(pool: Processes):
+    _, heard = begin(pool, Count(5))
+    assert heard.until(JobEnded) == JobEnded(5)
+    assert heard.items == [1, 2, 3, 4, 5]
+
+
+def stopped(pool: Processes, task: Any) -> tuple[float, JobEnded, Heard]:
+    """How long a running task takes to stop [s], how it ended, and what was heard of it."""
+    job, heard = begin(pool, task)
+    heard.until(JobProgress)
+    pressed = time.monotonic()
+    pool.stop(job)
+    ended = heard.until(JobEnded)
+    return time.monotonic() - pressed, ended, heard
+
+
+TRIES = 10
+"""A busy machine may keep the process from answering in time, but not every time."""
+
+
+def test_a_stop_answers_at_once_and_keeps_what_there_is(pool: Processes):
+    answers: list[tuple[float, Any]] = []
+    for _ in range(TRIES):
+        took, ended, heard = stopped(pool, Count(10_000, 0.01))
+        assert ended.stopped
+        assert ended.result in (None, len(heard.items))
+        answers.append((took, ended.result))
+        if took < 0.3 and ended.result is not None:
+            return
+    pytest.fail(f"seconds and results of all answers: {answers}")
+
+
+def test_positions_in_the_queue_are_honest(pool: Processes):
+    first, running = begin(pool, Count(10_000, 0.01))
+    running.until(JobProgress)
+    second, next_in_line = begin(pool, Count(1))
+    third, last = begin(pool, Count(1))
+    _, urgent = begin(pool, Count(1), urgency=-1)
+    assert next_in_line.until(JobQueued) == JobQueued(0)
+    assert last.until(JobQueued) == JobQueued(1)
+    assert urgent.until(JobQueued) == JobQueued(0)
+    assert next_in_line[-1] == JobQueued(1)
+    pool.stop(second)
+    assert next_in_line.until(JobEnded).stopped
+    assert last[-1] == JobQueued(1)
+    pool.stop(first)
+    last.until(JobEnded)
+    assert [type(event) for event in urgent][-3:] == [JobStarted, JobProgress, JobEnded]
+    assert third.over
+
+
+def test_time_is_limited(pool: Processes):
+    for _ in range(TRIES):
+        _, heard = begin(pool, Count(10_000, 0.01), limit=0.1)
+        ended = heard.until(JobEnded)
+        assert ended.late
+        assert ended.result in (None, len(heard.items))
+        if ended.result is not None:
+            return
+    pytest.fail(f"none of {TRIES} tasks brought a result")
+
+
+def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Processes):
+    before = pids_of(pool)
+    _, heard = begin(pool, Failing())
+    assert "a value that nobody wants" in heard.until(JobFailed).message
+    assert pids_of(pool) == before
+
+
+@pytest.mark.slow
+def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Processes):
+    begin(pool, Count(1))[1].until(JobEnded)
+    (before,) = pids_of(pool)
+    os.kill(before, signal.SIGKILL)
+    deadline = time.monotonic() + PATIENCE
+    while pids_of(pool) in ((), (before,)) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert pids_of(pool) not in ((), (before,))
+    _, heard = begin(pool, Count(2))
+    assert heard.until(JobEnded) == JobEnded(2)
+    assert not any(isinstance(event, JobFailed) for event in heard)
+
+
+@pytest.mark.slow
+def test_a_process_that_will_not_stop_is_not_waited_for(pool: Processes):
+    least = PATIENCE
+    for _ in range(3):  # Each takes a process.
+        took, ended, _ = stopped(pool, Deaf())
+        assert ended == JobEnded(None, stopped=True)
+        least = min(least, took)
+        if least < 0.35:
+            break
+    assert least < 0.35
+    _, heard = begin(pool, Count(2))
+    assert heard.until(JobEnded) == JobEnded(2)
+
+
+def test_a_job_whose_browser_left_reports_nothing(pool: Processes):
+    job, heard = begin(pool, Count(10_000, 0.01))
+    heard.until(JobProgress)
+    pool.stop(job, quiet=True)
+    known = len(heard)
+    _, other = begin(pool, Count(1))
+    other.until(JobEnded)
+    assert len(heard) == known
+
+
+def test_a_page_that_cannot_hear_spoils_no_other_job(pool: Processes):
+    """Its process was left at the first job, and the next one took the answer of that."""
+
+    def fails(event: JobEvent) -> None:
+        if isinstance(event, JobProgress):
+            raise ZeroDivisionError("its browser has just left")
+
+    pool.begin(Count(3, 0.05), fails)
+    _, heard = begin(pool, Count(5))
+    assert heard.until(JobEnded) == JobEnded(5)
+
+
+def test_a_start_that_takes_too_long_shifts_no_answers(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("rotor.processes._START", 0.05)
+    pool = Processes(1, settings)
+    try:
+        pool.warm()
+        time.sleep(0.5)
+        monkeypatch.undo()
+        _, heard = begin(pool, Count(2))
+        assert heard.until(JobEnded) == JobEnded(2)
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 _PARENT = """

@@ -77,6 +77,7 @@ DESIGNS: dict[str, Callable[[Design], Design]] = {
 }
 """Changes of an input of the design."""
 
+_MODES = problem.TORSION_MODES
 _PLAIN = elastic.moment_table
 
 
@@ -135,7 +136,6 @@ def _row(at: Sequence[float], change: Callable[[Design], Design]) -> Row:
 
 def found_with(words: str, at: Sequence[float] = AT) -> Row:
     """A row of the table: 2/rev [kN] and correlation."""
-    plain = problem.build_problem.__defaults__
     try:
         if words in MOMENTS:
             elastic.__dict__["moment_table"] = _table(MOMENTS[words])
@@ -143,11 +143,11 @@ def found_with(words: str, at: Sequence[float] = AT) -> Row:
         elif words in BLADES:
             problem.__dict__["build_torsion"] = _changed(BLADES[words])
         elif words not in DESIGNS:
-            problem.build_problem.__defaults__ = (problem.Truncation(torsion=4),)
+            problem.__dict__["TORSION_MODES"] = 4
         return _row(at, DESIGNS.get(words, _models()))
     finally:
         elastic.__dict__["moment_table"], problem.__dict__["build_torsion"] = _PLAIN, build_torsion
-        problem.build_problem.__defaults__ = plain
+        problem.__dict__["TORSION_MODES"] = _MODES
         _forget()
 
 

@@ -22,7 +22,6 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import hint
 from explorer.text.readout import fuel_words, needs, needs_words
-from explorer.workers.pool import JobEnded, JobEvent, JobProgress
 from rotor.actuator import (
     BreakEven,
     ConditionPair,
@@ -37,8 +36,9 @@ from rotor.actuator import (
 from rotor.actuator.pay import Candidate, search_sentence
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
 from rotor.markup import Markup, tag
-from rotor.processes import Stop, Tell
+from rotor.processes import JobEnded, JobEvent, JobProgress
 from rotor.trim.doubt import sureness
+from rotor.worker_process import Stop, Tell
 
 _LIMIT = 300.0
 """Longest time of a search [s], which takes ten on an idle machine."""

@@ -21,8 +21,8 @@ from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed
 from rotor.markup import tag
+from rotor.processes import JobEnded, JobEvent, JobFailed
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -217,7 +217,7 @@ class LecturePanel(Tab):
                     return
             self._file.disabled, self._file.label = False, "Lecture as one file"
 
-        context.pool.submit(task, heard, _PATIENCE, urgency=6)
+        context.pool.begin(task, heard, _PATIENCE, urgency=6)
 
     def _fly_on(self) -> None:
         """The lecture ends in Actuate, on the blade of its last step."""

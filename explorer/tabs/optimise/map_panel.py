@@ -12,12 +12,12 @@ from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.markup import tag
 from rotor.optimisation import nearest
 from rotor.optimisation.descent import BAND
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 TIME_LIMIT = 120.0
 """[s] a map may take."""

@@ -19,7 +19,6 @@ from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEvent
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist
@@ -28,6 +27,7 @@ from rotor.markup import Markup, tag
 from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
+from rotor.processes import JobEvent
 
 _STILL = 0.6
 """[s] without a change before the best linear twist is looked for."""

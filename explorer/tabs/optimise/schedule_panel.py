@@ -15,12 +15,12 @@ from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_view import PlanProgress
 from explorer.text.glossary import hint
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.markup import tag
 from rotor.optimisation import Cell, Plan, WeightedCondition
 from rotor.optimisation.search import STARTS
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from explorer.tabs.background import FRAME
-from explorer.workers.pool import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
@@ -24,6 +23,7 @@ from rotor.optimisation import (
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from rotor.user_input import shorten
 
 MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"

@@ -11,9 +11,10 @@ from rotor.actuator.section import (
     Host,
     Placement,
     SectionSpec,
+    _panels,
     active_section,
     default_placement,
-    passive_section,
+    passive_wall,
     section_spec,
 )
 from rotor.dynamics.structure import uh60a_structure
@@ -147,7 +148,8 @@ def blade(kind: str, share: float) -> SectionSpec:
 
 def test_contour_and_calibration():
     """Enclosed area and perimeter from the ordinates (0.01841 m², 1.076 m); GJ 69.76 kN·m²; a titanium wall of 2 mm."""
-    section = passive_section(blade("retrofit", 1.0))
+    spec = blade("retrofit", 1.0)
+    section = build_section(_panels(spec, passive_wall(spec), None, None))
     assert_allclose(section.areas.sum(), 0.01841, rtol=0.005)
     assert_allclose(section.areas[0], 0.00939, rtol=0.005)
     assert_allclose(torsional_stiffness(section), 69760.0, rtol=1e-5)

@@ -12,7 +12,7 @@ from patched import Patch
 import rotor
 from rotor.aero.bending import BladeBending
 from rotor.aero.bent_section import SV, SW
-from rotor.aero.problem import Problem, Truncation
+from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
@@ -27,8 +27,8 @@ from rotor.units import GRAVITY
 from tests.rotor.check_jacobian import check_along
 
 LINEAR, LINE = "pitt-peters", "lifting-line"
-CUT = "rotor.aero.problem.build_problem.__defaults__"
-"""Where the series of an elastic blade end."""
+PROBLEM = "rotor.aero.problem"
+"""It says where the series of an elastic blade end."""
 Span = tuple[float, float]
 
 
@@ -236,7 +236,7 @@ def test_the_lag_springs_moment_meets_the_forces_with_more_modes(patch: Patch) -
     """Mean in lag, by the spring against the forces: 17 % apart with 4 and 3 modes, less than half with 8 and 8."""
     gaps = list[float]()
     for modes in ((4, 3), (8, 8)):
-        patch(CUT, (Truncation(bending=modes),))
+        patch(f"{PROBLEM}.MODES", modes)
         problem, point, b = _at(_sprung(LINEAR))
         q, offset = coordinates_of(b, point.system.structure, point.z)
         angle = float(b.along[4][:, 0] @ q[:, 0]) - b.precone * float(b.along[4, b.first, 0]) - offset / float(b.r[0])
@@ -423,7 +423,7 @@ def test_time_marching() -> None:
 def test_loads_do_not_depend_on_the_pitch_of_the_modes(patch: Patch) -> None:
     """What turns the axes of bending is at every point; modes at another pitch leave what they are cut off at."""
     expected = _loads(_solved(0.3, LINE)).index
-    patch(CUT, (Truncation(reference=math.radians(4.0)),))
+    patch(f"{PROBLEM}.REFERENCE_COLLECTIVE", math.radians(4.0))
     found = _loads(rotor.solve(_design(0.3, LINE))).index
     assert found != expected
     assert_allclose(found, expected, rtol=0.03)
@@ -437,13 +437,13 @@ def test_more_modes(patch: Patch) -> None:
     more with a lifting line, and 4.8 % less with linear inflow, where it is a quarter of that.
     """
     few, before = _solved(0.3, LINE), {inflow: _loads(_solved(0.3, inflow)) for inflow in (LINE, LINEAR)}
-    patch(CUT, (Truncation(bending=(6, 3)),))
+    patch(f"{PROBLEM}.MODES", (6, 3))
     more = rotor.solve(_design(0.3, LINE)).require()
     assert_allclose(_loads(more).index, before[LINE].index, rtol=0.01)
     assert_allclose(_loads(more).amplitudes["fz"], before[LINE].amplitudes["fz"], rtol=0.03)
     assert more.power.total != few.power.total
     assert_allclose(more.power.total, few.power.total, rtol=2e-3)
-    patch(CUT, (Truncation(bending=(5, 4)),))
+    patch(f"{PROBLEM}.MODES", (5, 4))
     for inflow in (LINE, LINEAR):
         other = _loads(rotor.solve(_design(0.3, inflow)).require())
         assert_allclose(other.index, before[inflow].index, rtol=0.02)
@@ -454,7 +454,7 @@ def test_more_modes(patch: Patch) -> None:
 def test_more_harmonics(patch: Patch) -> None:
     """Up to 10/rev in place of 8/rev: every load within 1 %."""
     few = _loads(_solved(0.3, LINEAR)).amplitudes
-    patch(CUT, (Truncation(harmonics=10),))
+    patch(f"{PROBLEM}.BENDING_HARMONICS", 10)
     more = _loads(rotor.solve(_design(0.3, LINEAR)).require()).amplitudes
     assert more != few
     assert_allclose(list(more.values()), list(few.values()), rtol=0.01)
