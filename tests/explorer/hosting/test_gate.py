@@ -13,7 +13,7 @@ from explorer import web
 from explorer.app import App
 from explorer.hosting.gate import LONGEST_TEXT, PRESSES, checked_press, message_fault
 from explorer.session import Session
-from tests.tools.soak.visitor import _CAMERA, BRIDGE, Visitor, ran
+from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
 
 SCRIPTS = (
     "frame",
