@@ -170,14 +170,6 @@ class TestFlight:
         assert len(hovers) > 10
         assert len({round(one.hours, 12) for one in hovers}) == 1
 
-    def test_three_large_numbers(self, progress: PlanProgress):
-        flight = ScheduleFlight(progress)
-        (_, speed), (_, twist), (_, saved) = flight.at(0.0).numbers()
-        assert speed == "hover"
-        assert twist.endswith("°")
-        assert saved == "0.0 kW\u202fh"
-        assert flight.at(flight.seconds).numbers()[0][1] == "µ 0.30"
-
     def test_what_is_not_known_yet_is_left_out(self, progress: PlanProgress):
         partial = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition in (0, 1)])
         flight = ScheduleFlight(partial)
