@@ -213,21 +213,6 @@ class TestCamera:
         assert 0.6 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
         assert right[1] > 0.8  # The advancing side is at the right.
 
-    @pytest.mark.parametrize("cover", [Cover(0.1, 0.2), Cover(0.1, 0.4), Cover(0.2, 0.3), Cover(0.0, 0.27)])
-    def test_cards_leave_the_same_picture_between_them(self, cover: Cover):
-        """In the free part of the canvas everything is where it was, as much smaller as that part is.
-
-        From further away the near side is less blown up, so the whole is a little smaller and lower still.
-        """
-        _, usual, _ = on_canvas(fit("3d", 8.18, 1.9), 1.9, self.RIM)
-        _, fitted, _ = on_canvas(fit("3d", 8.18, 1.9, cover=cover), 1.9, self.RIM)
-        share = cover.free / USUAL_COVER.free
-        share = share if share < 1.0 else math.sqrt(share)  # Nearer by half the way: the near side is blown up.
-        # Up is 1 and down is −1, so the middle of the free part is seen at twice its lift.
-        assert np.ptp(fitted) == pytest.approx(share * np.ptp(usual), rel=0.12)
-        middle = usual.mean() - 2.0 * USUAL_COVER.lift
-        assert fitted.mean() - 2.0 * cover.lift == pytest.approx(share * middle, abs=0.08)
-
     @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("view", ["top", "side", "blade"])
     def test_a_framed_view_lies_between_the_cards(self, view: View, aspect: float):
