@@ -3,8 +3,7 @@
 A fault turns a comparison or a condition round, swaps + and −, × and ÷, min and max, `and` and `or`, changes a number,
 a truth or what is returned. A copy of the checkout is changed, never the checkout. Each test file runs once on code
 that notes which blocks it enters; then each fault meets the quick tests that enter its block, quickest first, up to
-the first that fails or `ENOUGH` seconds. `--only` names faults of one kind or file, `--again` a list that an earlier
-run wrote: faults whose test is still there and the same count as found. Linux and macOS, for it forks.
+the first that fails or `ENOUGH` seconds. `--only` names faults of one kind or file. On Linux and macOS, for it forks.
 """
 
 import argparse
@@ -119,12 +118,6 @@ class _Blocks(ast.NodeVisitor):
         self.bodies, self.mutants = list[tuple[list[ast.stmt], int]](), list[Mutant]()
         self.anchor: ast.expr | None = None
 
-    def _place(self, node: Any) -> tuple[int, int]:
-        return (
-            self.starts[node.lineno - 1] + node.col_offset,
-            self.starts[node.end_lineno - 1] + node.end_col_offset,
-        )
-
     def _keep(self, kind: str, node: Any, changed: Any) -> None:
         """The text of a changed node; inside an f-string the whole string, whose parts have no places of their own."""
         if isinstance(node, ast.If):
@@ -139,7 +132,8 @@ class _Blocks(ast.NodeVisitor):
         self._add(kind, node, text if isinstance(node, ast.stmt) else f"({text})")
 
     def _add(self, kind: str, node: Any, text: str) -> None:
-        start, end = self._place(node)
+        start = self.starts[node.lineno - 1] + node.col_offset
+        end = self.starts[node.end_lineno - 1] + node.end_col_offset
         self.mutants.append(Mutant(self.file, node.lineno, kind, self.block, start, end, text))
 
     def visit(self, node: ast.AST) -> None:
@@ -154,17 +148,12 @@ class _Blocks(ast.NodeVisitor):
         for name, value in ast.iter_fields(node):
             if name in ("annotation", "returns", "decorator_list", "format_spec", "type_params"):
                 continue
-            if (
-                isinstance(value, list)
-                and value
-                and isinstance(value[0], ast.stmt)
-                and not isinstance(node, ast.ClassDef)
-            ):
+            parts = [one for one in (value if isinstance(value, list) else [value]) if isinstance(one, ast.AST)]
+            if parts and isinstance(parts[0], ast.stmt) and not isinstance(node, ast.ClassDef):
                 self._body(node, value)
             else:
-                for child in value if isinstance(value, list) else [value]:
-                    if isinstance(child, ast.AST):
-                        self.visit(child)
+                for part in parts:
+                    self.visit(part)
         self.anchor = outer
 
     def _body(self, node: ast.AST, body: list[ast.stmt]) -> None:
