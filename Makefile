@@ -49,6 +49,7 @@ nightly: setup-dev browser $(WARM) ## run every test at its longest: many random
 	NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=Nehalem $(BIN)/python -m pytest $(ARGS)
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 	$(BIN)/python -m tests.tools.mutation
+	$(BIN)/python -m tests.tools.mutants
 	$(BIN)/python -m tests.tools.lowest
 
 check-all: lint docs test slow ## everything CI checks
@@ -80,7 +81,7 @@ trust: setup-dev      ## make the trust page, docs/validation, anew: four minute
 	cp dist/thesis/trust.csv assets/
 	$(BIN)/python -m tests.tools.readme
 
-release: setup-dev    ## the checklist of a release: build twice, licences, the wheel alone on every Python here, changelog
+release: setup-dev    ## the checklist of a release: build twice, twine, the wheel alone on every Python here, changelog
 	$(BIN)/python -m tests.tools.release --out dist
 
 lowest: setup-dev     ## try the lowest versions that pyproject.toml states: a trim and the page

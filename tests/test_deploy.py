@@ -2,15 +2,9 @@
 
 import configparser
 import json
-import os
 import re
 import shlex
-import shutil
-import subprocess
-import sys
 from pathlib import Path
-
-import pytest
 
 from explorer.__main__ import _parser
 
@@ -57,44 +51,3 @@ def test_the_container_starts_the_explorer_without_rights():
     assert re.search(r"^USER 65534", text, re.MULTILINE)
     for name in re.findall(r"-r (\S+)", text):
         assert (ROOT / name).is_file()
-
-
-@pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="needs systemd-analyze")
-def test_systemd_accepts_the_service_and_finds_it_little_exposed(tmp_path: Path):
-    unit = tmp_path / SERVICE.name
-    unit.write_text(SERVICE.read_text(encoding="utf-8").replace("/opt/rotor-explorer/bin/python", sys.executable))
-    verified = subprocess.run(["systemd-analyze", "verify", unit], capture_output=True, text=True, timeout=60)
-    assert (verified.returncode, verified.stderr) == (0, "")
-    rated = subprocess.run(
-        ["systemd-analyze", "security", "--offline=yes", unit], capture_output=True, text=True, timeout=60
-    )
-    found = re.search(r"exposure level for \S+: ([\d.]+)", rated.stdout)
-    assert found is not None
-    assert float(found[1]) < 2.0
-
-
-_ISOLATED = """
-mount -o remount,ro,bind / && {python} -c "
-import fcntl, socket, struct
-fcntl.ioctl(socket.socket(), 0x8914, struct.pack('16sh', b'lo', 0x41))  # SIOCSIFFLAGS: loopback up and running
-" && exec setpriv --no-new-privs --bounding-set=-all --inh-caps=-all env -i {python} {script} 8080
-"""
-
-
-@pytest.mark.slow
-def test_runs_with_a_read_only_root_and_without_home_network_and_rights():
-    """Compiles its kernels, as no folder can keep them: some 25 s on an idle machine."""
-    apart = ["unshare", "-m", "-n", "-p", "-f", "--mount-proc"]
-    if not shutil.which("unshare") or subprocess.run([*apart, "true"], capture_output=True).returncode:
-        pytest.skip("needs the right to make namespaces")
-    script = _ISOLATED.format(python=sys.executable, script=ROOT / "tests/tools/hardened.py")
-    done = subprocess.run(
-        [*apart, "sh", "-c", script], capture_output=True, text=True, timeout=280, cwd="/", env=dict(os.environ)
-    )
-    assert done.returncode == 0, done.stderr
-    facts = json.loads(done.stdout)
-    assert facts["code"] == 0
-    assert re.fullmatch(r"(Compiling kernels, once: .*\n)?", facts["errors"])
-    assert facts["writable"] == []
-    assert facts["home"] is None
-    assert re.fullmatch(r"\d+ kW", facts["power"])

@@ -11,7 +11,6 @@ import subprocess
 import sys
 import types
 import typing
-from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib
@@ -113,28 +112,6 @@ def test_tutorials_name_sliders_and_buttons_that_exist(path: Path):
     named = re.findall(r"(?<![*\w])\*([A-ZΔ][^*\n]*)\*(?![*\w])", plain)
     assert set(named) <= names_of_the_page()
     assert len(named) >= (8 if path.stem == "drag" else 0)
-
-
-def paragraphs(page: str) -> Iterator[str]:
-    """Prose, and the items of lists each by itself; no tables, code, formulas or captions."""
-    page = re.sub(r"```.*?```|:::+.*?\n", "\n\n", page, flags=re.DOTALL)
-    for block in re.split(r"\n\s*\n", page):
-        if not block.lstrip().startswith(("|", "$$", "#")):
-            yield from re.split(r"\n(?=\s*(?:[-*]|\d+\.) )", block)
-
-
-@pytest.mark.parametrize("path", [DOCS / "theory.md", *GUIDES, *TUTORIALS], ids=lambda path: path.stem)
-def test_no_paragraph_is_longer_than_100_words(path: Path):
-    longest = max(paragraphs(text(path)), key=lambda one: len(one.split()))
-    assert len(longest.split()) <= 100, longest
-
-
-def test_each_section_of_the_theory_has_a_figure():
-    sections = re.split(r"^## ", text(DOCS / "theory.md"), flags=re.MULTILINE)[1:]
-    drawn = text(DOCS / "theory_figures.py")
-    named = [re.findall(r"^```\{picture\} (\w+)$", section, flags=re.MULTILINE) for section in sections]
-    assert all(named), [section.splitlines()[0] for section, found in zip(sections, named, strict=True) if not found]
-    assert all(f"\ndef {name}()" in drawn for found in named for name in found)
 
 
 def examples(path: Path) -> list[str]:

@@ -76,18 +76,6 @@ def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="folders of this system have other rights, or root has them")
-@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "save"])
-def test_a_read_only_folder_gets_a_sentence(name: str, tmp_path: Path):
-    (tmp_path / "out").mkdir(0o555)
-    done = limited(name, "folder", tmp_path)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1, done.stderr
-    assert "Permission denied" in done.stderr
-    assert not list((tmp_path / "out").iterdir())
-
-
-@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="this system has no limit on files")
 def test_a_study_that_found_no_room_goes_on_once_there_is_some(tmp_path: Path):
     (tmp_path / "out").mkdir()

@@ -32,14 +32,6 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
 
 
-def test_each_mode_has_its_own_rail(watched: Watched):
-    rail = watched.page.locator("[data-dock-region=right]")
-    for mode, mark in (("optimise", "Objective"), ("actuate", "Plies per side"), ("explore", "Adv. ratio")):
-        watched.mode(mode)
-        rail.get_by_text(mark).first.wait_for()
-    rail.get_by_text("Objective").wait_for(state="detached")
-
-
 @pytest.mark.slow
 def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watched):
     page = watched.page

@@ -1,4 +1,4 @@
-"""What stands where, at every size of window: nothing leaves its card or the window, nothing lies on another."""
+"""A long sentence and the lecture at every size of window; cards, modes and drawers are in `test_sizes.py`."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -22,21 +22,6 @@ _LEAVES = """([outer, inner]) => {
   }).map(e => e.ariaLabel || e.innerText || e.className);
 }"""
 
-# Pairs of these that meet, by more than a pixel each way.
-_MEET = """selectors => {
-  const all = selectors.flatMap(s => [...document.querySelectorAll(s)]).filter(e => e.checkVisibility());
-  const range = document.createRange();
-  const ink = e => { range.selectNodeContents(e); return range.getBoundingClientRect(); };
-  const boxes = all.map(e => [e, ink(e)]);
-  const wrong = [];
-  for (const [i, [a, p]] of boxes.entries()) for (const [b, q] of boxes.slice(i + 1)) {
-    const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
-    const high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
-    if (wide > 1 && high > 1) wrong.push(`${a.innerText} meets ${b.innerText}`);
-  }
-  return wrong;
-}"""
-
 # What stands over the scene: no two cards meet, and none leaves the window.
 _CARDS = """() => {
   const seen = [...document.querySelectorAll('.rxf-card, .rxf-notice, .rxf-bar, .rxf-strip')]
@@ -55,20 +40,6 @@ _CARDS = """() => {
   return wrong;
 }"""
 
-
-# The buttons of the bar that leave the window, and what leaves the card of the field.
-_OUTSIDE = """() => [
-  ...[...document.querySelectorAll('.rxf-bar button')].filter(e => e.getBoundingClientRect().right > innerWidth + 1),
-  ...[...document.querySelectorAll('.rxf-field button')].filter(e => e.getBoundingClientRect().right >
-    e.closest('.rxf-field').getBoundingClientRect().right + 1),
-].filter(e => e.checkVisibility()).map(e => e.ariaLabel || e.innerText)"""
-
-# Charts whose drawing is not as wide as the place they have.
-_NARROW_CHARTS = """() => [...document.querySelectorAll('.rxf-chart')].filter(e => e.clientWidth)
-  .filter(e => Math.abs(e.querySelector('svg').viewBox.baseVal.width - Math.max(e.clientWidth - 32, 60)) > 1)
-  .map(e => e.dataset.name)"""
-
-_PARTS = ['[data-explorer="total-power"]', ".rxf-sub", ".rxf-since", ".rxf-why", ".rxf-parts dl", ".rxf-chip"]
 SIZES = [(1280, 720), (390, 844), (1920, 1080), (1500, 940), (1024, 768), (768, 1024)]
 
 
@@ -99,36 +70,6 @@ def _none(page: "Page", wrong: str, arg: object = None) -> None:
         assert page.evaluate(wrong, arg) == []
 
 
-def test_everything_has_its_place(sized: Watched, size: tuple[int, int]):
-    _units_and_power_fit_their_cards(sized)
-    if size[0] > 700:  # A telephone has no room for the sentence.
-        _a_sentence_is_not_cut_and_moves_nothing(sized)
-    _no_two_cards_meet(sized)
-    _the_bar_of_a_preview_stays_on_the_stage(sized)
-
-
-def _units_and_power_fit_their_cards(watched: Watched) -> None:
-    page = watched.page
-    for field in ("Power dP/dr", "Thrust dT/dr"):  # Those with the longest units.
-        watched.show(field)
-        page.wait_for_function("field => RX.state.field.field === field", arg=field)
-        watched.drawn()
-        assert page.evaluate(_LEAVES, [".rxf-field", ".rxf-field *"]) == []
-    watched.answered(wholly=True)  # Nothing may come that puts back what is set here.
-    long = {"value": "+1 903 kW", "words": "since grabbed", "kind": "bad"}
-    page.evaluate("since => RX.set({power: {...RX.state.power, total: '2 801', since}})", long)
-    page.wait_for_function("""() => document.querySelector('.rxf-since').innerText.startsWith('+1 903')""")
-    assert page.evaluate(_MEET, _PARTS) == []
-    assert page.evaluate(_LEAVES, [".rxf-power", ".rxf-power *"]) == []
-    # The chart of a search's starts takes two places of the strip and gives them back.
-    page.evaluate("() => { window.before = RX.state.strip; RX.set({strip: [{...before[0], wide: true}, before[1]]}); }")
-    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 3")
-    _none(page, _NARROW_CHARTS)
-    page.evaluate("() => RX.set({strip: window.before})")
-    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length >= 3")
-    _none(page, _NARROW_CHARTS)
-
-
 _WHY = (
     "Nothing has changed.",
     "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW.",
@@ -142,8 +83,10 @@ _STANDS = """() => [...document.querySelectorAll('.rxf-power, .rxf-parts, .rxf-c
 })"""
 
 
-def _a_sentence_is_not_cut_and_moves_nothing(watched: Watched) -> None:
-    page = watched.page
+def test_a_sentence_is_not_cut_and_moves_nothing(sized: Watched, size: tuple[int, int]):
+    if size[0] <= 700:  # A telephone has no room for the sentence.
+        return
+    watched, page = sized, sized.page
     stands: list[object] = []
     for value, why in (("−1 kW", _WHY[0]), ("−9.2 kW", _WHY[1]), ("+128 kW", _WHY[2])):
         since = {"value": value, "words": "since grabbed", "kind": ""}
@@ -156,46 +99,6 @@ def _a_sentence_is_not_cut_and_moves_nothing(watched: Watched) -> None:
         assert why.replace("\u00a0", " ").startswith(shown.replace("\u00a0", " ").removesuffix("."))
         assert page.evaluate("() => (e => e.scrollHeight <= e.clientHeight + 1)(document.querySelector('.rxf-why'))")
     assert stands[0] == stands[1] == stands[2]
-
-
-def _no_two_cards_meet(watched: Watched) -> None:
-    page = watched.page
-    controls = page.get_by_role("button", name="Controls")
-    for mode in ("optimise", "actuate", "explore"):
-        watched.mode(mode)
-        watched.answered()
-        _none(page, _CARDS)
-        if controls.is_visible():  # Without the rail the stage is another.
-            controls.click()
-            watched.answered()
-            _none(page, _CARDS)
-            controls.click()
-    page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
-    watched.answered()
-    _none(page, _CARDS)
-    page.get_by_role("button", name="Pin A").click()
-    page.wait_for_function("() => RX.state.bar.pinned")
-    watched.answered()
-    _none(page, _CARDS)
-    _none(page, _OUTSIDE)
-    page.evaluate("() => RX.send('pin', '')")
-    page.wait_for_function("() => !RX.state.bar.pinned")
-
-
-def _the_bar_of_a_preview_stays_on_the_stage(watched: Watched) -> None:
-    """The longest: that of a schedule in flight, also beside an open rail."""
-    page = watched.page
-    text = "Speed µ 0.10 · twist, root to tip −11.0° · saved vs. starting design 6.6 kW h"
-    page.evaluate("text => RX.set({notice: {text, actions: [['discard', 'Discard'], ['apply', 'Apply']]}})", text)
-    page.wait_for_selector(".rxf-notice [data-do=apply]")
-    toggle = page.get_by_role("button", name="Controls")
-    for _ in range(2 if toggle.is_visible() else 1):
-        _none(page, _LEAVES, [".rxf-stage", ".rxf-notice, .rxf-notice *"])
-        _none(page, _CARDS)
-        if toggle.is_visible():
-            toggle.click()
-    page.evaluate("() => RX.set({notice: null})")
-    page.wait_for_selector(".rxf-notice", state="hidden")
 
 
 def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watched, size: tuple[int, int]):

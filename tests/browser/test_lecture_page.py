@@ -1,7 +1,6 @@
 """The lecture and the presenter on the real page."""
 
 import io
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -175,22 +174,6 @@ def test_a_and_b_are_wiped_at_one_place(browser: "Browser", app: App):
     handle.press("ArrowRight")
     assert float(handle.get_attribute("aria-valuenow") or 0) == 55
     watched.close()
-
-
-@pytest.mark.slow
-def test_with_another_inflow_a_step_compares_like_with_like(visit: Visit, app: App):
-    """What the step says of twist must be seen: with linear inflow it hardly saves."""
-    watched = visit()
-    page = watched.page
-    page.keyboard.press("t")
-    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
-    page.evaluate("() => RX.send('story', 3)")
-    stands_at(page, 4)
-    section(page, 4).locator(".rxs-guess button").first.click()
-    inputs = app.sessions[-1].page.context.inputs()
-    app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="pitt-peters"))
-    watched.reads("figures", r"^[+−]?0\skW")  # First the design, then A has the other inflow.
-    page.wait_for_function("() => !RX.state.power.status.title.includes('different models')")
 
 
 @pytest.mark.slow

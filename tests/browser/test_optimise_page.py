@@ -1,9 +1,6 @@
 """The optimiser in a real browser: to the end and applied, stopped, two at once, a worker killed; map and schedule."""
 
-import os
 import re
-import signal
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -77,14 +74,6 @@ def run_of(session: Session) -> Any:
     run = session.page.optimise.run
     assert run is not None
     return run
-
-
-def until_better(session: Session) -> None:
-    """Until the search under way has found something."""
-    deadline = time.monotonic() + WAIT / 1e3
-    while len(run_of(session).frames) < 4:
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 @pytest.mark.slow
@@ -205,47 +194,6 @@ def test_the_best_linear_twist_has_its_ranges_in_flight_and_in_hover(page: tuple
     watched.mode("optimise")
     ranges.filter(has_text="annuli … lifting line").wait_for(timeout=4 * WAIT)
     assert ranges.filter(has_text="drag area").count() == 0
-
-
-@pytest.mark.slow
-def test_stop_keeps_the_best(page: tuple[Watched, Session]):
-    """That it answers at once is proved where jobs are: `tests/rotor/test_processes.py`."""
-    watched, session = page
-    watched.choose("Concept", SLOW)
-    optimise(watched, session)
-    until(watched, "running")
-    until_better(session)
-    press(watched, "Stop")
-    until(watched, "stopped")
-    run = run_of(session)
-    assert run.best is not None
-    assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
-    press(watched, "Apply")
-    watched.until(lambda: session.page.controls.inputs() != START)
-    assert solve(session.page.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
-
-
-@pytest.mark.slow
-def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
-    watched, session = page
-    watched.choose("Concept", SLOW)
-    optimise(watched, session)
-    until(watched, "running")
-    until_better(session)
-    for worker in app.pool._workers:
-        if (pid := worker.pid) is not None:
-            os.kill(pid, signal.SIGKILL)
-    until(watched, "broken")
-    assert "ended unexpectedly" in watched.text("found")
-    assert run_of(session).best is not None
-    watched.mode("explore")
-    speed = watched.text("speed")
-    watched.press("Adv. ratio", "ArrowRight", 5)
-    watched.until_changed(lambda: watched.text("speed"), speed)
-    watched.mode("optimise")
-    watched.choose("Concept", "Linear")
-    optimise(watched, session)
-    until(watched, "done")
 
 
 @pytest.mark.slow

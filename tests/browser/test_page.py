@@ -24,23 +24,6 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
     assert watched.page.evaluate("() => RX.state.bar.mode") == "explore"
 
 
-@pytest.mark.slow
-def test_the_strip_has_three_charts_with_axes(watched: Watched):
-    watched.answered(wholly=True)
-    names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
-    assert names == ["power", "alpha", "lift"]
-    for chart in watched.page.locator(".rxf-chart").all():
-        assert chart.locator("svg text").count() >= 6
-        assert chart.locator("svg g path").count() >= 1
-    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R"]
-    before = watched.page.locator('[data-name="alpha"] svg').inner_html()
-    turn = watched.page.get_by_label("Azimuth of the reference blade")
-    turn.focus()
-    for _ in range(8):
-        watched.page.keyboard.press("ArrowRight")
-    watched.until_changed(lambda: watched.page.locator('[data-name="alpha"] svg').inner_html(), before)
-
-
 def test_the_name_of_a_point_at_the_foot_of_a_chart_stands_above_it(watched: Watched):
     """Where it stands in the middle it is below."""
     places = """() => {
@@ -164,17 +147,6 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     watched.answered()
     shown = float(watched.row("Adv. ratio").locator("input:not([type=hidden])").last.input_value())
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
-
-
-@pytest.mark.slow
-def test_thesis_preset_brings_its_own_inflow(watched: Watched):
-    watched.page.get_by_text("Model", exact=True).click()
-    watched.drawer("trust")
-    watched.choose("Preset", "Thesis (as stated)")
-    watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')"""
-    )
-    watched.reads("against", "linear −16°")
 
 
 def test_no_number_on_screen_is_not_a_number(watched: Watched):

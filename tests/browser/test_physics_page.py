@@ -40,20 +40,6 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
     watched.says("total-power", before)
 
 
-def test_the_waterfall_adds_up_on_the_page(watched: Watched):
-    watched.drawer("details")
-    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(12)')
-    watched.answered(wholly=True)
-
-    def shown() -> list[str]:
-        return watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
-
-    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown()]
-    assert len(column) == len(SWITCHES) + 2
-    assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.4)
-    assert column[-1] == pytest.approx(kilowatts(watched.text("total-power")), abs=0.6)
-
-
 def test_each_switch_says_what_it_costs(watched: Watched):
     watched.page.wait_for_selector('[data-explorer="cost"]')
     watched.answered(wholly=True)
@@ -62,14 +48,6 @@ def test_each_switch_says_what_it_costs(watched: Watched):
     without_effect = [cost for cost in costs if not re.fullmatch(r"[+−]\d+\.\d kW here", cost)]
     parts = [f"{which} loss is part of this wake" for which in ("tip", "root")]
     assert without_effect == [*parts, "the rotor file states none"]
-
-
-def test_controls_and_read_outs_explain_themselves(watched: Watched):
-    total = watched.page.locator('[data-explorer="drawer"] ~ * [data-explorer="total-power"], .rx-total').first
-    assert "tail rotor that balances its torque" in (total.get_attribute("title") or "")
-    assert "Eq. (3.19)" in (watched.page.locator("tr", has_text="Parasite").first.get_attribute("title") or "")
-    watched.row("Adv. ratio").get_by_role("slider").hover()
-    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for()
 
 
 def test_units_change_what_is_read_and_not_the_design(watched: Watched):

@@ -1,7 +1,6 @@
 """The probe, play, views and keys in a real browser."""
 
 import math
-import threading
 from collections.abc import Iterator
 
 import numpy as np
@@ -141,24 +140,6 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
     watched.until(lambda: float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value()))
     page.keyboard.press("Escape")
     assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
-
-
-@pytest.mark.slow
-def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
-    page = watched.page
-    watched.answered()
-    disk = watched.node("/rotor/disk/field")
-    alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
-    page.keyboard.press("Space")
-    page.get_by_role("button", name="Stop the rotor").wait_for()
-    for _ in range(3):
-        blade = watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
-    watched.until_changed(lambda: watched.text("probe-alpha"), alpha)
-    page.keyboard.press("Space")
-    page.get_by_role("button", name="Turn the rotor").wait_for()
-    watched.at_rest(lambda: pose(watched, "/rotor/blade_0"))
-    assert watched.node("/rotor/disk/field") == disk
-    watched.until(lambda: not [one.name for one in threading.enumerate() if one.name.startswith("play-")])
 
 
 WATCH_PLAY = """seconds => new Promise(done => {

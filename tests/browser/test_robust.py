@@ -92,22 +92,6 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         app.stop()
 
 
-def test_a_foreign_page_cannot_talk_to_the_server(context: "BrowserContext", app: App):
-    """Another server of this machine stands for any site: the browser names it in Origin."""
-    foreign = App("127.0.0.1", 0)
-    try:
-        page = context.new_page()
-        page.goto(foreign.address)
-        tried = """address => new Promise(done => {
-            const socket = new WebSocket('ws' + address.slice(4), ['viser-v1.1.1']);
-            socket.onopen = () => done('open'); socket.onclose = event => done(event.code);
-        })"""
-        assert page.evaluate(tried, app.address) == 1006
-        assert page.evaluate(tried, foreign.address) == "open"
-    finally:
-        foreign.stop()
-
-
 @pytest.mark.slow
 def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     """A real restart on the same port: the page says so, comes back by itself, and shows the same design."""

@@ -14,15 +14,13 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import number
-from explorer.picture.picture import make_picture, rotate
+from explorer.picture.picture import make_picture
 from explorer.tabs.actuator import actuator_words
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
 from explorer.tabs.actuator.actuator_inputs import (
-    CONCEPTS,
     MOST_SEGMENTS,
     ActuatorInputs,
-    concept_divisions,
     drive_of,
     lean_verdict,
     question_of,
@@ -31,7 +29,7 @@ from explorer.tabs.actuator.actuator_inputs import (
     verdict_tasks,
 )
 from explorer.tabs.actuator.actuator_words import section_svg
-from explorer.tabs.actuator.lifted_picture import TIMES, drive_colour, flown_twist, glow, lifted_picture
+from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.tabs.background import Call, PoolAnswers
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
@@ -41,7 +39,6 @@ from rotor.files.make_design import make_design
 from rotor.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
 from tests.curves import curves
-from tests.explorer.test_pictures import on_canvas
 
 DESIGN = make_design(preset="flight", mu=0.2)
 FULL = (100.0,) * MOST_SEGMENTS
@@ -97,11 +94,6 @@ def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
 def test_the_baseline_has_no_actuator():
     driven = ActuatorInputs(drives=FULL).apply(DESIGN)
     assert baseline_of(driven) == baseline_of(DESIGN)
-
-
-@pytest.mark.parametrize("concept", CONCEPTS)
-def test_segments_fit_the_sliders(concept: str):
-    assert len(concept_divisions(concept)) + 1 <= MOST_SEGMENTS
 
 
 def test_the_question_hangs_on_the_baseline_and_not_on_flight_voltage_or_view():
@@ -162,61 +154,6 @@ def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
     assert len(rest.lines["ghost"]) == len(rest.lines["arrow"]) == 0
     assert len(driven.lines["ghost"]) > 0
     assert len(driven.lines["arrow"]) > 0
-
-
-def test_leads_run_from_the_box_to_every_segment():
-    inputs = ActuatorInputs(concept="three-segment")
-    blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
-    leads = lifted.lead_segments(blade, np.zeros(len(blade.r)))
-    ends = {round(float(x), 6) for x in leads[:, 1, 0]}
-    for low, _ in blade.spans:
-        assert round(float(blade.outward(low)), 6) in ends
-
-
-def test_crossed_fibres_are_drawn_the_other_way():
-    """Along the span the fibres of a ply run aft, crossed ones forward."""
-    inputs = ActuatorInputs()
-    blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
-    ply = next(part for part in blade.parts if part.role == "ply")
-    ways = []
-    for crossed in (False, True):
-        lines = lifted.fibre_segments(blade, ply, np.zeros(len(ply.r)), crossed)
-        step = (lines[:, 1] - lines[:, 0]).mean(axis=0)
-        ways.append(np.sign(step[0] * step[1]))
-    assert ways[0] == -ways[1] != 0.0
-
-
-def test_what_drives_a_piece_is_seen_in_its_light():
-    """Nothing without voltage, amber for positive voltage, blue for negative, and heat in a tube."""
-    assert glow(0.0)[1] == 0.0
-    (red, _, blue), strength = glow(1.0)
-    assert red > blue
-    assert strength == 1.0
-    (red, _, blue), _ = glow(-0.5)
-    assert blue > red
-    (red, _, blue), _ = glow(1.0, "tube")
-    assert red > blue
-    assert drive_colour(0.0) != drive_colour(1.0) != drive_colour(-1.0)
-    inputs = ActuatorInputs(drives=FULL)
-    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN)
-    assert {name for name, solid in picture.solids.items() if solid.glow} == {"drive_0", "drive_1"}
-
-
-def test_the_camera_holds_the_whole_lifted_blade_and_the_helicopter_beyond():
-    """At every size of the page: in front of the near plane, and the hub within the picture, above the blade."""
-    radius = DESIGN.rotor.radius
-    pose = lifted.lifted_pose(radius)
-    inputs = ActuatorInputs(drives=FULL)
-    picture = lifted_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN)
-    vertices = np.concatenate([solid.mesh.vertices for solid in picture.solids.values()])
-    world = rotate(pose.wxyz, vertices) + pose.position
-    for aspect in (1.2, 1.6, 2.6):
-        camera = lifted.fit_lifted(radius, aspect)
-        x, y, _ = on_canvas(camera, aspect, world)
-        hub_x, hub_y, _ = on_canvas(camera, aspect, np.zeros((1, 3)))
-        assert max(np.abs(x).max(), np.abs(y).max(), abs(hub_x[0])) < 1.0
-        assert hub_y[0] > y.mean()
-        assert np.linalg.norm(camera.position) > 3.0 * np.linalg.norm(world - camera.position, axis=1).max()
 
 
 @pytest.mark.parametrize("id", ALL)

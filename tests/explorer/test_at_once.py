@@ -10,7 +10,7 @@ from explorer.session import Session
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 from tests.explorer.test_leaving import searching, send
-from tests.tools.soak.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, ran
 
 PATIENCE = 900.0
 """[s]"""

@@ -7,16 +7,14 @@ import io
 import json
 import math
 import pickle
-import zlib
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from explorer.colours import DARK, LIGHT
+from explorer.colours import LIGHT
 from explorer.picture import disk_image
-from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
@@ -25,14 +23,11 @@ from explorer.picture.polar import (
     NO_MARKS,
     MarkedRegion,
     Marks,
-    Sums,
-    angles_of_attack,
     mark_line,
     polar_grid,
     refined,
     region_codes,
     region_masks,
-    stall_angles,
 )
 from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
@@ -94,23 +89,6 @@ class TestRegions:
         around = dashes.any(axis=0)
         assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
 
-    def test_marks_can_be_switched_off(self, fast: Solution):
-        grid = polar_grid(fast.disk, 60, 180)
-        assert region_codes(fast, grid, NO_MARKS, 0.003) is None
-        only = codes_of(fast, Marks(stall=False, reverse_flow=False))
-        assert set(np.unique(only)) == {MarkedRegion.NONE, MarkedRegion.DASH}
-
-    def test_single_precision_is_enough_for_pictures(self, fast: Solution):
-        grid = polar_grid(fast.disk, 112, 384)
-        flow = refined(fast, grid)
-        ahead = flow.u_t > 0.05
-        theta, u_t, u_p, lower, upper = map(
-            grid.refine, (fast.disk.theta, fast.disk.u_t, fast.disk.u_p, *stall_angles(fast))
-        )
-        alpha = theta - np.arctan2(u_p, u_t)
-        assert np.abs(flow.alpha - alpha)[ahead].max() < 1e-4
-        assert np.abs(flow.margin - np.minimum(upper - alpha, alpha - lower))[ahead].max() < 1e-4
-
 
 class TestHatch:
     def test_stall_is_striped_over_the_colours_of_the_field(self, fast: Solution):
@@ -125,26 +103,11 @@ class TestHatch:
         changed = np.abs(plain[y, x] - marked[y, x]).sum(axis=1) > 60
         assert 0.2 < changed.mean() < 0.62
 
-    def test_reverse_flow_is_slate_in_the_ink_of_the_page(self, fast: Solution):
-        for theme in (LIGHT, DARK):
-            png = disk_png(fast, ALPHA, (-6.0, 14.0), size=disk_image.MOVING, marks=Marks(), ink=theme.ink)
-            image = np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
-            # µ = 0.4: the middle of the part outside the cut-out lies at r = 0.26, ψ = 270°.
-            half = 0.5 * disk_image.MOVING
-            pixel = image[round(half), round(half - 0.5 - 0.26 * (half - 1.0))]
-            assert tuple(pixel[:3]) == theme.ink.reverse_flow
-            assert pixel[3] > 230
-
 
 UNSTEADY = ("Separation point", "Stall vortex cn")
 
 
 class TestDynamicStall:
-    def test_its_fields_are_absent_with_steady_sections(self, fast: Solution):
-        steady = solve(replace(fast.design, models=replace(fast.design.models, dynamic_stall="off")))
-        for title in UNSTEADY:
-            assert not field_values(steady, FIELDS[title]).size
-
     def test_its_fields_and_regions_are_what_the_section_does(self):
         solution = solve(make_design(mu=0.35, mass_kg=9500.0, dynamic_stall=True)).require()
         separation, vortex = (field_values(solution, FIELDS[title]) for title in UNSTEADY)
@@ -198,22 +161,6 @@ class TestFlatPictures:
             assert np.count_nonzero(np.abs((words - centre + 180) % 360 - 180) < 12) > 500
         assert np.count_nonzero(np.abs(words - 225) < 20) == 0
         assert r.min() > 1.0  # Nothing lies on the disk itself.
-
-    def test_a_tinted_picture_has_one_colour_and_the_masks_opacity(self):
-        mask = np.array([[0, 128], [255, 64]], dtype=np.uint8)
-        image = np.asarray(Image.open(io.BytesIO(disk_image.tinted_png(mask, (10, 20, 30), 0.5))).convert("RGBA"))
-        assert (image[..., :3] == (10, 20, 30)).all()
-        assert image[..., 3].tolist() == [[0, 64], [128, 32]]
-
-    def test_the_shadow_is_under_the_airframe_and_fades(self):
-        rotor = make_design().rotor
-        mask = disk_image.shadow_mask(airframe(rotor), rotor.radius).astype(int)
-        size = len(mask)
-        unit = 0.5 * size / (disk_image.SHADOW_HALF * rotor.radius)
-        row = round(0.5 * size + (0.0 - disk_image.SHADOW_CENTRE * rotor.radius) * unit)
-        assert mask[row, size // 2] > 150  # Below the cabin.
-        assert mask[0].max() == mask[-1].max() == 0
-        assert np.abs(mask - mask[:, ::-1]).max() < 30  # Nearly symmetric: only the tail rotor is not.
 
 
 class TestAirLines:
@@ -312,21 +259,6 @@ class TestInset:
         assert made["ghost"] is None
 
 
-def test_sums_of_full_matrices_and_of_rows_with_one_term():
-    rng = np.random.default_rng(3)
-    along, around, field = rng.normal(size=(5, 4)), rng.normal(size=(6, 7)), rng.normal(size=(4, 6))
-    along[2, 1:] = 0.0
-    made = Sums(along, around, np.float64)([field, 2.0 * field])
-    assert np.allclose(made[0], along @ field @ around, rtol=0.0, atol=1e-14)
-    assert np.allclose(made[1], 2.0 * made[0], rtol=0.0, atol=1e-14)
-
-
-def test_angle_of_attack_in_all_quadrants():
-    u_t, u_p = (axis.astype(np.float32) for axis in np.meshgrid(np.linspace(-1.0, 1.0, 21), np.linspace(-0.9, 1.0, 23)))
-    made = angles_of_attack(np.full_like(u_t, 0.25), u_t, u_p)
-    assert np.abs(made - (0.25 - np.arctan2(u_p, u_t))).max() < 5e-7
-
-
 class TestLine:
     @pytest.mark.parametrize("half_width", [0.001, 0.012, 0.03])
     def test_a_line_of_even_width_whatever_the_slope(self, half_width: float):
@@ -349,16 +281,3 @@ class TestLine:
         mark_line(codes, 7, touching + np.float32(1e-6), np.ones(codes.shape, np.bool_), 0.03, r)
         mark_line(codes, 7, touching - np.float32(0.01), np.zeros(codes.shape, np.bool_), 0.03, r)
         assert not codes.any()
-
-
-def test_levels_span_the_range_and_hold_what_is_beyond():
-    made = disk_image.levels_of(np.array([[-9.0, 0.0, 0.5, 1.0, 9.0]]), 0.0, 1.0, 101)
-    assert made.tolist() == [[1, 1, 51, 101, 101]]
-
-
-def test_a_palette_png_is_read_as_written():
-    rng = np.random.default_rng(5)
-    pixels, entries = rng.integers(0, 256, (31, 17), np.uint8), rng.integers(0, 256, (256, 4), np.uint8)
-    made = disk_image.encode_png(pixels, entries)
-    assert np.array_equal(np.asarray(Image.open(io.BytesIO(made)).convert("RGBA")), entries[pixels])
-    assert zlib.crc32(made[12:29]) == int.from_bytes(made[29:33])  # Of the header; Pillow does not look at all of them.

@@ -31,13 +31,6 @@ def test_every_equation_and_section_named_is_there():
             assert f"\n## {entry.section} " in THEORY, f"{name}: docs/theory.md has no section {entry.section}"
 
 
-def test_every_entry_is_a_short_sentence():
-    for name, entry in ENTRIES.items():
-        assert entry.sentence.endswith("."), name
-        assert len(entry.text) < 260, name
-        assert entry.sentence[0].isupper() or entry.sentence[0] in "βθακΣk", name
-
-
 def _never_seen(call: ast.Call) -> bool:
     """Whether a widget only carries messages of the frame: it is made invisible and stays so."""
     label = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else ""

@@ -116,9 +116,6 @@ class TestSliding:
         assert slid(three, second, 0.1).three_second == pytest.approx(three.three_first + 0.02)
         assert slid(three, second, 1.2).three_second == limits("three_second")[1]
 
-    def test_an_end_does_not_slide(self):
-        assert slid(TWO, stations(TWO)[-1], 0.7) == TWO
-
 
 def grab_at(r: float) -> Grab:
     grab = begin(TWO, r)
@@ -135,12 +132,6 @@ class TestGrab:
         change = angles(after, 1.0, 0.5) - angles(TWO, 1.0, 0.5)
         assert change[0] - change[1] == pytest.approx(3.0, abs=0.05)
         assert after.two_inner == TWO.two_inner
-
-    def test_back_at_the_start_the_blade_is_as_it_was(self):
-        assert grab_at(0.95).turned(0.0) == TWO
-
-    def test_the_place_is_said_with_a_true_minus(self):
-        assert place_of(TWO, grab_at(0.95).station) == "tip 1.00 R · θ −2.0°"
 
 
 class TestBestTurn:
@@ -289,12 +280,6 @@ class TestTwistCurve:
         bridge.actions["knot"](["2", "undo"])
         assert now[0] == ideal
         assert took == [True, False]
-
-    def test_a_blade_without_stations_is_pressed_as_the_nearest_two_segments(self):
-        editor, bridge, now, _ = editor_of(replace(TWO, law="ideal"))
-        editor.grab(1.0)
-        bridge.actions["knot"](["2", [None, 5.0]])
-        assert now[0].law == "two"
 
     def test_a_held_handle_has_a_place_that_ends_with_the_drag(self):
         editor, bridge, now, took = editor_of(Inputs(law="two"))

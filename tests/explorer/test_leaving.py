@@ -15,7 +15,7 @@ from explorer.app import App
 from explorer.hosting.gate import ServerLimits
 from explorer.session import Session
 from explorer.sharing.presentation import PRESENT, follow_name
-from tests.tools.soak.visitor import BRIDGE, Visitor, ran
+from tests.tools.visitor import BRIDGE, Visitor, ran
 
 Act = Callable[[Visitor], Awaitable[None]]
 SECRET = "a-secret"

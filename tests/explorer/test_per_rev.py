@@ -18,10 +18,8 @@ from explorer import web
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
 from explorer.model.session_state import Pinned
-from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
-from explorer.scene.still_scene import flown_pitch
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
 from explorer.tabs.actuator.per_rev import (
     DialAnswer,
@@ -132,11 +130,6 @@ def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     assert elastic is not None
     assert pitched is not None
     assert np.ptp([pitched[1][1], pitched[2][1]]) > np.ptp([elastic[1][1], elastic[2][1]]) + 1.0
-
-
-def test_a_file_holds_all_harmonics_of_a_blade():
-    pitch = flown_pitch(solve(MOVED.design()).require(), blade_shape(OPENING.aircraft.rotor), 1.0)
-    assert len(pitch) == 1 + 2 * 5
 
 
 def test_words():

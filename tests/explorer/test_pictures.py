@@ -12,19 +12,17 @@ from PIL import Image
 from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
-from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, fit
-from explorer.picture.fields import FIELDS, reverse_flow
+from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cover, View, fit
+from explorer.picture.fields import FIELDS
 from explorer.picture.picture import (
     DISK_DROP,
-    about,
     blade_pose,
-    compose,
     disk_png,
     make_picture,
     rotate,
     tip_path_pose,
 )
-from explorer.picture.polar import PolarGrid, filled, polar_grid, refined
+from explorer.picture.polar import PolarGrid, polar_grid, refined
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -45,13 +43,6 @@ def at(image: np.ndarray, r: float, psi_deg: float) -> np.ndarray:
     half = disk_image.SIZE / 2
     psi = math.radians(psi_deg)
     return image[int(half * (1.0 + r * math.cos(psi))), int(half * (1.0 + r * math.sin(psi)))]
-
-
-class TestRefinement:
-    def test_reproduces_a_harmonic_and_is_periodic(self, fast: Solution):
-        disk, grid = fast.disk, grid_of(fast)
-        fine = grid.refine(disk.r[:, None] * np.cos(disk.psi)[None, :])
-        assert_allclose(fine, grid.r[:, None] * np.cos(grid.psi)[None, :], atol=3e-4)  # Catmull–Rom on 3° steps.
 
 
 class TestDiskPicture:
@@ -125,14 +116,6 @@ class TestFields:
         outer = line.r > 0.6
         assert_allclose(around[outer], solved.mean(axis=1)[outer], rtol=0.03)
 
-    def test_angle_of_attack_runs_smoothly_up_to_the_reverse_flow_circle(self, fast: Solution):
-        """Outside the circle neighbouring values stay near each other: no ring of wrapped angles."""
-        grid = grid_of(fast)
-        alpha = FIELDS["Angle of attack"].sample(fast, grid)
-        column = round(grid_of(fast).psi.searchsorted(math.radians(300)))
-        outside = alpha[~reverse_flow(fast, grid)[:, column], column]
-        assert np.abs(np.diff(outside))[3:].max() < 25.0
-
     @pytest.mark.parametrize("preset", ["flight", "thesis"])
     def test_stall_margin_is_that_of_the_solver(self, preset: str):
         """On the solver's own points, outside reverse flow, to rounding in single precision."""
@@ -141,16 +124,6 @@ class TestFields:
         same = refined(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
-
-    def test_filling_takes_the_first_value_outside(self, fast: Solution):
-        disk = fast.disk
-        values = np.broadcast_to(disk.r[:, None], disk.u_t.shape)
-        reverse = disk.u_t < 0.0
-        column = int(reverse.sum(axis=0).argmax())
-        depth = int(reverse[:, column].sum())
-        assert depth > 2
-        assert_allclose(filled(disk, values)[:depth, column], disk.r[depth])
-        assert_allclose(filled(disk, values)[~reverse], values[~reverse])
 
 
 class TestColours:
@@ -165,12 +138,6 @@ class TestColours:
 
 
 class TestPoses:
-    def test_quaternions_turn_and_compose(self):
-        quarter = about(2, math.pi / 2)
-        assert_allclose(rotate(quarter, np.array([1.0, 0.0, 0.0])), [0.0, 1.0, 0.0], atol=1e-15)
-        both = compose(quarter, about(0, math.pi / 2))
-        assert_allclose(rotate(both, np.array([0.0, 1.0, 0.0])), [0.0, 0.0, 1.0], atol=1e-15)
-
     def test_blade_points_to_its_azimuth_with_nose_up_leading_edge(self, hover: Solution):
         controls = replace(hover.controls, coning=0.0, flap_1c=0.0, flap_1s=0.0, collective=0.2)
         pose = blade_pose(controls, math.pi / 2, 0.4)
@@ -209,12 +176,6 @@ class TestPicture:
         down = math.degrees(math.asin(-nose[2]))
         assert_allclose(down, math.degrees(fast.controls.shaft_tilt) - 3.0, atol=1e-9)
 
-    @pytest.mark.parametrize("pixels", [disk_image.MOVING, disk_image.AT_REST])
-    def test_the_picture_has_the_size_asked_for(self, fast: Solution, pixels: int):
-        picture = make_picture(fast, ViewState(), (-4.0, 10.0), pixels=pixels)
-        assert opened(picture.png).shape == (pixels, pixels, 4)
-        assert picture.png_size == pixels
-
 
 def on_canvas(camera: Camera, aspect: float, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Where points are seen: across and up in −1…1 of the canvas, and the camera's right in the world."""
@@ -251,21 +212,6 @@ class TestCamera:
         )
         assert 0.6 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
         assert right[1] > 0.8  # The advancing side is at the right.
-
-    @pytest.mark.parametrize("cover", [Cover(0.1, 0.2), Cover(0.1, 0.4), Cover(0.2, 0.3), Cover(0.0, 0.27)])
-    def test_cards_leave_the_same_picture_between_them(self, cover: Cover):
-        """In the free part of the canvas everything is where it was, as much smaller as that part is.
-
-        From further away the near side is less blown up, so the whole is a little smaller and lower still.
-        """
-        _, usual, _ = on_canvas(fit("3d", 8.18, 1.9), 1.9, self.RIM)
-        _, fitted, _ = on_canvas(fit("3d", 8.18, 1.9, cover=cover), 1.9, self.RIM)
-        share = cover.free / USUAL_COVER.free
-        share = share if share < 1.0 else math.sqrt(share)  # Nearer by half the way: the near side is blown up.
-        # Up is 1 and down is −1, so the middle of the free part is seen at twice its lift.
-        assert np.ptp(fitted) == pytest.approx(share * np.ptp(usual), rel=0.12)
-        middle = usual.mean() - 2.0 * USUAL_COVER.lift
-        assert fitted.mean() - 2.0 * cover.lift == pytest.approx(share * middle, abs=0.08)
 
     @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("view", ["top", "side", "blade"])

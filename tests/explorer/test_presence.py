@@ -12,7 +12,7 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
 from explorer.sharing.share import Address
 from explorer.tabs.lecture.presence import Presence
-from tests.tools.soak.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, ran
 
 
 @pytest.fixture

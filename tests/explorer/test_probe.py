@@ -3,7 +3,6 @@
 import math
 import re
 from dataclasses import replace
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -11,8 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from explorer.charts import svg
-from explorer.hosting.messages import checked_press
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
@@ -187,35 +184,6 @@ def numbers_of(text: str) -> list[float]:
 
 
 class TestDrawing:
-    PLACES = tuple((r, math.radians(psi)) for r in (0.14, 0.25, 0.4, 0.7, 0.98) for psi in range(0, 360, 36))
-
-    @staticmethod
-    def check_inside(drawn: str) -> None:
-        """Nothing leaves the drawing, words included (taken as 6 px a letter, more than they are)."""
-        root = ElementTree.fromstring(drawn)
-        low_x, low_y, width, height = numbers_of(root.attrib["viewBox"])
-        assert (low_x, low_y, width) == (0.0, 0.0, 312.0)
-        for node in root.iter():
-            if node.tag == "text":
-                reach = 6.0 * len("".join(node.itertext()))
-                share = {"start": 0.0, "middle": 0.5, "end": 1.0}[node.attrib["text-anchor"]]
-                left = float(node.attrib["x"]) - share * reach
-                assert left >= -2.0, ElementTree.tostring(node)
-                assert left + reach <= width + 2.0, ElementTree.tostring(node)
-                assert 7.0 <= float(node.attrib["y"]) <= height + 1.0, ElementTree.tostring(node)
-            elif node.tag == "polygon":
-                points = np.array(numbers_of(node.attrib["points"])).reshape(-1, 2)
-                assert points.min() >= -1.0
-                assert (points.max(axis=0) <= (width + 1.0, height + 1.0)).all(), ElementTree.tostring(node)
-
-    @pytest.mark.parametrize("opened", [False, True])
-    def test_nothing_leaves_the_panel_anywhere_on_the_disk(self, solution: Solution, opened: bool):
-        for r, psi in self.PLACES:
-            panel = probe_panel(probe(solution, max(r, solution.design.rotor.blade.root_cutout), psi), solution, opened)
-            assert "nan" not in panel
-            for drawn in re.findall(r"<svg.*?</svg>", panel):
-                self.check_inside(drawn)
-
     def test_the_section_stands_at_its_pitch_and_the_wind_at_its_angle(self, fast: Solution):
         p = probe(fast, 0.75, math.radians(270.0))
         drawn, scales = drawing(p, 300.0, 8e3)
@@ -266,11 +234,6 @@ class TestDrawing:
         q = probe(fast, float(disk.r[15] + 0.4 * disk.dr[15]), float(disk.psi[17] + 0.01))
         assert q.section.lift_curve(np.array([q.alpha]), q.mach)[0] == pytest.approx(q.cl, abs=2e-3)
 
-    def test_words_keep_their_distance_and_their_order(self):
-        placed = svg.spread([10.0, 11.0, 40.0, 9.0], 12.0)
-        assert placed[3] < placed[0] < placed[1] < placed[2] == 40.0
-        assert min(np.diff(sorted(placed))) > 11.5
-
 
 class TestRide:
     """One turn with a section: a steady section's point is on its lift curve all the way round."""
@@ -288,11 +251,6 @@ class TestRide:
             assert turn["lift"][k] == pytest.approx(probe(fast, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
             if not reversed_flow[k]:
                 assert turn["theta"][k] - turn["phi"][k] == pytest.approx(turn["alpha"][k], abs=0.02)
-
-    def test_a_ride_is_asked_for_by_its_place_and_ended_by_a_word(self):
-        assert checked_press('[1,"ride",[0.75,270]]') == ("ride", (0.75, 270.0))
-        assert checked_press('[1,"ride","off"]') == ("ride", "off")
-        assert checked_press('[1,"ride",null]') == ("ride", None)
 
 
 @pytest.fixture(scope="module")

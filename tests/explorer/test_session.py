@@ -13,7 +13,6 @@ from explorer.charts import plots
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import FailedTrim, Reading, SessionState
-from explorer.page import Page
 from explorer.session import Session
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import Design, Solution
@@ -223,41 +222,3 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     assert session._update() is None
     next(steps)
     assert page.states[-1].view.azimuth_deg == 75.0
-
-
-def test_what_a_page_keeps_follows_its_address():
-    called: list[str] = []
-    part = SimpleNamespace(
-        follow=lambda _: called.append("address"),
-        keep=lambda: called.append("kept"),
-        store=lambda: called.append("steps"),
-    )
-    page: Any = SimpleNamespace(file=part, history=part)
-    state: Any = SimpleNamespace(solution=None, view=None)
-    Page.keep(page, state)
-    assert called == ["address", "kept", "steps"]
-
-
-@pytest.mark.parametrize(
-    ("mode", "expected"), [("explore", ["rest", "tab", "history"]), ("actuate", ["actuator", "tab", "history"])]
-)
-def test_the_actuators_panel_works_nothing_out_unless_it_is_seen(mode: str, expected: list[str]):
-    called: list[str] = []
-    part = SimpleNamespace(
-        solve_waiting=lambda _: called.append("history"),
-        solve_steps=lambda _: None,
-        solve_deferred=lambda _: None,
-        follow=lambda _: None,
-        show=lambda _: called.append("tab"),
-    )
-    page: Any = SimpleNamespace(
-        layout=SimpleNamespace(mode=mode), _actuator_in_frame=False,
-        actuator=SimpleNamespace(rest=lambda: called.append("rest")),
-        _show_actuator=lambda *_: called.append("actuator"), draw_finely=lambda _: None, keep=lambda _: None,
-        tabs=(part,), file=part, history=part, results=part, vibration=part, waterfall=part,
-    )  # fmt: skip
-    state: Any = SimpleNamespace(solution=None)
-    reading: Any = object()
-    Page.follow(page, reading, state)
-    Page.solve_deferred(page, state, lambda: False)
-    assert called == expected

@@ -1,6 +1,5 @@
 """The charts of the results strip as values: differences, speeds, stall limits, lift."""
 
-import json
 import math
 import re
 from dataclasses import replace
@@ -183,16 +182,3 @@ class TestLift:
         r = untwisted.disk.r
         assert r[np.argmax(line(chart, "this"))] >= r[np.argmax(line(chart, "reference"))]
         assert chart.span("y")[0] <= 0.0
-
-
-def test_every_chart_is_plain_json_without_nan(cruise: Solution, linear: Solution):
-    design, reference, ideal = (np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan))
-    curve = PowerCurve(design, reference, ideal)
-    charts = (
-        power_change_chart(curve, 0.2, -10e3, "A"),
-        alpha_chart(cruise, linear, 270.0),
-        lift_chart(cruise, linear),
-    )
-    for chart in charts:
-        text = json.dumps(as_json(chart), allow_nan=False)
-        assert len(text) < 4000

@@ -209,37 +209,6 @@ class TestPowerCurves:
         assert np.isfinite(curves.known(design, design).design[:11]).all()
         assert np.isnan(curves.known(design, design).design[11:]).all()
 
-    @pytest.mark.slow
-    def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
-        design, curves = LINEAR, PowerCurves(haste=math.inf)
-        curves.sweep(design, baseline_of(design), lambda: True)
-        coarse = curves.known(design, baseline_of(design)).design
-        curves.sweep(design, baseline_of(design), lambda: False)
-        fine = curves.known(design, baseline_of(design)).design
-        k = plots.SWEEP.index(0.175)
-        assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
-        assert coarse[k] != fine[k]
-        assert_allclose(fine[k], solve(design.at(mu=0.175)).power.total / 1e3, rtol=1e-6)
-
-    @pytest.mark.slow
-    def test_beside_a_known_curve_five_points_do(self, monkeypatch: pytest.MonkeyPatch):
-        asked: list[float] = []
-
-        def counting(design: Design, start: Solution | None) -> Solution:
-            asked.append(design.condition.advance_ratio)
-            return solve(design, start)
-
-        curves = PowerCurves(haste=math.inf)
-        first, second = (Inputs(law="linear", linear=twist).design() for twist in (-8.0, -11.0))
-        curves.sweep(first, first, lambda: False)
-        monkeypatch.setattr("explorer.charts.plots.PATIENCE", 0.0)
-        monkeypatch.setattr("explorer.charts.plots.solve", counting)
-        curves.sweep(second, second, lambda: True)
-        assert asked == [0.0, 0.15, 0.3, 0.375, 0.45]
-        coarse = curves.known(second, second).design
-        curves.sweep(second, second, lambda: False)
-        assert_allclose(coarse, curves.known(second, second).design, rtol=0.01)
-
 
 def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():
     stand = make_design(rotor="xv15", mu=0.17, stand={"ct_over_sigma": 0.08, "shaft_tilt_deg": 15.0})

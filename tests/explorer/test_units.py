@@ -8,7 +8,7 @@ import pytest
 
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.undo import History, KeptDesign
+from explorer.model.undo import History
 from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS, meant, shown
 from explorer.tabs import history_panel as history_view
 from explorer.tabs.controls import DesignControls
@@ -45,16 +45,6 @@ def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     assert flight_name(Inputs(climb_m_s=5.0)) == "µ 0.2, climb 5.0 m/s, 8.32 t"
     assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009342 lb"
     assert flight_name(Inputs(climb_m_s=5.0, preset="thesis")) == "µ 0.2, 8.32 t"
-
-
-def test_searches_and_history_in_horsepower(cruise: Solution):
-    history = History(Inputs())
-    for units in (SI, AVIATION):
-        shown = units.watts(cruise.power.total)
-        assert shown in history_view.strip(history, {Inputs(): cruise.power.total}, units)
-        assert shown in history_view.kept_rows((KeptDesign(Inputs(), cruise),), None, units)
-    kept = KeptDesign(Inputs(), cruise)
-    assert "now 0 hp" in history_view.kept_rows((kept,), cruise, AVIATION)
 
 
 def test_the_strip_tells_two_designs_near_the_least_apart_beside_one_of_far_more_power():

@@ -45,20 +45,6 @@ class TestDrawing:
         unit = KILOWATT if units is SI else HORSEPOWER
         assert column[-1] == pytest.approx(unit.of(found.full.power.total), abs=0.05)
 
-    def test_bars_follow_on_each_other(self, found: Waterfall):
-        svg = waterfall_chart(found.steps)
-        ends: list[float] = []
-        for step, group in zip(found.steps[1:], svg.split("<g>")[2:], strict=False):
-            bar = re.search(r'<rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)" height="11"', group)
-            if bar is None or abs(step.added or 0.0) < 20e3:
-                continue
-            left, width = map(float, bar.groups())
-            ends += [left, left + width]
-        assert len(ends) >= 4
-        scale = (258.0 - 98.0) / (1.04 * max(step.power or 0.0 for step in found.steps))
-        drag = next(step for step in found.steps if step.switch and step.switch.name == "fuselage")
-        assert ends[-1] - ends[-2] == pytest.approx((drag.added or 0.0) * scale, abs=0.15)
-
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)

@@ -11,10 +11,9 @@ from typing import Any
 import numba
 import pytest
 from numba.core import caching, config
-from numba.core.codegen import CPUCodegen
 
 import rotor
-from rotor.compiled import _watch, compiled, compiling, tell_in_a_log
+from rotor.compiled import compiled, compiling, tell_in_a_log
 
 SOURCE = """
 import numba
@@ -83,17 +82,6 @@ def test_kept_code_follows_the_functions_it_calls(two: tuple[Path, Path]):
     assert (changed(1.0), hits(changed)) == (220.0, 0)
 
 
-def test_code_compiled_after_its_files_were_replaced_is_not_kept_as_theirs(two: tuple[Path, Path]):
-    """A server goes on through an update, and compiles what it had read before."""
-    inner, outer = two
-    running = module(outer).kernel
-    inner.write_text(inner.read_text().replace("x + 1.0", "x + 21.0"))
-    assert running(1.0) == 20.0
-    del sys.modules["called_by_a_test"]
-    updated = module(outer).kernel
-    assert (updated(1.0), hits(updated)) == (220.0, 0)
-
-
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
 def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
     """LLVM ended the program over such code; here no bit of code is looked at that has not its checksum."""
@@ -109,25 +97,6 @@ def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
         again = module(source).kernel
         assert (again(1.0), hits(again)) == (2.0, 1)
         (kept,) = source.parent.rglob(f"*kernel*.{ending}")
-
-
-def test_code_of_another_version_of_numba_is_compiled_anew(source: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(numba, "__version__", "0.1.0")
-    assert module(source).kernel(1.0) == 2.0
-    monkeypatch.undo()
-    other = module(source).kernel
-    assert (other(1.0), hits(other)) == (2.0, 0)
-    again = module(source).kernel
-    assert (again(1.0), hits(again)) == (2.0, 1)
-
-
-def test_code_for_another_processor_is_not_run(source: Path, monkeypatch: pytest.MonkeyPatch):
-    """A home folder may be shared by machines. Both kinds of code are then kept beside each other."""
-    ours, other = CPUCodegen.magic_tuple, lambda _: ("x86_64-unknown-linux-gnu", "other", "+other")
-    for codegen, read in ((other, 0), (ours, 0), (ours, 1), (other, 1)):
-        monkeypatch.setattr(CPUCodegen, "magic_tuple", codegen)
-        kernel = module(source).kernel
-        assert (kernel(1.0), hits(kernel)) == (2.0, read)
 
 
 def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
@@ -150,12 +119,6 @@ def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.Monkey
     assert module(source).kernel(1.0) == 2.0
     monkeypatch.undo()
     assert module(source).kernel(1.0) == 2.0
-
-
-def test_a_function_without_a_file_is_compiled_too():
-    space: dict[str, Any] = {"compiled": compiled}
-    exec("@compiled()\ndef kernel(x):\n    return 2.0 * x", space)
-    assert space["kernel"](2.0) == 4.0
 
 
 def test_every_kernel_is_compiled_here():
@@ -183,22 +146,6 @@ def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monk
     said.truncate(0)
     assert module(source).kernel(1.0) == 2.0
     assert said.getvalue() == ""  # Kept code.
-
-
-def test_the_count_goes_on_where_the_run_before_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Hover after forward flight, each in a process of its own: here a module that is read anew stands for it."""
-    names = ("first", "second", "third")
-    lines = [f"@compiled()\ndef {name}(x):\n    return x + 1.0\n" for name in names]
-    path = tmp_path / "kernels.py"
-    path.write_text("\n".join(["from rotor.compiled import compiled\n", *lines]), encoding="utf-8")
-    counted = []
-    for name in names:
-        said = Terminal()
-        monkeypatch.setattr(sys, "stderr", said)
-        monkeypatch.setattr(_watch, "kernels", [])
-        getattr(module(path), name)(1.0)
-        counted.append(re.findall(r"\d+ of \d+", said.getvalue())[0])
-    assert counted == ["1 of 3", "2 of 3", "3 of 3"]
 
 
 def test_elsewhere_one_line_tells_it_where_that_is_asked_for(source: Path, monkeypatch: pytest.MonkeyPatch):

@@ -1,9 +1,9 @@
 """The checklist of a release as a command: `make release`.
 
-It builds sdist and wheel twice and compares the bytes, installs the wheel alone into a clean environment for every
-Python from 3.11 to 3.14 on this machine and uses it there (trim, page, study, the documentation's first example), lists
-the licences of all dependencies, and reads version and changelog. Each item is printed with what was found; the exit
-code is 1 if one is not met. `tests/test_wheel.py` does the same for one Python without the network.
+It builds sdist and wheel twice and compares the bytes, lets twine and check-wheel-contents look at them, installs the
+wheel alone into a clean environment for every Python from 3.11 to 3.14 on this machine and uses it there (trim, page,
+study, the documentation's first example), and reads version and changelog. Each item is printed with what was found;
+the exit code is 1 if one is not met. `tests/test_wheel.py` does the same for one Python without the network.
 """
 
 import argparse
@@ -33,14 +33,7 @@ _PURELIB = "import sysconfig; print(sysconfig.get_path('purelib'))"
 
 
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
-_LICENCES = """
-import importlib.metadata as m, json
-print(json.dumps([[d.name, d.version, d.metadata.get("License-Expression") or "; ".join(
-    c.rpartition(" :: ")[2] for c in d.metadata.get_all("Classifier", []) if c.startswith("License ::"))
-    or (d.metadata.get("License") or "").strip().partition("\\n")[0]] for d in m.distributions()]))
-"""
-_FOREIGN = re.compile(r"\b(A?GPL|GNU (Affero )?General Public)", re.IGNORECASE)
-"""Licences that would bind whoever passes the program on; the Lesser GPL and exceptions for linking do not."""
+CHECKS = (("twine", "check", "--strict"), ("check_wheel_contents", "--toplevel", "rotor,explorer"))
 
 
 def build(folder: Path) -> Path:
@@ -147,19 +140,14 @@ def first_example() -> str:
     return found[1]
 
 
-def licences(python: Path, cwd: Path) -> list[tuple[str, str, str]]:
-    """Name, version and licence of everything installed beside the wheel; the licence is empty where none is stated."""
-    rows = [(name, version, licence) for name, version, licence in json.loads(run(python, "-c", _LICENCES, cwd=cwd))]
-    return sorted(row for row in rows if row[0] not in ("rotor-explorer", "pip", "setuptools"))
-
-
-def unfit(rows: list[tuple[str, str, str]]) -> list[str]:
-    """Names of packages whose licence is not stated, or would bind whoever passes the program on."""
-    return [
-        name
-        for name, _, licence in rows
-        if not licence or (_FOREIGN.search(licence) and not re.search("lesser|exception", licence, re.IGNORECASE))
-    ]
+def package_faults(folder: Path) -> str:
+    """What twine says of the metadata, and check-wheel-contents of the files; empty when all is well."""
+    wheels, both = [*folder.glob("*.whl")], [*folder.glob("*.whl"), *folder.glob("*.tar.gz")]
+    said = ""
+    for (module, *words), files in zip(CHECKS, (both, wheels), strict=True):
+        done = subprocess.run([sys.executable, "-m", module, *words, *files], capture_output=True, text=True)
+        said += f"{done.stdout}{done.stderr} " if done.returncode else ""
+    return " ".join(said.split())
 
 
 def version_faults(pyproject: str, changelog: str, others: dict[str, str]) -> list[str]:
@@ -188,6 +176,7 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
         build(place)
+        yield "metadata and contents, by twine and check-wheel-contents", package_faults(folder)
         yield "two builds give the same bytes", "" if digests(place) == digests(folder) else "sdist or wheel differ"
         for version in PYTHONS:
             interpreter = find_python(version)
@@ -206,11 +195,6 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
             except (RuntimeError, subprocess.CalledProcessError, OSError, ValueError) as error:
                 yield f"wheel alone on Python {version}", str(error)
                 continue
-            if version == PYTHONS[0]:
-                rows = licences(python, place)
-                lines = (f"{name:28}{number:16}{licence or 'not stated'}" for name, number, licence in rows)
-                (folder / "licences.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-                yield f"licences of {len(rows)} dependencies, in licences.txt", ", ".join(unfit(rows))
             shutil.rmtree(place / version)
 
 

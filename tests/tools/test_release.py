@@ -1,9 +1,9 @@
-"""What the release checklist says of version, changelog and licences."""
+"""What the release checklist says of version and changelog."""
 
 import pytest
 
 from tests.tools.lowest import lowest
-from tests.tools.release import unfit, version_faults
+from tests.tools.release import version_faults
 
 PROJECT = '[project]\nversion = "1.2.0"\n'
 
@@ -24,20 +24,6 @@ def test_a_finished_changelog_has_no_faults():
 def test_each_fault_is_one_sentence(changelog: str, others: dict[str, str], words: str):
     (fault,) = version_faults(PROJECT, changelog, others)
     assert words in fault
-
-
-def test_licences_that_bind_or_are_not_stated_are_found():
-    rows = [
-        ("a", "1", "MIT"),
-        ("b", "1", ""),
-        ("c", "1", "GNU General Public License v3 (GPLv3)"),
-        ("d", "1", "GNU Lesser General Public License v3 (LGPLv3)"),
-        ("e", "1", "GPL-3.0-only"),
-        ("f", "1", "Apache-2.0 OR BSD-2-Clause"),
-        ("g", "1", "AGPL-3.0-or-later"),
-        ("h", "1", "BSD-3-Clause AND GPL-3.0-or-later WITH GCC-exception-3.1"),
-    ]
-    assert unfit(rows) == ["b", "c", "e", "g"]
 
 
 def test_the_lowest_versions_are_those_that_are_stated():

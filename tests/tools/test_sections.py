@@ -11,14 +11,12 @@ from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars
 from rotor.assets import asset_path
 from tests.tools.sections import __main__ as command
-from tests.tools.sections import xfoil
 from tests.tools.sections.recipes import (
     NATIVE_MACHS,
     RECIPES,
     TRIP,
     compare_decks,
     make_deck,
-    run_trip_polars,
 )
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, require_xfoil, run_polar
 
@@ -68,44 +66,7 @@ def test_command_builds_and_verifies(
     assert "DIFFERS" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (("build", "vr12"), "no section named 'vr12': choose one of sc1095"),
-        (("build", "sc1095", "--out", "/no/such/folder"), "'/no/such/folder' is not a folder: create it"),
-        (("build", "sc1095"), "install it (Debian: apt install xfoil xvfb)"),
-    ],
-)
-def test_bad_input_and_no_xfoil_give_one_sentence(
-    words: tuple[str, ...], message: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("PATH", "")
-    assert command.main(list(words)) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert message in line
-
-
 # As XFOIL prints them: a NaN row, a cut row and a negative drag must not come through.
-POLAR_TEXT = """
-   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr  Top_Itr  Bot_Itr
-  ------ -------- --------- --------- -------- -------- -------- -------- --------
-   0.000   0.0888   0.00828   0.00032  -0.0144   0.0500   0.0500  82.7079 119.0281
-   0.500      NaN       NaN   0.00032  -0.0146   0.0500   0.0500  82.7079 119.0281
-   1.000   0.2115  -0.00835   0.00030  -0.0148   0.0500   0.0500  82.7079 119.0281
-   1.500   0.2727   0.00840   0.00026  -0.0150   0.0500   0.0500  82.7079 119.0281
-   2.000   0.33
-"""
-
-
-def test_damaged_rows_of_a_polar_file_are_dropped() -> None:
-    parse = xfoil._parse  # pyright: ignore[reportPrivateUsage]
-    assert parse(POLAR_TEXT) == {0.0: (0.0888, 0.00828, -0.0144), 1.5: (0.2727, 0.0084, -0.015)}
-    assert parse("nothing here") == {}
-
-
-def test_gaps_are_grouped_outward() -> None:
-    gaps = xfoil._gaps  # pyright: ignore[reportPrivateUsage]
-    assert gaps([-8.5, -8.0, 3.0, 9.0, 9.5, 10.0], 0.5) == [(-8.0, -8.5), (3.0, 3.0), (9.0, 10.0)]
 
 
 @pytest.mark.xfoil
@@ -115,29 +76,6 @@ def test_one_real_polar_is_close_to_thin_airfoil_theory(real_xfoil: None) -> Non
     slope = np.polyfit(np.deg2rad(polar.alpha_deg), polar.cl, 1)[0]
     assert_allclose(slope, 2.0 * np.pi / np.sqrt(1.0 - 0.3**2), rtol=0.1)
     assert polar.alpha_deg.size >= 6
-
-
-@pytest.mark.parametrize(
-    ("does", "limit", "words"),
-    [("kill -FPE $$", 120.0, "converged at only 0 of 7"), ("sleep 60 & wait", 0.05, "from-polars")],
-    ids=["crashes, as Debian's does with its graphics off", "hangs"],
-)
-def test_xfoil_that_fails_is_an_error_not_a_polar(
-    does: str, limit: float, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in ("xfoil", "xvfb-run"):
-        (tmp_path / name).write_text(f"#!/bin/sh\n{does}\n", encoding="utf-8")
-        (tmp_path / name).chmod(0o755)
-    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    monkeypatch.setattr(xfoil, "_TIME_LIMIT", limit)
-    with pytest.raises(XfoilError, match=words):
-        run_polar(load_contour("sc1095"), CASE, FEW)
-
-
-def test_a_damaged_polar_file_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "bad.csv").write_text("mach,reynolds,alpha_deg,cl,cd,cm\n0.3,1e6,0,0.1,-0.01,0\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="line 2"):
-        read_polars(tmp_path / "bad.csv")
 
 
 def test_verify_detects_a_change() -> None:
@@ -150,11 +88,6 @@ def test_verify_detects_a_change() -> None:
     assert found.cl_at == "5 deg, Mach 0.4"
     with pytest.raises(ValueError, match=r"lack Mach 0\.1"):
         make_deck("sc1095", PolarSet((), ()))
-
-
-def test_a_measured_polar_is_not_rebuilt_by_xfoil() -> None:
-    with pytest.raises(XfoilError, match="was measured"):
-        run_trip_polars("naca0015re242k", print)
 
 
 @pytest.mark.slow

@@ -1,15 +1,10 @@
 """Who may use a server, and how much: host names and origins, rate of messages, uploads, freed memory, its log."""
 
 import logging
-import subprocess
-import sys
-import threading
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Iterator
 
 import pytest
 
-from explorer.hosting import gate as memory
 from explorer.hosting.gate import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
 from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback
 
@@ -89,10 +84,6 @@ class TestRateLimiter:
         assert limiter.allows(10_000, 0.0)
         assert not limiter.allows(1_000, 0.5)
 
-    def test_slider_and_camera_together_stay_below_the_limit(self):
-        limiter = RateLimiter(0.0)
-        assert all(limiter.allows(300, k / 70.0) for k in range(70 * 600))
-
 
 class TestUploads:
     def test_files_that_are_accepted(self):
@@ -114,69 +105,6 @@ class TestUploads:
     )
     def test_files_that_are_refused_with_a_sentence(self, sent: tuple[str, int, int, int, str], sentence: str):
         assert sentence in (refuse_upload(*sent) or "")
-
-
-class TestMemory:
-    def test_pages_that_leave_together_are_collected_once(self, monkeypatch: pytest.MonkeyPatch):
-        cleared, due = threading.Semaphore(0), list[Callable[[], None]]()
-
-        class Later(threading.Thread):
-            """A timer whose time comes when the test says so."""
-
-            def __init__(self, pause: float, call: Callable[[], None]) -> None:
-                super().__init__()
-                due.append(call)
-
-            def start(self) -> None: ...
-
-        monkeypatch.setattr(memory, "_due", None)
-        monkeypatch.setattr(memory.gc, "collect", lambda: cleared.release())
-        with monkeypatch.context() as patched:
-            patched.setattr(memory.threading, "Timer", Later)
-            for _ in range(5):
-                memory.give_back_soon()
-        (collect,) = due
-        collect()
-        assert cleared.acquire(blocking=False)
-        assert not cleared.acquire(blocking=False)
-        memory.give_back_soon(0.0)
-        assert cleared.acquire(timeout=60.0)
-
-
-_POOLS = """
-import ctypes, sys, threading
-from explorer.hosting.gate import few_pools
-
-if sys.argv[1] == "few":
-    few_pools()
-held, ready, go = [], threading.Barrier(13), threading.Event()
-
-def hold():
-    held.append([bytes(2000) for _ in range(200)])
-    ready.wait()
-    go.wait()
-
-for _ in range(12):
-    threading.Thread(target=hold, daemon=True).start()
-ready.wait()
-libc = ctypes.CDLL(None)
-libc.fopen.restype = ctypes.c_void_p
-file = ctypes.c_void_p(libc.fopen(sys.argv[2].encode(), b"w"))
-libc.malloc_info(0, file)
-libc.fclose(file)
-go.set()
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="glibc only")
-def test_threads_share_two_pools_of_memory(tmp_path: Path):
-    def pools(how: str) -> int:
-        file = tmp_path / how
-        subprocess.run([sys.executable, "-c", _POOLS, how, str(file)], check=True)
-        return file.read_text(encoding="ascii").count("<heap nr=")
-
-    assert pools("few") <= 2
-    assert pools("many") > 2
 
 
 class Kept(logging.Handler):

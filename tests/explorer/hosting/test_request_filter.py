@@ -24,8 +24,8 @@ from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_lo
 from explorer.model.inputs import OPENING
 from explorer.model.units import number
 from rotor import make_design, solve
-from tests.tools.soak import wire
-from tests.tools.soak.visitor import Visitor, ran
+from tests.tools import wire
+from tests.tools.visitor import Visitor, ran
 
 OUTER = "Δ outboard [°/R]"
 CLIENT = (

@@ -19,7 +19,7 @@ from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.share import Address, view_from
-from tests.tools.soak.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, ran
 
 DIGITS = "9" * 400
 

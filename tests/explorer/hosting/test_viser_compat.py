@@ -20,7 +20,6 @@ import viser
 from PIL import Image
 from viser import _gui_api, _messages, _viser
 from viser._assignable_props_api import AssignablePropsBase
-from viser.infra import _infra
 from websockets import http11
 from websockets.streams import StreamReader
 
@@ -91,10 +90,6 @@ def test_a_message_to_a_browser_that_has_left_is_no_warning():
     asyncio.run(late())
 
 
-def test_servers_use_it():
-    assert vars(_infra)["AsyncMessageBuffer"] is ThreadedBuffer
-
-
 def test_plain_values_are_assigned_as_they_are_and_arrays_cast(monkeypatch: pytest.MonkeyPatch):
     """Without asking viser, which would compare types; an array still becomes one of the property's own type."""
     handle = AssignablePropsBase.__new__(AssignablePropsBase)
@@ -138,12 +133,6 @@ def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
     assert len(queued) == 4
     way[0] = 9.0  # What was sent is nobody else's.
     assert other.position[0] == 1.0
-
-
-def test_share_handlers_are_there_to_be_removed(server: viser.ViserServer):
-    assert server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
-    viser_compat.remove_share_tunnel(server)
-    assert not server._websock_server._incoming_handlers.get(_messages.ShareUrlRequest)
 
 
 def test_a_callback_that_fails_is_logged_and_not_printed(

@@ -72,21 +72,6 @@ def test_energy_identity_for_every_combination(inflow: str, combined: list[tuple
         assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=2e-9, err_msg=name(off))
 
 
-@pytest.mark.parametrize("preset", ["flight", "thesis"])
-@pytest.mark.parametrize(
-    ("mu", "every"),
-    [
-        (0.0, 13),
-        (0.38, 7),
-        *(pytest.param(mu, 1, marks=pytest.mark.slow) for mu in (0.05, 0.38)),
-        pytest.param(0.2, 1, marks=[pytest.mark.slow, pytest.mark.nightly]),
-    ],
-)
-def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
-    for off in EVERY[::every]:
-        assert solve(with_switches(small(mu, preset), off)).converged, name(off)
-
-
 class TestReverseFlow:
     @pytest.mark.parametrize("mu", [0.0, 0.05, 0.13])
     def test_changes_nothing_while_the_circle_is_inside_the_cut_out(self, mu: float):

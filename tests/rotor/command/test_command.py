@@ -3,19 +3,13 @@
 import csv
 import json
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.__main__ import main as explorer_main
-from rotor import __version__
 from rotor.__main__ import main
-from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.switches import SWITCHES
 from rotor.command.optimise import digits_of_band
-from rotor.design.quantities import HOVER_INFLOWS
 from rotor.files.make_design import make_design
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.user_input import parse_range
@@ -180,21 +174,6 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     assert words in err
 
 
-@pytest.mark.parametrize("start", [main, explorer_main])
-def test_version(start: Callable[[list[str]], int], capsys: pytest.CaptureFixture[str]):
-    with pytest.raises(SystemExit):
-        start(["--version"])
-    assert capsys.readouterr().out == f"rotor-explorer {__version__}\n"
-
-
-def test_help_lists_the_values_of_flags(capsys: pytest.CaptureFixture[str]):
-    with pytest.raises(SystemExit):
-        main(["solve", "--help"])
-    words = "".join(capsys.readouterr().out.split())
-    for name in (*INFLOW_MODELS, *(one.flag for one in SWITCHES.values()), "sc1094r8", *HOVER_INFLOWS):
-        assert name in words
-
-
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
@@ -212,18 +191,6 @@ def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, caps
 
 def test_degrees_have_the_digits_that_the_band_deserves():
     assert [digits_of_band(width) for width in (30.0, 3.0, 0.3, 0.0)] == [0, 1, 2, 3]
-
-
-@pytest.mark.parametrize("command", ["", "solve", "sweep", "optimise", "airfoil", "warm", "study"])
-def test_help_says_what_the_command_is_for(command: str, capsys: pytest.CaptureFixture[str]):
-    with pytest.raises(SystemExit):
-        main([*command.split(), "--help"])
-    out = capsys.readouterr().out
-    if not command:
-        assert run(capsys) == (0, out, "")
-    usage, words, *_ = out.split("\n\n")
-    assert usage.startswith("usage: ")
-    assert words.rstrip().endswith(".")
 
 
 def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):

@@ -1,13 +1,11 @@
 """What commands print and write: ranges of every quantity, JSON and CSV on stdout, keys of the JSON, completion."""
 
-import argparse
 import csv
 import io
 import json
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -65,12 +63,6 @@ def test_a_list_that_begins_with_a_minus_is_a_value():
     assert args.rate_deg == "-20,0"
 
 
-@pytest.mark.parametrize(("called", "usage"), [("/usr/bin/rotor", "rotor"), ("x/__main__.py", "python -m rotor")])
-def test_usage_names_what_was_called(called: str, usage: str, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(sys, "argv", [called])
-    assert build_parser().format_usage().startswith(f"usage: {usage} ")
-
-
 @pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
 def test_bash_completes_commands_and_flags(capsys: pytest.CaptureFixture[str]):
     script = run(capsys, "completion")
@@ -79,31 +71,6 @@ def test_bash_completes_commands_and_flags(capsys: pytest.CaptureFixture[str]):
         program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
         done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
         assert done.stdout.split() == [expected]
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["solve", "--mu", "0.3", "--bending"],
-        ["sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16"],
-        ["waterfall", "--mu", "0.3"],
-        ["airfoil", "show", "sc1095"],
-        ["optimise", "--mu", "0.2"],
-        ["validate", "xv15-hover"],
-    ],
-    ids=lambda words: words[0],
-)
-def test_lines_have_100_columns_at_most(words: list[str], capsys: pytest.CaptureFixture[str]):
-    longest = max(run(capsys, *words).splitlines(), key=len)
-    assert len(longest) <= 100, longest
-
-
-def test_help_has_100_columns_at_most_however_wide_the_terminal(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setenv("COLUMNS", "200")
-    (commands,) = (one.choices for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
-    for parser in (build_parser(), *commands.values()):
-        longest = max(parser.format_help().splitlines(), key=len)
-        assert len(longest) <= 100, longest
 
 
 def test_stability_as_text_and_as_json(capsys: pytest.CaptureFixture[str]):

@@ -204,18 +204,6 @@ def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path
     assert "dask scheduler" in done.stderr
 
 
-def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
-    """The scheduler is killed during a run: finished chunks are kept, and the command reports it."""
-    file, out = study_file(tmp_path), tmp_path / "out"
-    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    until(lambda: len(files(out)) >= 5, run)
-    cluster.scheduler.kill()
-    _, complained = run.communicate(timeout=PATIENCE)
-    assert run.returncode == 1
-    assert "the workers are gone" in complained.decode()
-    assert read_results(out).rows >= 125
-
-
 FEW = STUDY.replace('"6000:9000:100"', "[7000, 8000]").replace('"0.05:0.34:0.01"', '"0.1:0.3:0.05"').replace("25", "5")
 """20 trims in four chunks."""
 
@@ -256,20 +244,6 @@ def test_any_executor_computes_the_same_numbers(tmp_path: Path):
                 assert_array_equal(results.columns[column], expected.columns[column], column)
 
 
-def test_a_worker_of_a_cluster_with_four_threads_computes_the_same_numbers(tmp_path: Path):
-    """A Dask worker as its users start it: threads of one process, which share every cache."""
-    distributed = pytest.importorskip("distributed")
-    file = few(tmp_path)
-    expected = run_study(file, out=tmp_path / "here", workers=1)
-    with (
-        distributed.LocalCluster(n_workers=1, threads_per_worker=4, processes=False, dashboard_address=":0") as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        results = run_study(file, client.get_executor(), out=tmp_path / "dask")
-    for column in ("power_total_w", "collective_deg", "flap_1c_deg", "passes"):
-        assert_array_equal(results.columns[column], expected.columns[column], column)
-
-
 def test_a_chunk_whose_worker_was_lost_is_computed_again_three_times_at_most(tmp_path: Path):
     file = few(tmp_path)
     assert run_study(file, Fragile({0: 2, 3: 1}), out=tmp_path / "again").good.all()
@@ -295,22 +269,6 @@ def test_workers_of_another_version_are_refused(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr("rotor.study.run.package_version", lambda: "0.0")
     with ThreadPoolExecutor(1) as threads, pytest.raises(ValueError, match="install the same version on every worker"):
         run_study(few(tmp_path), threads, out=tmp_path / "out")
-
-
-def test_a_killed_process_of_this_machine_is_replaced(tmp_path: Path):
-    """Every one of them once, in the midst of its chunk."""
-    small = study_file(tmp_path)
-    killed: set[str] = set()
-
-    def kill(done: int, total: int) -> None:
-        for worker in workers_of(tmp_path / "out") - killed:
-            killed.add(worker)
-            if len(killed) < 3:
-                os.kill(int(worker.partition(":")[2]), signal.SIGKILL)
-
-    results = run_study(small, out=tmp_path / "out", workers=2, notify=kill)
-    assert len(killed) >= 3
-    same_as_serial(small, results)
 
 
 @pytest.mark.parametrize(("missing", "words"), [("pyarrow", "rotor-explorer[study]"), ("distributed", "[cluster]")])

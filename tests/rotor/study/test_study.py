@@ -134,13 +134,6 @@ def test_a_bad_study_file_is_one_sentence(name: str, tmp_path: Path, capsys: pyt
     assert not (tmp_path / "out").exists()
 
 
-def test_packaged_studies_are_valid():
-    paths = sorted(asset_path("studies").glob("*.toml"))
-    assert [path.name for path in paths] == sorted(SMALLER)
-    for path in paths:
-        assert read_study(path.name).study == read_study(path).study
-
-
 def test_rows_agree_with_single_trims():
     study = parse_study(SMALL)
     for row in evaluate_points(study, 0, study.count):

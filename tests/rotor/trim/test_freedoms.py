@@ -215,15 +215,6 @@ class TestRefused:
         self.refused(ValueError, "hover", RigidLag(), design=rotor.make_design(hover=True))
         self.refused(ValueError, "bend", RigidLag(), design=rotor.make_design(mu=0.2, bending=True))
 
-    def test_what_is_no_freedom(self) -> None:
-        self.refused(TypeError, r"rotor\.Freedom", "lag")
-
-    def test_names_given_twice(self) -> None:
-        self.refused(ValueError, "lag_0", RigidLag(), RigidLag(0.1))
-
-    def test_fields_that_are_no_values(self) -> None:
-        self.refused(TypeError, "unhashable", RigidLag([0.1]))  # pyright: ignore[reportArgumentType]
-
     def test_equations_that_do_not_belong_to_the_columns(self) -> None:
         class NoDamper(RigidLag):
             def power(self, s: Structure) -> list[Addend]:
@@ -236,14 +227,6 @@ class TestRefused:
             states = ("spring", "another")
 
         self.refused(ValueError, "equations", TwoStates())
-
-    def test_shapes_without_values(self) -> None:
-        class Shaped(Spring):
-            def build(self, s: Structure) -> None:
-                super().build(s)
-                s.column(TH, "parabola", 0, 1.0, s.states["spring"])
-
-        self.refused(ValueError, "parabola", Shaped())
 
 
 def test_the_record(tmp_path: Any) -> None:

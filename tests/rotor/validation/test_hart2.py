@@ -6,15 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from patched import Patch
 
 from rotor.aero.lifting_line import WakeCourse
-from rotor.design.design import with_grid
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation import hart2
 from rotor.validation.airloads import agreement, harmonics, our_curve
-from rotor.validation.compare import compare, load_set
 from rotor.validation.hart2 import height, measured_vortices
 
 CURVES = hart2.curves()
@@ -76,25 +73,3 @@ def test_moment_of_the_pitch_rate(solutions: dict[str, Solution]):
     assert math.hypot(expected[3], expected[6]) > 0.001
     rest = whole - expected  # The section's own moment, a fifth of it, and that of d²θ/dt².
     assert math.hypot(rest[3], rest[6]) < 0.0007
-
-
-@pytest.mark.parametrize(
-    ("panels", "azimuths", "wanted"), [(24, 48, (0.55, 0.88)), (36, 72, (0.56, 0.88)), (48, 96, (0.56, 0.88))]
-)
-@pytest.mark.slow
-def test_a_finer_grid_does_not_mend_it(panels: int, azimuths: int, wanted: tuple[float, float]):
-    for (name, case), one in zip(CASES.items(), wanted, strict=True):
-        design = case.design()
-        fine = solve(replace(design, models=with_grid(design.models, panels, azimuths))).require()
-        assert_allclose(agreement(CURVES[name, "cn_m2"], fine).correlation, one, atol=0.02)
-
-
-@pytest.mark.slow
-def test_twice_the_gradient_of_the_wake(patch: Patch):
-    """As the page states it: HART II comes out better, the XV-15 worse."""
-    patch("rotor.aero.lifting_line.GRADIENT", 1.0)
-    for name, wanted, high in (("BL", 0.64, 0.033), ("MN", 0.91, 0.039)):
-        solution = solve(CASES[name].design()).require()
-        assert_allclose(agreement(CURVES[name, "cn_m2"], solution).correlation, wanted, atol=0.02)
-        assert_allclose(hart2.vortex_errors(solution, name)[0], high, atol=0.002)
-    assert_allclose(compare(load_set("xv15-forward-15deg")).rms_percent or 0.0, 7.2, atol=0.2)

@@ -3,14 +3,11 @@
 import math
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 from rotor.validation.airloads import PITCH_LINK, PITCH_LINK_SPEEDS, measured_curves, our_curve
-from rotor.validation.trust import description
-from tests.tools.pitch_link_causes import found_with
 
 
 def test_measured_loads_are_those_of_the_figure():
@@ -55,20 +52,3 @@ def test_load_is_that_of_the_moment_nose_up_on_the_blade():
     assert np.ptp(ours) > 1000.0
     assert_allclose(ours, by_hand, atol=0.12 * np.ptp(ours))  # The bearing's share in two modes only.
     assert np.corrcoef(ours, by_hand)[0, 1] > 0.98
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        "half the control stiffness", "shaft upright", "Pitt–Peters inflow", "without bending",
-        "C_m 0.03 less at negative lift above Mach 0.7",
-    ],
-)  # fmt: skip
-def test_what_was_tried(words: str):
-    """Rows of the table on the trust page, anew at µ 0.37: no input of a design brings 2/rev, that moment would."""
-    table = next(text for text in description(PITCH_LINK).text if text.startswith("| |"))
-    row = next(line for line in table.splitlines() if line[2:].lower().startswith(words.lower()))
-    shown = [float(cell.split(",")[-1].replace("−", "-")) for cell in row.strip("| ").split("|")[1:]]
-    (second,), (curve,) = found_with(words, (0.37,))
-    assert_allclose((second, curve), shown, atol=0.02)
-    assert (second > 0.8 * 1.32) == words.startswith("C_m")  # Measured: 1.32 kN.

@@ -13,7 +13,7 @@ from rotor.assets import MEASURED_ROTORS
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
-from rotor.validation.compare import FIELDS, SETS, ComparedPoint, Comparison, compare, load_set, sets_of
+from rotor.validation.compare import FIELDS, SETS, ComparedPoint, Comparison, compare, load_set
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.page import SETS as TRUST_SETS
 from tests.shipped_rows import still_true
@@ -112,15 +112,6 @@ def test_validate_as_json(capsys: pytest.CaptureFixture[str]):
     assert_allclose(first["rms_percent"], math.sqrt(sum(error**2 for error in judged) / len(judged)))
 
 
-def test_validate_as_text_and_picture(capsys: pytest.CaptureFixture[str], tmp_path: Path):
-    pytest.importorskip("matplotlib")
-    assert main(["validate", "xv15-forward-15deg", "--inflow", "uniform", "--plot", str(tmp_path)]) == 0
-    out = capsys.readouterr().out
-    assert "never fitted" in out
-    assert "target 5 % everywhere: met" in out
-    assert (tmp_path / "xv15-forward-15deg.png").stat().st_size > 5000
-
-
 def test_validate_of_any_set_and_its_page(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     assert main(["validate", "uh60a-constants", "knight-hefner-3", "--page", str(tmp_path)]) == 0
     out, err = capsys.readouterr()
@@ -160,12 +151,6 @@ def test_rows_of_the_trust_page(name: str):
     """Quick sets, recomputed; the others are in the slow test of all rows."""
     for row in TRUST_SETS[name]().rows:
         still_true(row)
-
-
-def test_sets_by_rotor():
-    assert [one.name for one in sets_of("pca2")] == ["pca2"]
-    assert len(sets_of("xv15")) == 4
-    assert sets_of("r22") == ()
 
 
 def test_measured_inflow():

@@ -11,7 +11,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from tests.tools.soak import wire
+from tests.tools import wire
 
 Result = TypeVar("Result")
 BLADE = "/rotor/blade_0"
