@@ -52,26 +52,53 @@ _GATE = 0.04
 _ARM = 0.2
 _LEAST_FINE = 96
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel."""
+_LONGEST = 40.0
+"""Step over a lag time that leaves nothing of what was before."""
 _PI = math.pi
+
+_VALUES = (_X, _MACH, _X_LAGGED, _SEPARATED, _PLACE, _GATED, _VORTEX, _GONE_BY) = tuple(range(8))
+"""On the finer azimuths: x, M, x_f, f″, m″, g, C_nᵛ and τ."""
+_WEIGHTS = (_DECAY, _BEGIN, _END) = tuple(range(3))
+_TRAVEL = (_DISTANCE, _SUM, _FED, _HELD) = tuple(range(4))
+"""s, ∫ g ds, C_nα x (1 − K) and h."""
 
 _compile = compiled(error_model="numpy")
 
 
 @_compile
 def spread(coarse: Any, steps: int, out: Any) -> None:
-    """Linear between azimuths, onto finer ones."""
+    """Linear between azimuths, onto finer ones; after the last comes the first again."""
     n = len(coarse)
-    for k in range(len(out)):
-        c, w = k // steps, (k % steps) / steps
-        out[k] = (1.0 - w) * coarse[c] + w * coarse[(c + 1) % n]
+    for c in range(n):
+        here, after = coarse[c], coarse[c + 1 if c + 1 < n else 0]
+        for m in range(steps):
+            w = m / steps
+            out[c * steps + m] = (1.0 - w) * here + w * after
+    out[n * steps] = coarse[0]
 
 
 @_compile
-def around(decay: Any, z: Any) -> None:
-    """z[k + 1] = decay[k] z[k] + given[k], periodic, where z holds what is given: (azimuths, columns), in place."""
+def _around(decay: Any, z: Any) -> None:
+    """z[k + 1] = decay[k] z[k] + given[k], periodic, in place: z holds what is given. Its end is its beginning."""
+    n = len(decay)
+    value, rest = 0.0, 1.0
+    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+        rest *= decay[k]
+        value = decay[k] * value + z[k]
+    value /= 1.0 - rest
+    for k in range(n):
+        given = z[k]
+        z[k] = value
+        value = decay[k] * value + given
+    z[n] = z[0]
+
+
+@_compile
+def _slopes_around(decay: Any, z: Any) -> None:
+    """`_around` for many columns, (azimuths, columns)."""
     n, columns = z.shape
     value, rest = np.zeros(columns), 1.0
-    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+    for k in range(n):
         rest *= decay[k]
         for j in range(columns):
             value[j] = decay[k] * value[j] + z[k, j]
@@ -85,44 +112,59 @@ def around(decay: Any, z: Any) -> None:
 
 
 @_compile
-def lag(u: Any, du: Any, h: Any, by_mach: Any, dm: Any, z: Any, dz: Any) -> None:
-    """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step.
-
-    h: step over T; by_mach: its slope by the sum of the Mach numbers at its ends; d…: slopes by the seeds.
-    """
-    n, seeds = du.shape
-    rates = np.empty((n, 5))
-    for k in range(n):
-        e = math.exp(-h[k])
-        if h[k] > 1e-4:
-            phi = (1.0 - e) / h[k]
-            by = (e - phi) / h[k]
-        else:
-            phi, by = 1.0 - 0.5 * h[k], -0.5 + h[k] / 3.0
-        rates[k, 0], rates[k, 1], rates[k, 2] = e, phi - e, 1.0 - phi
-        rates[k, 3], rates[k, 4] = by + e, -by
-        z[k] = rates[k, 1] * u[k] + rates[k, 2] * u[(k + 1) % n]
-    decay = rates[:, 0]
-    around(decay, z.reshape(n, 1))
-    for k in range(n if seeds else 0):
-        after = (k + 1) % n
-        a, b = rates[k, 1], rates[k, 2]
-        by = (-decay[k] * z[k] + rates[k, 3] * u[k] + rates[k, 4] * u[after]) * by_mach[k]
-        for j in range(seeds):
-            dz[k, j] = a * du[k, j] + b * du[after, j] + by * (dm[k, j] + dm[after, j])
-    around(decay, dz)
-
-
-@_compile
 def lag_steps(row: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
     """Steps over a lag time, and their slopes by the sum of the Mach numbers at their ends.
 
     row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel over the sum.
     """
-    n = len(mach)
-    for k in range(n):
-        h[k] = unit * (mach[k] + mach[(k + 1) % n]) / row[0, k]
+    for k in range(len(h)):
+        h[k] = unit * (mach[k] + mach[k + 1]) / row[0, k]
         by_mach[k] = (unit - h[k] * 0.5 * row[1, k]) / row[0, k]
+
+
+@_compile
+def lag_weights(h: Any, weights: Any) -> None:
+    """e^−h of each step, and the weights of an input linear in it, at its beginning and at its end, (3, steps).
+
+    1 − e^−h is the series of h/32, doubled five times: this makes vector code, and a short step loses no digits.
+    """
+    for k in range(len(h)):
+        step = h[k] + 1e-30
+        y = 0.03125 * min(step, _LONGEST)
+        q = 1.0 - y * (1.0 / 10.0) * (1.0 - y * (1.0 / 11.0))
+        q = 1.0 - y * (1.0 / 8.0) * (1.0 - y * (1.0 / 9.0) * q)
+        q = 1.0 - y * (1.0 / 6.0) * (1.0 - y * (1.0 / 7.0) * q)
+        q = 1.0 - y * (1.0 / 4.0) * (1.0 - y * (1.0 / 5.0) * q)
+        q = y * (1.0 - y * (1.0 / 2.0) * (1.0 - y * (1.0 / 3.0) * q))
+        q *= 2.0 - q
+        q *= 2.0 - q
+        q *= 2.0 - q
+        q *= 2.0 - q
+        q *= 2.0 - q
+        share = q / step
+        weights[_DECAY, k], weights[_BEGIN, k], weights[_END, k] = 1.0 - q, share - (1.0 - q), 1.0 - share
+
+
+@_compile
+def lag(u: Any, weights: Any, z: Any) -> None:
+    """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step, (steps + 1,)."""
+    for k in range(weights.shape[1]):
+        z[k] = weights[_BEGIN, k] * u[k] + weights[_END, k] * u[k + 1]
+    _around(weights[_DECAY], z)
+
+
+@_compile
+def _lag_slopes(u: Any, du: Any, h: Any, weights: Any, dm: Any, z: Any, dz: Any) -> None:
+    """Slopes of z by the seeds, from those of u and M; h: as `lag_steps` gives it."""
+    n, seeds = du.shape
+    for k in range(n):
+        after = (k + 1) % n
+        step, e, a, b = h[0, k], weights[_DECAY, k], weights[_BEGIN, k], weights[_END, k]
+        by_step = (1.0 - b - e) / step if step > 1e-4 else 0.5 - step / 3.0  # Of b.
+        by = ((e - by_step) * u[k] + by_step * u[after] - e * z[k]) * h[1, k]
+        for j in range(seeds):
+            dz[k, j] = a * du[k, j] + b * du[after, j] + by * (dm[k, j] + dm[after, j])
+    _slopes_around(weights[_DECAY], dz)
 
 
 class StallData(NamedTuple):
@@ -180,32 +222,39 @@ def _add(to: Any, a: float, row: Any) -> None:
 
 
 @_compile
-def _before(distance: Any, back: float, k: int) -> Any:
-    """The step in which the flow was `back` semi-chords before azimuth k, how far in it, and how many turns before."""
-    n = len(distance) - 1
-    total = distance[n]
-    at, turns = distance[k] - back, 0
-    while at < 0.0:
-        at += total
-        turns += 1
-    low, high = 0, n
-    while high - low > 1:
-        middle = (low + high) // 2
-        if distance[middle] <= at:
-            low = middle
-        else:
-            high = middle
-    return low, (at - distance[low]) / (distance[low + 1] - distance[low]), turns
+def _find_before(s: Any, back: Any, times: float, low: Any, share: Any, turns: Any) -> None:
+    """The steps in which the flow was `times` `back` semi-chords before, how far in them, and how many turns before.
+
+    s: travel at the azimuths, from 0 to that of the whole turn. Each search begins where the one before it ended.
+    """
+    n = len(low)
+    step, turn = 0, 0
+    for k in range(n):
+        at = s[k] - times * back[k]
+        place = at + turn * s[n]
+        while place >= s[step + 1]:
+            step += 1
+            if step == n:
+                step, turn = 0, turn - 1
+                place = at + turn * s[n]
+        while place < s[step]:
+            step -= 1
+            if step < 0:
+                step, turn = n - 1, turn + 1
+                place = at + turn * s[n]
+        low[k], turns[k] = step, turn
+        share[k] = (place - s[step]) / (s[step + 1] - s[step])
 
 
 @_compile
-def _along(element: int, tables: Any, section: Any, weight: float, cells: Any, places: Any, x: Any, fm: Any) -> None:
-    """f and m of one row, blended from the two sections of an element, with slopes; Mach cells are there."""
-    places_along_alpha(x, 0.0, cells[0], places[0])
+def _along(element: int, data: Any, cells: Any, places: Any, x: Any, slopes: bool, fm: Any) -> None:
+    """f and m of one row with their slopes by x and M where asked for, (6, steps + 1); Mach cells are there."""
+    places_along_alpha(x[:-1], 0.0, cells[0], places[0])
     for which in range(2):
-        share = weight if which == 1 else 1.0
+        share = data.weight[element] if which == 1 else 1.0
         if share > 0.0:
-            look_up(tables, section[element, which], cells, places, share, True, fm)
+            look_up(data.tables, data.section[element, which], cells, places, share, slopes, fm)
+    fm[0, -1], fm[3, -1] = fm[0, 0], fm[3, 0]
 
 
 @_compile
@@ -226,39 +275,48 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
     """
     n = len(x)
     steps = max(1, -(-_LEAST_FINE // n))
-    fine, seeds = n * steps, 2 * n if slopes else 0
-    unit = (
-        math.pi / fine / (data.half_chord[element] * data.tip_mach)
-    )  # Travel in a step over the Mach numbers at its ends.
-    every = np.zeros((3, fine, seeds))
-    dx, dm, df = every[0], every[1], every[2]
-    xs, ms = np.empty(fine), np.empty(fine)
-    spread(x, steps, xs)
-    spread(mach, steps, ms)
-    _seed(n, steps, dx, dm)
-    cells, places, fm = np.empty((2, fine), np.int32), np.empty((3, fine)), np.zeros((6, fine))
-    rows = np.empty((8, 2, fine))
-    _numbers(data.numbers[element], ms, cells, places, rows)
-    h, by_mach = np.empty(fine), np.empty(fine)
-    lag_steps(rows[LAG_PRESSURE], ms, unit, h, by_mach)
-    xf, dxf = np.empty(fine), np.empty((fine, seeds))
-    lag(xs, dx, h, by_mach, dm, xf, dxf)
-    _along(element, data.tables, data.section, data.weight[element], cells, places, xf, fm)
-    f, dfs, m, dms = np.empty(fine), np.empty((fine, seeds)), np.empty(fine), np.empty((fine, seeds))
-    _separation(rows, ms, dm, unit, fm, dxf, df, f, dfs, m, dms)
-    g, dg = np.empty(fine), dxf
-    _onset(rows, xf, dxf, dm, g, dg)
-    cv, tau = np.zeros(fine), np.zeros(fine)
-    dcv, dtau = np.zeros((fine, seeds)), np.zeros((fine, seeds))
-    if g.max() > 0.0:
-        _vortex(rows, ms, dm, xs, dx, f, dfs, g, dg, unit, cv, dcv, tau, dtau)
-    _along(element, data.tables, data.section, data.weight[element], cells, places, xs, fm)
+    fine = n * steps
+    v = np.zeros((len(_VALUES), fine + 1))
+    spread(x, steps, v[_X])
+    spread(mach, steps, v[_MACH])
+    rows, cells, places = np.empty((8, 2, fine)), np.empty((2, fine), np.int32), np.empty((3, fine))
+    _numbers(data.numbers[element], v[_MACH], cells, places, rows)
+    unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)  # Travel over the Mach numbers at its ends.
+    h, weights = np.empty((3, 2, fine)), np.empty((3, len(_WEIGHTS), fine))
+    for k, lag_time in enumerate((LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX)):
+        lag_steps(rows[lag_time], v[_MACH], unit, h[k, 0], h[k, 1])
+        lag_weights(h[k, 0], weights[k])
+    lagged, static = np.zeros((6, fine + 1)), np.zeros((6, fine + 1))
+    lag(v[_X], weights[0], v[_X_LAGGED])
+    _along(element, data, cells, places, v[_X_LAGGED], slopes, lagged)
+    lag(lagged[0], weights[1], v[_SEPARATED])
+    lag(lagged[3], weights[1], v[_PLACE])
+    for k in range(fine):
+        v[_GATED, k] = _gate(v[_X_LAGGED, k], rows[POSITIVE if v[_X_LAGGED, k] > 0.0 else NEGATIVE, 0, k])[0]
+    v[_GATED, fine] = v[_GATED, 0]
+    vortex = v[_GATED].max() > 0.0
+    travel, low = np.empty((len(_TRAVEL), fine + 1 if vortex else 0)), np.empty((2, fine if vortex else 0), np.int32)
+    turns, share = np.empty_like(low), np.empty(low.shape)
+    if vortex:
+        _shed(rows, unit, weights[2, _DECAY], v, travel, low, turns, share)
+    _along(element, data, cells, places, v[_X], slopes, static)
     added[:] = 0.0
-    by[:] = 0.0
-    _sum_up(rows, steps, fm, xs, f, m, cv, tau, dx, dm, dfs, dms, dcv, dtau, added, by)
+    _sum_up(rows, steps, static, v, added)
     for k in range(n):
-        at = k * steps
-        shown[SEPARATION, k], shown[VORTEX, k], shown[POSITION, k], shown[ONSET_GATE, k] = f[at], cv[at], tau[at], g[at]
+        for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
+            shown[state, k] = v[value, k * steps]
+    if slopes:
+        dx, dm, dg = np.zeros((fine, 2 * n)), np.zeros((fine, 2 * n)), np.empty((fine, 2 * n))
+        _seed(n, steps, dx, dm)
+        df, dplace = np.empty_like(dg), np.empty_like(dg)
+        _separation_slopes(rows, h, weights, lagged, v, dx, dm, dg, df, dplace)
+        dcv, dtau = np.zeros_like(dg), np.zeros_like(dg)
+        if vortex:
+            _shed_slopes(
+                rows, unit, weights[2, _DECAY], h[2, 1], v, travel, low, turns, share, dx, dm, df, dg, dcv, dtau
+            )
+        by[:] = 0.0
+        _sum_up_slopes(rows, steps, static, v, dx, dm, df, dplace, dcv, dtau, by)
 
 
 @_compile
@@ -280,145 +338,167 @@ def _numbers(numbers: Any, ms: Any, cells: Any, places: Any, rows: Any) -> None:
 
     The Mach cells and places that are left are those of the azimuths themselves.
     """
-    fine = len(ms)
-    middle = np.empty(fine)
-    for k in range(fine):
-        middle[k] = 0.5 * (ms[k] + ms[(k + 1) % fine])
+    middle = 0.5 * (ms[:-1] + ms[1:])
     places_along_mach(middle, cells[1], places[1], places[2])
     _over_mach(numbers, LAG_PRESSURE, TRAVEL, cells[1], places, rows)
-    places_along_mach(ms, cells[1], places[1], places[2])
+    places_along_mach(ms[:-1], cells[1], places[1], places[2])
     _over_mach(numbers, 0, LAG_PRESSURE, cells[1], places, rows)
     _over_mach(numbers, TRAVEL, TRAVEL + 1, cells[1], places, rows)
 
 
 @_compile
-def _separation(
-    rows: Any, ms: Any, dm: Any, unit: float, fm: Any, dxf: Any, df: Any, f: Any, dfs: Any, m: Any, dms: Any
-) -> None:
-    """f″ and m″ with their slopes; df is overwritten."""
-    fine = len(ms)
-    h, by_mach = np.empty(fine), np.empty(fine)
-    lag_steps(rows[LAG_SEPARATION], ms, unit, h, by_mach)
+def _separation_slopes(
+    rows: Any, h: Any, weights: Any, fm: Any, v: Any, dx: Any, dm: Any, dg: Any, df: Any, dplace: Any
+) -> None:  # fmt: skip
+    """Slopes of g, f″ and m″ by the seeds; fm: f and m at x_f with theirs."""
+    fine = len(dx)
+    dxf, given = np.empty_like(dx), np.empty_like(dx)
+    _lag_slopes(v[_X], dx, h[0], weights[0], dm, v[_X_LAGGED], dxf)
     for k in range(fine):
-        _combine(df[k], fm[1, k], dxf[k], fm[2, k], dm[k])
-    lag(fm[0], df, h, by_mach, dm, f, dfs)
+        _combine(given[k], fm[1, k], dxf[k], fm[2, k], dm[k])
+    _lag_slopes(fm[0], given, h[1], weights[1], dm, v[_SEPARATED], df)
     for k in range(fine):
-        _combine(df[k], fm[4, k], dxf[k], fm[5, k], dm[k])
-    lag(fm[3], df, h, by_mach, dm, m, dms)
-
-
-@_compile
-def _onset(rows: Any, xf: Any, dxf: Any, dm: Any, g: Any, dg: Any) -> None:
-    """g with its slopes; dg may be dxf."""
-    for k in range(len(xf)):
-        edge = POSITIVE if xf[k] > 0.0 else NEGATIVE
-        g[k], by_x, by_onset = _gate(xf[k], rows[edge, 0, k])
+        _combine(given[k], fm[4, k], dxf[k], fm[5, k], dm[k])
+    _lag_slopes(fm[3], given, h[1], weights[1], dm, v[_PLACE], dplace)
+    for k in range(fine):
+        edge = POSITIVE if v[_X_LAGGED, k] > 0.0 else NEGATIVE
+        _, by_x, by_onset = _gate(v[_X_LAGGED, k], rows[edge, 0, k])
         _combine(dg[k], by_x, dxf[k], by_onset * rows[edge, 1, k], dm[k])
 
 
 @_compile
-def _sum_up(
-    rows: Any, steps: int, fm: Any, x: Any, f: Any, m: Any, cv: Any, tau: Any, dx: Any, dm: Any, dfs: Any, dms: Any,
-    dcv: Any, dtau: Any, added: Any, by: Any,
+def _shed(
+    rows: Any, unit: float, decay: Any, v: Any, travel: Any, low: Any, turns: Any, share: Any
 ) -> None:  # fmt: skip
-    """What is added, brought back to the azimuths given."""
-    fine, seeds = dx.shape
-    n = fine // steps
-    row = np.empty((3, seeds))
-    value = np.empty(3)
-    for k in range(fine):
-        slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
-        now, by_now, root, by_root = _kirchhoff(f[k])
-        rest, by_rest, rest_root, by_rest_root = _kirchhoff(fm[0, k])
-        y, at, mm = x[k], m[k], fm[3, k]
-        arm = _ARM * (1.0 - math.cos(_PI * tau[k]))
-        force, along, turns = now - rest, root - rest_root, now * at - rest * mm
-        value[0] = slope * y * force + cv[k]
-        value[1] = slope * y * y * along
-        value[2] = slope * y * turns - arm * cv[k]
-        if seeds:
-            by_arm = _ARM * _PI * math.sin(_PI * tau[k])
-            for j in range(seeds):
-                dy, dmach = dx[k, j], dm[k, j]
-                dstatic = fm[1, k] * dy + fm[2, k] * dmach
-                dmm = fm[4, k] * dy + fm[5, k] * dmach
-                by_both = slope * dy + by_m * y * dmach  # Of C_nα x.
-                dnow, drest = by_now * dfs[k, j], by_rest * dstatic
-                row[0, j] = by_both * force + slope * y * (dnow - drest) + dcv[k, j]
-                row[1, j] = (by_both + slope * dy) * y * along
-                row[1, j] += slope * y * y * (by_root * dfs[k, j] - by_rest_root * dstatic)
-                row[2, j] = by_both * turns - arm * dcv[k, j] - by_arm * cv[k] * dtau[k, j]
-                row[2, j] += slope * y * (dnow * at + now * dms[k, j] - drest * mm - rest * dmm)
-        c, w = k // steps, (k % steps) / steps
-        after = (c + 1) % n
-        for o in range(3):
-            added[o, c] += (1.0 - w) / steps * value[o]
-            added[o, after] += w / steps * value[o]
-            if seeds:
-                _add(by[o, c], (1.0 - w) / steps, row[o])
-                _add(by[o, after], w / steps, row[o])
+    """C_nᵛ and τ, with the travel, and where the flow was one and two travels of the vortex before."""
+    n = len(decay)
+    g, s, total = v[_GATED], travel[_DISTANCE], travel[_SUM]
+    s[0], total[0] = 0.0, 0.0
+    for k in range(n):
+        step = unit * (v[_MACH, k] + v[_MACH, k + 1])
+        s[k + 1], total[k + 1] = s[k] + step, total[k] + 0.5 * (g[k] + g[k + 1]) * step
+    _find_before(s, rows[TRAVEL, 0], 1.0, low[0], share[0], turns[0])
+    _find_before(s, rows[TRAVEL, 0], 2.0, low[1], share[1], turns[1])
+    for k in range(n):
+        travel[_FED, k] = rows[SLOPE, 0, k] * v[_X, k] * (1.0 - _kirchhoff(v[_SEPARATED, k])[0])
+        j, w = low[0, k], share[0, k]
+        travel[_HELD, k] = g[k] * (1.0 - (1.0 - w) * g[j] - w * g[j + 1])
+        j, w = low[1, k], share[1, k]
+        inside = w * g[j] + 0.5 * w * w * (g[j + 1] - g[j])
+        passed = total[k] + turns[1, k] * total[n] - total[j] - (s[j + 1] - s[j]) * inside
+        v[_GONE_BY, k] = passed / rows[TRAVEL, 0, k]
+    for row in (_FED, _HELD):
+        travel[row, n] = travel[row, 0]
+    fed, held = travel[_FED], travel[_HELD]
+    for k in range(n):
+        v[_VORTEX, k] = math.sqrt(decay[k]) * 0.5 * (held[k] + held[k + 1]) * (fed[k + 1] - fed[k])
+    _around(decay, v[_VORTEX])
 
 
 @_compile
-def _vortex(
-    rows: Any, ms: Any, dm: Any, es: Any, de: Any, f: Any, df: Any, g: Any, dg: Any, unit: float, cv: Any, dcv: Any,
-    tau: Any, dtau: Any,
+def _sum_up(rows: Any, steps: int, static: Any, v: Any, added: Any) -> None:
+    """What is added, brought back to the azimuths given."""
+    n = added.shape[1]
+    for c in range(n):
+        after = c + 1 if c + 1 < n else 0
+        for m in range(steps):
+            k, w = c * steps + m, m / steps
+            slope, y, cv = rows[SLOPE, 0, k], v[_X, k], v[_VORTEX, k]
+            now, _, root, _ = _kirchhoff(v[_SEPARATED, k])
+            rest, _, rest_root, _ = _kirchhoff(static[0, k])
+            force = slope * y * (now - rest) + cv
+            along = slope * y * y * (root - rest_root)
+            moment = slope * y * (now * v[_PLACE, k] - rest * static[3, k])
+            if cv != 0.0:
+                moment -= _ARM * (1.0 - math.cos(_PI * v[_GONE_BY, k])) * cv
+            here, there = (1.0 - w) / steps, w / steps
+            added[0, c] += here * force
+            added[0, after] += there * force
+            added[1, c] += here * along
+            added[1, after] += there * along
+            added[2, c] += here * moment
+            added[2, after] += there * moment
+
+
+@_compile
+def _sum_up_slopes(
+    rows: Any, steps: int, static: Any, v: Any, dx: Any, dm: Any, df: Any, dplace: Any, dcv: Any, dtau: Any, by: Any
 ) -> None:  # fmt: skip
-    """C_nᵛ and τ with their slopes."""
+    """Slopes of what is added by x and M at all azimuths."""
+    fine, seeds = dx.shape
+    n = fine // steps
+    row = np.empty((3, seeds))
+    for k in range(fine):
+        slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
+        now, by_now, root, by_root = _kirchhoff(v[_SEPARATED, k])
+        rest, by_rest, rest_root, by_rest_root = _kirchhoff(static[0, k])
+        y, at, mm, cv, tau = v[_X, k], v[_PLACE, k], static[3, k], v[_VORTEX, k], v[_GONE_BY, k]
+        arm, by_arm = _ARM * (1.0 - math.cos(_PI * tau)), _ARM * _PI * math.sin(_PI * tau)
+        force, along, turns = now - rest, root - rest_root, now * at - rest * mm
+        for j in range(seeds):
+            dy, dmach = dx[k, j], dm[k, j]
+            dstatic = static[1, k] * dy + static[2, k] * dmach
+            dmm = static[4, k] * dy + static[5, k] * dmach
+            by_both = slope * dy + by_m * y * dmach  # Of C_nα x.
+            dnow, drest = by_now * df[k, j], by_rest * dstatic
+            row[0, j] = by_both * force + slope * y * (dnow - drest) + dcv[k, j]
+            row[1, j] = (by_both + slope * dy) * y * along
+            row[1, j] += slope * y * y * (by_root * df[k, j] - by_rest_root * dstatic)
+            row[2, j] = by_both * turns - arm * dcv[k, j] - by_arm * cv * dtau[k, j]
+            row[2, j] += slope * y * (dnow * at + now * dplace[k, j] - drest * mm - rest * dmm)
+        c, w = k // steps, (k % steps) / steps
+        after = (c + 1) % n
+        for o in range(3):
+            _add(by[o, c], (1.0 - w) / steps, row[o])
+            _add(by[o, after], w / steps, row[o])
+
+
+@_compile
+def _shed_slopes(
+    rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, travel: Any, low: Any, turns: Any, share: Any, dx: Any,
+    dm: Any, df: Any, dg: Any, dcv: Any, dtau: Any,
+) -> None:  # fmt: skip
+    """Slopes of C_nᵛ and τ by the seeds; by_mach: those of the steps over T_v by the sum of their Mach numbers."""
     n, seeds = dm.shape
-    s, ds = np.zeros(n + 1), np.zeros((n + 1, seeds))
-    total, dtotal = np.zeros(n + 1), np.zeros((n + 1, seeds))  # ∫ g ds
+    g, s, fed, held = v[_GATED], travel[_DISTANCE], travel[_FED], travel[_HELD]
+    ds, dtotal = np.zeros((n + 1, seeds)), np.zeros((n + 1, seeds))
     for k in range(n):
         after = (k + 1) % n
-        step, mean = unit * (ms[k] + ms[after]), 0.5 * (g[k] + g[after])
-        s[k + 1], total[k + 1] = s[k] + step, total[k] + mean * step
+        step, mean = s[k + 1] - s[k], 0.5 * (g[k] + g[k + 1])
         for j in range(seeds):
             by_step = unit * (dm[k, j] + dm[after, j])
             ds[k + 1, j] = ds[k, j] + by_step
             dtotal[k + 1, j] = dtotal[k, j] + mean * by_step + 0.5 * step * (dg[k, j] + dg[after, j])
-    feed, dfeed = np.empty(n), np.empty((n, seeds))  # C_nα x_E (1 − K)
-    h, dh = np.empty(n), np.empty((n, seeds))
+    dfed, dheld = np.empty_like(dx), np.empty_like(dx)
     for k in range(n):
         slope, by_m = rows[SLOPE, 0, k], rows[SLOPE, 1, k]
-        now, by_now, _, _ = _kirchhoff(f[k])
-        feed[k] = slope * es[k] * (1.0 - now)
-        _combine(dfeed[k], slope * (1.0 - now), de[k], -slope * es[k] * by_now, df[k])
-        _add(dfeed[k], by_m * es[k] * (1.0 - now), dm[k])
-        time, by_time = rows[TRAVEL, 0, k], rows[TRAVEL, 1, k]
-        j0, w, back = _before(s, time, k)
+        now, by_now, _, _ = _kirchhoff(v[_SEPARATED, k])
+        _combine(dfed[k], slope * (1.0 - now), dx[k], -slope * v[_X, k] * by_now, df[k])
+        _add(dfed[k], by_m * v[_X, k] * (1.0 - now), dm[k])
+        time, by_time, tau = rows[TRAVEL, 0, k], rows[TRAVEL, 1, k], v[_GONE_BY, k]
+        j0, w, back = low[0, k], share[0, k], turns[0, k]
         j1, step = (j0 + 1) % n, s[j0 + 1] - s[j0]
-        before = (1.0 - w) * g[j0] + w * g[j1]
-        h[k] = g[k] * (1.0 - before)
-        change = g[j1] - g[j0]
-        low, v, turns = _before(s, 2.0 * time, k)
-        high, wide = (low + 1) % n, s[low + 1] - s[low]
-        rise = g[high] - g[low]
-        inside = v * g[low] + 0.5 * v * v * rise
-        tau[k] = (total[k] + turns * total[n] - total[low] - wide * inside) / time
+        before, change = (1.0 - w) * g[j0] + w * g[j1], g[j1] - g[j0]
+        first, x, around = low[1, k], share[1, k], turns[1, k]
+        last, wide = (first + 1) % n, s[first + 1] - s[first]
+        rise = g[last] - g[first]
+        inside = x * g[first] + 0.5 * x * x * rise
         for j in range(seeds):
             by_w = ds[k, j] + back * ds[n, j] - by_time * dm[k, j] - ds[j0, j] - w * (ds[j0 + 1, j] - ds[j0, j])
             dbefore = (1.0 - w) * dg[j0, j] + w * dg[j1, j] + change / step * by_w
-            dh[k, j] = dg[k, j] * (1.0 - before) - g[k] * dbefore
-            dwide = ds[low + 1, j] - ds[low, j]
-            by_v = ds[k, j] + turns * ds[n, j] - 2.0 * by_time * dm[k, j] - ds[low, j] - v * dwide
-            dinside = v * dg[low, j] + 0.5 * v * v * (dg[high, j] - dg[low, j])
-            whole = dtotal[k, j] + turns * dtotal[n, j] - dtotal[low, j]
-            whole -= dwide * inside + wide * dinside + (g[low] + v * rise) * by_v
-            dtau[k, j] = (whole - tau[k] * by_time * dm[k, j]) / time
-    steps, by_mach = np.empty(n), np.empty(n)
-    lag_steps(rows[LAG_VORTEX], ms, unit, steps, by_mach)
-    decay = np.exp(-steps)
+            dheld[k, j] = dg[k, j] * (1.0 - before) - g[k] * dbefore
+            dwide = ds[first + 1, j] - ds[first, j]
+            by_x = ds[k, j] + around * ds[n, j] - 2.0 * by_time * dm[k, j] - ds[first, j] - x * dwide
+            dinside = x * dg[first, j] + 0.5 * x * x * (dg[last, j] - dg[first, j])
+            whole = dtotal[k, j] + around * dtotal[n, j] - dtotal[first, j]
+            whole -= dwide * inside + wide * dinside + (g[first] + x * rise) * by_x
+            dtau[k, j] = (whole - tau * by_time * dm[k, j]) / time
     for k in range(n):
         after = (k + 1) % n
-        cv[k] = math.sqrt(decay[k]) * 0.5 * (h[k] + h[after]) * (feed[after] - feed[k])
-    around(decay, cv.reshape(n, 1))
-    for k in range(n if seeds else 0):
-        after = (k + 1) % n
-        root, mean, grown = math.sqrt(decay[k]), 0.5 * (h[k] + h[after]), feed[after] - feed[k]
-        by = -(decay[k] * cv[k] + 0.5 * root * mean * grown) * by_mach[k]
+        root, mean, grown = math.sqrt(decay[k]), 0.5 * (held[k] + held[after]), fed[after] - fed[k]
+        by = -(decay[k] * v[_VORTEX, k] + 0.5 * root * mean * grown) * by_mach[k]
         for j in range(seeds):
-            by_mean = 0.5 * (dh[k, j] + dh[after, j])
-            dcv[k, j] = root * (by_mean * grown + mean * (dfeed[after, j] - dfeed[k, j])) + by * (
-                dm[k, j] + dm[after, j]
-            )
-    around(decay, dcv)
+            by_mean = 0.5 * (dheld[k, j] + dheld[after, j])
+            dcv[k, j] = root * (by_mean * grown + mean * (dfed[after, j] - dfed[k, j]))
+            dcv[k, j] += by * (dm[k, j] + dm[after, j])
+    _slopes_around(decay, dcv)

@@ -108,6 +108,9 @@ TURNS = 2
 FAR_STEP = math.pi / 6.0
 LENGTH = 8.0
 """Distance of the wake's end, over R."""
+OLDEST = 200.0 * math.pi
+"""Age of the wake's end [rad] where hardly anything carries it away, so that its nodes are bounded. 100 turns reach
+8 R down to a transport of 0.0127 ΩR, in hover C_T 3e-4; helicopters fly at some 5e-3."""
 GROUP = 3
 """Panels of one strip of the far wake."""
 LEAST_CORE = 0.02
@@ -228,7 +231,7 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
     ages = np.arange(near, turns + 1, dtype=np.float64) * step
     old = course.nodes(psi, ages, line.edges[picked])
-    begin, end = turns * step, LENGTH / course.speed
+    begin, end = turns * step, LENGTH / max(course.speed, LENGTH / OLDEST)
     oldest = np.linspace(begin, max(end, begin + FAR_STEP), max(math.ceil((end - begin) / FAR_STEP), 1) + 1)
     last = course.nodes(psi, oldest, line.edges[picked])
     parts = _Parts(len(psi))

@@ -72,9 +72,13 @@ def look_up(tables: Any, which: int, cells: Any, places: Any, share: float, slop
     of places is ∂place/∂M. share: of this section, 1 for the first of two. Slopes only where they are asked for.
     """
     for k in range(tables.shape[3]):
-        for j in range(places.shape[1]):
-            value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
-            _blend(out, 3 * k, j, share, value)
-            if slopes:
+        if slopes:
+            for j in range(places.shape[1]):
+                value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
+                _blend(out, 3 * k, j, share, value)
                 _blend(out, 3 * k + 1, j, share, by_u * INVERSE_ALPHA)
                 _blend(out, 3 * k + 2, j, share, by_v * places[2, j])
+        else:
+            for j in range(places.shape[1]):
+                value, _, _ = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
+                _blend(out, 3 * k, j, share, value)

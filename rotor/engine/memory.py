@@ -10,12 +10,37 @@ it in pairs, so products of measures and columns are formed at all azimuths of a
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from rotor.arrays import Array
+from rotor.compiled import compiled
 from rotor.engine.terms import Structure
 from rotor.engine.waves import WaveGrid
+
+_compile = compiled(error_model="numpy")
+
+
+@_compile
+def _transposed(left: Any, kernel: Any, right: Any, forces: Any, channels: Any) -> None:
+    """Add (L N R)ᵀ times weights on the forces to the channels: one pass over N, whose rows lie in a row."""
+    outputs, inputs, elements, azimuths = kernel.shape[:4]
+    given = np.empty((inputs, azimuths))
+    for e in range(elements):
+        given[:] = 0.0
+        for k in range(outputs):
+            for i in range(azimuths):
+                weight = 0.0
+                for o in range(len(left)):
+                    weight += forces[o, e, i] * left[o, k, e, i]
+                for inp in range(inputs):
+                    for j in range(azimuths):
+                        given[inp, j] += weight * kernel[k, inp, e, i, j]
+        for inp in range(inputs):
+            for c in range(len(channels)):
+                for j in range(azimuths):
+                    channels[c, e, j] += given[inp, j] * right[inp, c, e, j]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +64,9 @@ class Memory:
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
-        outputs = np.einsum("oei,okei->kei", forces, self.left)
-        inputs = np.einsum("kei,kleij->lej", outputs, self.kernel, optimize=True)
-        return np.einsum("lej,lcej->cej", inputs, self.right)
+        channels = np.zeros((self.right.shape[1], *forces.shape[1:]))
+        _transposed(self.left, self.kernel, self.right, forces, channels)
+        return channels
 
     def by_inputs(self, waves: WaveGrid) -> Array:
         """∂ of the means of all forces with all waves by the inputs at all azimuths.

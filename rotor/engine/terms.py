@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 
 from rotor.arrays import Array, Integers, fix, fixed_property
 from rotor.compiled import compiled
@@ -286,10 +286,10 @@ class Structure:
         return np.unique(self.column_arrays[0], return_inverse=True)
 
     @fixed_property
-    def by_atom(self) -> tuple[Integers, NDArray[np.int32], NDArray[np.int32]]:
-        """∂(wave coefficients)/∂z as a sparse matrix in rows of states and derived atoms.
+    def by_atom(self) -> tuple[Integers, csr_matrix]:
+        """∂(wave coefficients)/∂z by states and derived atoms, (atoms, coefficients).
 
-        Where its values stand among the columns by their z_i, then by their z_j; its columns; where each row begins.
+        Where its values stand among the columns by their z_i, then by their z_j; the matrix, without its values.
         """
         _, column = self._coefficients
         _, i, j, _ = self.column_arrays
@@ -297,7 +297,10 @@ class Structure:
         order = np.argsort(atoms, kind="stable")
         order = order[atoms[order] >= 0]
         first = np.searchsorted(atoms[order], np.arange(self.given + len(self.derived) - self.first_state + 1))
-        return order, column[order].astype(np.int32), first.astype(np.int32)
+        shape = len(first) - 1, len(self.coefficient_places)
+        pattern = csr_matrix((np.zeros(len(order)), column[order], first), shape)
+        fix((pattern.data, pattern.indices, pattern.indptr))
+        return order, pattern
 
     @fixed_property
     def coefficient_places(self) -> Integers:

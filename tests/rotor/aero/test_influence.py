@@ -182,6 +182,16 @@ def test_what_ends_the_near_wake_and_begins_the_strips_cancels(steps: int):
     assert np.linalg.norm(found.sum(axis=0)) < 1e-4 * np.linalg.norm(found, axis=1).max()
 
 
+@pytest.mark.parametrize("mu", [1e-300, 1e-5, 1e-3])
+def test_a_wake_that_nothing_carries_away_ends_all_the_same(mu: float):
+    """Without thrust near hover its end was 8 R / V turns away, and took all memory."""
+    course = replace(HOVER, mu_x=mu, mu_z=0.0, lambda0=0.0)
+    line = LiftingLine(2, 0.2, 4, 8)
+    wake = build_wake(line, course, np.zeros(1))
+    assert wake.ends.shape[1] < 20_000
+    assert np.isfinite(influence(line, course)).all()
+
+
 def test_many_blades_in_hover_approach_momentum_theory():
     """Uniform load of 12 blades, Γ = 2π C_T/N_b: λ = √(C_T/2) by a semi-infinite vortex cylinder, away from its edges.
 
