@@ -121,7 +121,7 @@ def _picture(drawn: Map) -> bytes:
     change[1:, :] |= ring[1:, :] != ring[:-1, :]
     pixels[binary_dilation(change, _THICKER)] = _LINE
     band = excess <= BAND
-    pixels[binary_dilation(band, _THICKER, 2) & ~band] = _EDGE
+    pixels[binary_dilation(band, _THICKER, 3) & ~band] = _EDGE
     pixels[~known] = 0
     entries = np.zeros((256, 4), dtype=np.uint8)
     entries[1 : 1 + _COLOURS, :3] = colour_map("sequential", _COLOURS)
