@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.picture.fields import FIELDS
-from explorer.picture.polar import MarkedRegion, Marks, polar_grid, refined, region_codes
+from explorer.picture.polar import Drawn, MarkedRegion, Marks, polar_grid, refined, region_codes
 from explorer.picture.wake import inflow_arrows, tip_vortex_path
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -40,7 +40,7 @@ class TestFields:
     def test_they_are_those_of_even_elements(self, title: str, few: Solution, even: Solution):
         field = FIELDS[title]
         grid = polar_grid(few.disk, 112, 240)
-        ours, theirs = field.sample(few, grid), field.sample(even, polar_grid(even.disk, 112, 240))
+        ours, theirs = field.sample(Drawn(few), grid), field.sample(Drawn(even), polar_grid(even.disk, 112, 240))
         inner = (grid.r > 0.2) & (grid.r < 0.97)
         shown = inner[:, None] & (refined(even, polar_grid(even.disk, 112, 240)).u_t > 0.05)
         error = np.abs(ours - theirs)[shown]
@@ -50,7 +50,7 @@ class TestFields:
     def test_no_bands(self, few: Solution):
         """Thrust rises and falls smoothly along the blade: no step of an element is seen in its second difference."""
         grid = polar_grid(few.disk, 400, 12)
-        values = FIELDS["Thrust dT/dr"].sample(few, grid)
+        values = FIELDS["Thrust dT/dr"].sample(Drawn(few), grid)
         inner = (grid.r > few.disk.r[1]) & (grid.r < 0.8)
         steps = np.abs(np.diff(values[inner], axis=0)).max()
         bends = np.abs(np.diff(values[inner], 2, axis=0)).max()
@@ -61,7 +61,7 @@ class TestMarks:
     def test_marks(self, few: Solution, even: Solution):
         shares = []
         for solution in (few, even):
-            codes = region_codes(solution, polar_grid(solution.disk, 112, 384), Marks(), 0.004)
+            codes = region_codes(Drawn(solution), polar_grid(solution.disk, 112, 384), Marks(), 0.004)
             assert codes is not None
             shares.append([(codes == region).mean() for region in MarkedRegion])
         assert_allclose(shares[0], shares[1], atol=0.01)
