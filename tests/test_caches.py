@@ -15,7 +15,6 @@ FIXED = {
     "nature, and published tables": """
         GRAVITY LEAST_SEPARATION WIDEST _CENTRE _LAGS _LAG_MACH REVERSE_FLOW_DEG
     """,
-    "uncertain inputs, and what changes them": "_CHANGES _PART",
 }
 
 

@@ -12,7 +12,7 @@ from explorer.model.units import SI, Units
 from explorer.picture import disk_image
 from explorer.picture.fields import Field, reverse_flow
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import ALL_MARKS, MarkedRegion, Marks, polar_grid, region_codes
+from explorer.picture.polar import ALL_MARKS, Drawn, MarkedRegion, Marks, polar_grid, region_codes
 from explorer.text.design_words import flight_words, title_words
 from rotor import Solution
 from rotor.chart import bar_ticks
@@ -237,8 +237,8 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
 
 def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, Markup]]:
     """Key of the marked regions and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
-    grid, ink = polar_grid(solution.disk, 80, 240), DiskInk()
-    codes = region_codes(solution, grid, marks, 0.02)
+    drawn, grid, ink = Drawn(solution), polar_grid(solution.disk, 80, 240), DiskInk()
+    codes = region_codes(drawn, grid, marks, 0.02)
     entries: list[tuple[str, Markup]] = []
     for region, title, colour, dashes in (
         (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, None),
@@ -248,6 +248,6 @@ def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> l
         if codes is not None and (codes == region).any():
             swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
             entries.append((title, swatch))
-    if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(solution, grid).any():
+    if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(drawn, grid).any():
         entries.append(("not defined", tag("rect", width=14, height=8, rx=1.5, fill=css(VOID))))
     return entries

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from explorer.colours import Scheme
 from explorer.model.inputs import ViewState
-from explorer.picture.polar import PolarGrid, polar_grid, refined
+from explorer.picture.polar import Drawn, PolarGrid, polar_grid
 from rotor import Rotor, Solution
 from rotor.arrays import Array
 from rotor.chart import round_up
@@ -27,11 +27,11 @@ class Field:
     """Lower end of the fixed colour range, in `unit`."""
     high: float
     colours: Scheme
-    sample: Callable[[Solution, PolarGrid], Array]
+    sample: Callable[[Drawn, PolarGrid], Array]
     """Values in `unit` on the polar grid, shape (radii, azimuths); finite everywhere."""
     void_in_reverse_flow: bool = False
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
-    absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
+    absent: Callable[[Drawn, PolarGrid], NDArray[np.bool_]] | None = None
     """Where else the quantity is not defined, on the polar grid."""
     needs: str = ""
     """Field of `DiskFields` that holds the quantity, where a model may be off; empty: always there."""
@@ -48,66 +48,66 @@ class Field:
     def label(self) -> str:
         return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
 
-    def exists(self, solution: Solution) -> bool:
+    def exists(self, solution: Solution | Drawn) -> bool:
         """Whether the models of a solution have the quantity."""
         return not self.needs or getattr(solution.disk, self.needs) is not None
 
-    def void(self, solution: Solution, grid: PolarGrid) -> NDArray[np.bool_] | None:
+    def void(self, drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_] | None:
         """Where there is no value on the polar grid, shape (radii, azimuths); None: nowhere."""
-        if not self.exists(solution):
+        if not self.exists(drawn):
             return np.ones(grid.shape, dtype=bool)
-        parts = [] if self.absent is None else [self.absent(solution, grid)]
+        parts = [] if self.absent is None else [self.absent(drawn, grid)]
         if self.void_in_reverse_flow:
-            parts.append(reverse_flow(solution, grid))
+            parts.append(reverse_flow(drawn, grid))
         return np.logical_or.reduce(parts) if parts else None
 
 
-def reverse_flow(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
+def reverse_flow(drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where U_T < 0 on the polar grid, shape (radii, azimuths)."""
-    return refined(solution, grid).u_t < 0.0
+    return drawn.flow(grid).u_t < 0.0
 
 
-def _refined(name: str, least: float = -math.inf) -> Callable[[Solution, PolarGrid], Array]:
+def _refined(name: str, least: float = -math.inf) -> Callable[[Drawn, PolarGrid], Array]:
     """Samples a field of the disk as it is, at least `least`."""
-    return lambda solution, grid: np.maximum(grid.refine(getattr(solution.disk, name)), least)
+    return lambda drawn, grid: np.maximum(grid.refine(getattr(drawn.disk, name)), least)
 
 
-def _degrees(name: str) -> Callable[[Solution, PolarGrid], Array]:
+def _degrees(name: str) -> Callable[[Drawn, PolarGrid], Array]:
     """Samples an angle that pictures read."""
-    return lambda solution, grid: np.degrees(getattr(refined(solution, grid), name)).astype(np.float64)
+    return lambda drawn, grid: np.degrees(getattr(drawn.flow(grid), name)).astype(np.float64)
 
 
-def _cl(solution: Solution, grid: PolarGrid) -> Array:
+def _cl(drawn: Drawn, grid: PolarGrid) -> Array:
     """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
-    disk = solution.disk
+    disk = drawn.disk
     weight = disk.mach**2
     cl = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
     # Run on over half a wide element at the root, the weight may come near zero.
     return np.clip(cl, disk.cl.min(), disk.cl.max())
 
 
-def _m2cn(solution: Solution, grid: PolarGrid) -> Array:
-    disk = solution.disk
+def _m2cn(drawn: Drawn, grid: PolarGrid) -> Array:
+    disk = drawn.disk
     return grid.refine(disk.mach**2 * (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)))
 
 
-def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[Solution, PolarGrid], Array]:
+def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[Drawn, PolarGrid], Array]:
     """Samples a force [kN/m] or power [kW/m] per length of one blade; `unit`: field of a design, what 1 stands for."""
 
-    def sample(solution: Solution, grid: PolarGrid) -> Array:
-        design = solution.design
+    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
+        design = drawn.design
         scale: float = getattr(design, unit) / (design.rotor.blades * design.rotor.radius) / 1e3
-        return grid.refine(of(solution.disk)) * scale
+        return grid.refine(of(drawn.disk)) * scale
 
     return sample
 
 
-def _circulation(solution: Solution, grid: PolarGrid) -> Array:
+def _circulation(drawn: Drawn, grid: PolarGrid) -> Array:
     """Lift per length over ρU; weighted by U², which is smooth where the flow stands still."""
-    rotor, condition, disk = solution.design.rotor, solution.design.condition, solution.disk
+    rotor, condition, disk = drawn.design.rotor, drawn.design.condition, drawn.disk
     lift_times_speed = disk.dct * disk.u_t + disk.dcq * disk.u_p
     square = np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3)
-    unit = solution.design.thrust_unit / (rotor.blades * rotor.radius * condition.density * rotor.tip_speed)
+    unit = drawn.design.thrust_unit / (rotor.blades * rotor.radius * condition.density * rotor.tip_speed)
     return grid.refine(lift_times_speed) / square * unit
 
 
@@ -124,26 +124,26 @@ _profile_power = _per_metre("power_unit", _dissipation)
 """Without the friction of the flow along the blade."""
 
 
-def _drag(solution: Solution, grid: PolarGrid) -> Array:
+def _drag(drawn: Drawn, grid: PolarGrid) -> Array:
     """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
-    rotor, disk = solution.design.rotor, solution.disk
+    rotor, disk = drawn.design.rotor, drawn.disk
     speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3))
     force = grid.refine(_dissipation(disk)) / speed
-    return np.maximum(force, 0.0) * (solution.design.thrust_unit / (rotor.blades * rotor.radius))
+    return np.maximum(force, 0.0) * (drawn.design.thrust_unit / (rotor.blades * rotor.radius))
 
 
-def _elastic_deg(solution: Solution, grid: PolarGrid) -> Array:
-    elastic = solution.disk.elastic_twist
+def _elastic_deg(drawn: Drawn, grid: PolarGrid) -> Array:
+    elastic = drawn.disk.elastic_twist
     if elastic is None:
         return np.zeros(grid.shape)
     return np.degrees(grid.refine(elastic))
 
 
-def _unsteady(name: str) -> Callable[[Solution, PolarGrid], Array]:
+def _unsteady(name: str) -> Callable[[Drawn, PolarGrid], Array]:
     """Samples a field of dynamic stall."""
 
-    def sample(solution: Solution, grid: PolarGrid) -> Array:
-        unsteady = solution.disk.unsteady
+    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
+        unsteady = drawn.disk.unsteady
         if unsteady is None:
             return np.zeros(grid.shape)
         return np.clip(grid.refine(getattr(unsteady, name)), -2.0, 1.0 if name == "separation" else 2.0)
@@ -239,15 +239,16 @@ def shown_field(view: ViewState, pinned: Solution | None) -> Field:
 
 def difference(field: Field, pinned: Solution) -> Field:
     """`field` of a solution minus that of the pinned one, centred on zero."""
+    a = Drawn(pinned)
 
-    def sample(solution: Solution, grid: PolarGrid) -> Array:
+    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
         if not pinned.converged:
             return np.zeros(grid.shape)
-        return field.sample(solution, grid) - field.sample(pinned, _over(pinned, grid))
+        return field.sample(drawn, grid) - field.sample(a, _over(pinned, grid))
 
-    def absent(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
-        del solution
-        return _absent(field, pinned, grid)
+    def absent(drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
+        del drawn
+        return _absent(field, a, grid)
 
     name = field.title if field.title.startswith(_NAMES) else field.title[0].lower() + field.title[1:]
     half = round_up(_PART * (field.high - field.low))
@@ -263,13 +264,13 @@ def difference(field: Field, pinned: Solution) -> Field:
     )
 
 
-def _absent(field: Field, pinned: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
+def _absent(field: Field, a: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where A has no such quantity, on B's grid: beyond its blade, in its reverse flow, everywhere without a trim."""
-    if not pinned.converged:
+    if not a.solution.converged:
         return np.ones(grid.shape, dtype=bool)
-    disk = pinned.disk
+    disk = a.disk
     beyond = (grid.r < disk.edges[0] - 1e-9) | (grid.r > disk.edges[-1] + 1e-9)
-    void = field.void(pinned, _over(pinned, grid))
+    void = field.void(a, _over(a.solution, grid))
     beyond = np.repeat(beyond[:, None], len(grid.psi), axis=1)
     return beyond if void is None else beyond | void
 

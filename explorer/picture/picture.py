@@ -16,7 +16,7 @@ from explorer.picture.airframe import SHAFT_FORWARD, size
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.disk_image import encode_png
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import NO_MARKS, Marks, polar_grid, refined, region_codes
+from explorer.picture.polar import NO_MARKS, Drawn, Marks, polar_grid, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw
@@ -318,9 +318,10 @@ def disk_png(
     size = min(size, disk_image.LARGEST)
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
     half_width = _LINE_PIXELS * 2.0 / max(size, 640)
-    regions = region_codes(solution, grid, marks, half_width)
-    void = field.void(solution, grid)
-    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void, size, regions)
+    drawn = Drawn(solution)
+    regions = region_codes(drawn, grid, marks, half_width)
+    void = field.void(drawn, grid)
+    pixels = disk_image.indices(grid, field.sample(drawn, grid), *colour_range, void, size, regions)
     return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
 
 
@@ -333,8 +334,9 @@ def field_values(solution: Solution, field: Field) -> Array:
     # Rows at equal steps of r², which ring areas go with.
     r = np.sqrt(np.linspace(grid.r[0] ** 2, grid.r[-1] ** 2, 2 * len(grid.r)))
     rows = np.rint(np.interp(r, grid.r, np.arange(len(grid.r)))).astype(int)
-    values, void = field.sample(solution, grid)[rows], field.void(solution, grid)
+    drawn = Drawn(solution)
+    values, void = field.sample(drawn, grid)[rows], field.void(drawn, grid)
     if void is None:
         return values.ravel()
-    beside = void | (refined(solution, grid).u_t < _SLOW) if field.void_in_reverse_flow else void
+    beside = void | (drawn.flow(grid).u_t < _SLOW) if field.void_in_reverse_flow else void
     return values[~beside[rows]]

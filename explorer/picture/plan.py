@@ -13,7 +13,7 @@ from explorer.model.units import UNITS, number
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
+from explorer.picture.polar import Drawn, PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, as_json
@@ -58,7 +58,7 @@ def drag_divergence_segments(solution: Solution) -> Array:
     """Where drag diverges, the reverse-flow region left out; shape (n, 2, 2), in radii."""
     disk = solution.disk
     grid = polar_grid(disk, *_OUTLINED)
-    slope = divergence_margin(solution, grid).astype(np.float64)
+    slope = divergence_margin(Drawn(solution), grid).astype(np.float64)
     # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
     return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5)
 
@@ -174,7 +174,7 @@ def plan(
         content["values"] = _values(solution, field)
         if pinned is not None:
             content["alpha_a"] = _packed(
-                FIELDS[_READ["alpha"]].sample(pinned, polar_grid(pinned.disk, _RADII, _AZIMUTHS))
+                FIELDS[_READ["alpha"]].sample(Drawn(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS))
             )
     return content
 
@@ -223,7 +223,7 @@ def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
     total = float(np.sum(thrust))
     shares = {
         name: (float(np.sum(area[inside])) * rings * steps / math.pi, float(np.sum(thrust[inside])) / total)
-        for name, inside in region_masks(solution, grid).items()
+        for name, inside in region_masks(Drawn(solution), grid).items()
     }
     stalled = shares["stall"][0] + shares["negative_stall"][0]
     for name in ("stall", "negative_stall") if stalled else ():
@@ -240,10 +240,10 @@ def _lines(segments: Array) -> list[list[list[float]]]:
 
 
 def _values(solution: Solution, field: Field) -> dict[str, dict[str, Any]]:
-    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
-    tables = {name: FIELDS[title].sample(solution, grid) for name, title in _READ.items()}
-    flow = refined(solution, grid)
-    tables |= {"lower": np.degrees(flow.lower), "upper": np.degrees(flow.upper), "field": field.sample(solution, grid)}
+    drawn, grid = Drawn(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    tables = {name: FIELDS[title].sample(drawn, grid) for name, title in _READ.items()}
+    flow = drawn.flow(grid)
+    tables |= {"lower": np.degrees(flow.lower), "upper": np.degrees(flow.upper), "field": field.sample(drawn, grid)}
     return {name: _packed(values) for name, values in tables.items()}
 
 

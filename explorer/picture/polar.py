@@ -171,12 +171,8 @@ def _along(points: Array, r: Array) -> Array:
     return matrix
 
 
-@lru_cache(maxsize=8)  # A blade that turns asks again and again for the same answer's.
 def stall_angles(solution: Solution) -> tuple[Array, Array]:
-    """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each.
-
-    Of the last few solutions they are kept: do not write into them.
-    """
+    """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each."""
     disk, blade = solution.disk, solution.design.rotor.blade
     places = [blade.section_at(float(r)) for r in disk.r]
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
@@ -229,7 +225,6 @@ def angles_of_attack(theta: Single, u_t: Single, u_p: Single) -> Single:
     return alpha
 
 
-@lru_cache(maxsize=3)  # The field and the marked regions of one picture share it.
 def refined(solution: Solution, grid: PolarGrid) -> Refined:
     """The flow and the stall angles of a solution on a polar grid.
 
@@ -240,6 +235,19 @@ def refined(solution: Solution, grid: PolarGrid) -> Refined:
     theta, u_t, u_p, low, high = grid.refine_all((disk.theta, disk.u_t, disk.u_p, lower, upper))
     separation = None if disk.unsteady is None else grid.refine_all((disk.unsteady.separation,))[0]
     return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high, separation)
+
+
+class Drawn:
+    """A solution as one picture reads it: the field and the marked regions on it share its flow."""
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution, self.disk, self.design = solution, solution.disk, solution.design
+        self._flows = dict[PolarGrid, Refined]()
+
+    def flow(self, grid: PolarGrid) -> Refined:
+        if grid not in self._flows:
+            self._flows[grid] = refined(self.solution, grid)
+        return self._flows[grid]
 
 
 Bytes = NDArray[np.uint8]
@@ -277,14 +285,14 @@ class Marks:
 ALL_MARKS, NO_MARKS = Marks(), Marks(False, False, False)
 
 
-def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
+def region_codes(drawn: Drawn, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
     """A `MarkedRegion` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
 
     `half_width`: of the lines, in radii.
     """
     if marks == NO_MARKS:
         return None
-    flow = refined(solution, grid)
+    flow = drawn.flow(grid)
     clear = flow.u_t > _CLEAR_OF_REVERSE
     codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
 
@@ -296,7 +304,7 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
         mark_below(codes, MarkedRegion.STALLED.value, attached, clear)
         line(MarkedRegion.STALL_RIM, attached, clear, 0.8)
     if marks.drag_divergence:
-        line(MarkedRegion.DASH, divergence_margin(solution, grid), clear & _dashes(grid), 1.0)
+        line(MarkedRegion.DASH, divergence_margin(drawn, grid), clear & _dashes(grid), 1.0)
     if marks.reverse_flow:
         everywhere = np.ones_like(clear)
         mark_below(codes, MarkedRegion.REVERSE.value, flow.u_t, everywhere)
@@ -311,9 +319,9 @@ def _dashes(grid: PolarGrid) -> Booleans:
     return dash & (grid.r[:, None] < 0.995)
 
 
-def divergence_margin(solution: Solution, grid: PolarGrid) -> Single:
+def divergence_margin(drawn: Drawn, grid: PolarGrid) -> Single:
     """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
-    slope = filled(solution.disk, np.clip(solution.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
+    slope = filled(drawn.disk, np.clip(drawn.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
     return _smoothing(grid)([slope])[0] - np.float32(DRAG_DIVERGENCE)
 
 
@@ -378,15 +386,15 @@ def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_wid
                     codes[i, j] = code
 
 
-def region_masks(solution: Solution, grid: PolarGrid) -> dict[str, Booleans]:
+def region_masks(drawn: Drawn, grid: PolarGrid) -> dict[str, Booleans]:
     """Where each region lies on the polar grid, shape (radii, azimuths), by name; none of them in reverse flow but
     that itself.
     """
-    flow = refined(solution, grid)
+    flow = drawn.flow(grid)
     stalled, up = (flow.attached < 0.0) & (flow.u_t > 0.0), flow.alpha > 0.5 * (flow.upper + flow.lower)
     return {
         "stall": stalled & up,
         "negative_stall": stalled & ~up,
         "reverse_flow": flow.u_t < 0.0,
-        "drag_divergence": (divergence_margin(solution, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
+        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
     }

@@ -17,7 +17,9 @@ from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
+from rotor import Solution
 from rotor.processes import Processes
+from rotor.trim import Analysis
 from rotor.user_input import brief
 
 _log = logging.getLogger(__name__)
@@ -47,6 +49,22 @@ class Tab:
         """The browser has left: end threads and jobs."""
 
 
+_SHOWN = 4
+"""Solutions at once: of the sliders, the reference, the optimiser's, and one that is on its way."""
+
+
+class Analyses:
+    """Those of the solutions that a page shows: its parts ask for slopes and bands of the same ones."""
+
+    def __init__(self) -> None:
+        self._kept: tuple[Analysis, ...] = ()
+
+    def of(self, solution: Solution) -> Analysis:
+        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
+        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
+        return found
+
+
 class TabContext:
     """One page's. What a part may call is safe from any thread."""
 
@@ -56,6 +74,7 @@ class TabContext:
 
     def __init__(self, client: viser.ClientHandle, pool: Processes, callbacks: SessionCallbacks) -> None:
         self.client, self.gui, self.pool = client, client.gui, pool
+        self.analyses = Analyses()
         self.bridge = Bridge(client)
         self.keyboard = Keyboard(client)
         self.pinboard = Pinboard()

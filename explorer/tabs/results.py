@@ -28,7 +28,7 @@ from explorer.text.why import why
 from rotor import Solution, doubt
 from rotor.markup import Markup
 from rotor.study.series import between_drag_areas
-from rotor.trim import PitchGradient, power_gradient
+from rotor.trim import Analysis, PitchGradient
 from rotor.trim.doubt import models_beside
 
 _STILL = 0.6
@@ -280,7 +280,7 @@ class ResultsPanel:
         """The powers with other models."""
         self._state: SessionState | None = None
         """The last converged one."""
-        self._gradient: tuple[Solution, PitchGradient] | None = None
+        self._analyses = context.analyses
         self._band: tuple[Solution, tuple[Solution, Solution] | None] | None = None
         """A solution, and the same flight with the lowest and the highest drag area."""
         with layout.in_drawer("details"):
@@ -296,10 +296,10 @@ class ResultsPanel:
         self._state = state
         self.card.show(state, pause)
         self._show_inset(state)
-        gradient = self._gradient_of(state.solution)
-        self.sliders.show(state, gradient)
+        own, other = self._analyses.of(state.solution), self._analyses.of(state.reference)
+        self.sliders.show(state, _gradient(own))
         self.strip.show(state)
-        self._show_doubt(state)
+        self._show_doubt(state, own, other)
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
@@ -332,7 +332,7 @@ class ResultsPanel:
             numbers = _tables(self._state, self._band_words(self._state))
             self._power.content, self._trim.content = map(readout.faded, numbers)
 
-    def _show_doubt(self, state: SessionState) -> None:
+    def _show_doubt(self, state: SessionState, own: Analysis, other: Analysis) -> None:
         """How sure power is, and its change from the reference."""
         solution, reference = state.solution, state.reference
         if solution.design.models.trim == "free-rotor":
@@ -341,7 +341,7 @@ class ResultsPanel:
             return
         there = reference.design
         compared = reference.converged and there != solution.design and there.models.trim != "free-rotor"
-        units, doubted = UNITS[state.view.units], doubt(solution, reference if compared else None)
+        units, doubted = UNITS[state.view.units], doubt(own, other if compared else None)
         self.card.show_doubt(card_words(doubted, units))
         task = Call(models_beside, (solution.design, there if compared else None))
         opened = self._layout.drawer == "trust"
@@ -389,12 +389,10 @@ class ResultsPanel:
         ends = self._band[1] if self._band is not None and self._band[0] is state.solution else None
         return readout.drag_band_words(state.solution.design, ends, UNITS[state.view.units])
 
-    def _gradient_of(self, solution: Solution) -> PitchGradient | None:
-        if solution.design.models.trim == "free-rotor":
-            return None  # Its shaft takes no power, whatever the twist.
-        if self._gradient is None or self._gradient[0] is not solution:
-            self._gradient = solution, power_gradient(solution)
-        return self._gradient[1]
+
+def _gradient(analysis: Analysis) -> PitchGradient | None:
+    """None for a free rotor: its shaft takes no power, whatever the twist."""
+    return None if analysis.solution.design.models.trim == "free-rotor" else analysis.gradient
 
 
 def _tables(state: SessionState, band: str) -> tuple[Markup, Markup]:

@@ -76,7 +76,6 @@ def uh60a_torsion(radius: float) -> BladeStructure:
     return BladeStructure(**{field.name: getattr(known, field.name) for field in fields(BladeStructure)})
 
 
-@cache
 def titanium() -> Material:
     """The spar."""
     row = structure_data()["titanium"]
@@ -84,7 +83,6 @@ def titanium() -> Material:
     return Material("titanium", young, young, nu, young / (2.0 * (1.0 + nu)), row["density_kg_m3"])
 
 
-@cache
 def glass() -> Material:
     """E-glass/epoxy, one direction."""
     row = structure_data()["glass"]

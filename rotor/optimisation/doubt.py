@@ -16,7 +16,8 @@ from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, measure
 from rotor.optimisation.results import ParameterBand
-from rotor.trim.doubt import Doubt, DoubtRow, power_changes
+from rotor.trim.analysis import Analysis
+from rotor.trim.doubt import Doubt, DoubtRow
 from rotor.trim.solution import Solution
 
 _STEP = 0.03
@@ -57,7 +58,7 @@ def _changes(shares: Sequence[float], solutions: Sequence[Solution]) -> dict[str
     """What every uncertain input does to the mean power [W]."""
     changes = dict[str, float]()
     for share, solution in zip(shares, solutions, strict=True):
-        for name, change in power_changes(solution).items():
+        for name, change in Analysis(solution).power_changes.items():
             changes[name] = changes.get(name, 0.0) + share * change
     return changes
 

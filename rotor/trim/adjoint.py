@@ -225,12 +225,6 @@ class Adjoint(_Linear):
         return adjoint.slopes(adjoint.hover_measure(hovering))[0]
 
 
-@lru_cache(maxsize=4)
-def adjoint_of(solution: Solution) -> Adjoint:
-    """One for all that asks for slopes of power at a solution: a page does so three times."""
-    return Adjoint(solution)
-
-
 def _nothing_else(measure: Measure) -> bool:
     return not (measure.forces or measure.channels or measure.parts)
 
@@ -256,7 +250,7 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
-    return power_along(adjoint_of(solution), objective)
+    return power_along(Adjoint(solution), objective)
 
 
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:

@@ -13,7 +13,7 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -213,13 +213,22 @@ class Deflections:
         return up, forward
 
 
-@lru_cache(maxsize=4)
-@read_only
+_known: "WeakKeyDictionary[Solution, Deflections | None]" = WeakKeyDictionary()
+"""As long as the solution lives: a turning picture asks for each blade of each frame."""
+
+
 def deflections(solution: Solution) -> Deflections | None:
     """Deflections of a converged solution; None where its blades do not bend. Deflections are small and to first order.
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
+    if solution not in _known:
+        _known[solution] = _deflections(solution)
+    return _known[solution]
+
+
+@read_only
+def _deflections(solution: Solution) -> Deflections | None:
     solution.require()
     if not solution.design.models.bending or not can_bend(solution.design.rotor):
         return None

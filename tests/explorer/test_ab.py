@@ -15,7 +15,7 @@ from explorer.model.session_state import Pinboard, Pinned, act
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values
-from explorer.picture.polar import polar_grid
+from explorer.picture.polar import Drawn, polar_grid
 from explorer.scene.overlays import ghost_of
 from explorer.text import readout
 from explorer.text.design_words import pinned_name
@@ -196,9 +196,9 @@ class TestDisk:
     def test_is_b_minus_a(self, along: Solution, b: Solution):
         field = FIELDS["Induced inflow λi"]
         grid = polar_grid(b.disk, 60, 90)
-        expected = field.sample(b, grid) - field.sample(along, grid)
+        expected = field.sample(Drawn(b), grid) - field.sample(Drawn(along), grid)
         apart = difference(field, along)
-        assert_allclose(apart.sample(b, grid), expected, atol=1e-12)
+        assert_allclose(apart.sample(Drawn(b), grid), expected, atol=1e-12)
         low, high = fitted_range(apart, field_values(b, apart))
         assert low == -high < 0.0
 
@@ -208,7 +208,7 @@ class TestDisk:
         # Further in, Mach has a kink round the reverse flow, and further out the sweep of the tip bends it within an
         # element: no two grids see these alike.
         outboard = (grid.r > 0.4) & (grid.r < 0.85)
-        coarse_apart, fine_apart = (difference(field, one).sample(b, grid)[outboard] for one in (along, fine))
+        coarse_apart, fine_apart = (difference(field, one).sample(Drawn(b), grid)[outboard] for one in (along, fine))
         assert_allclose(fine_apart, coarse_apart, atol=1e-3)
 
     def test_void_beyond_the_shorter_blade_and_in_either_reverse_flow(self, along: Solution, b: Solution):
@@ -216,13 +216,13 @@ class TestDisk:
         blade = replace(rotor.blade, root_cutout=0.3)
         short = solve(replace(along.design, rotor=replace(rotor, blade=blade)))
         grid = polar_grid(b.disk, 60, 90)
-        void = difference(FIELDS["Mach number"], short).void(b, grid)
+        void = difference(FIELDS["Mach number"], short).void(Drawn(b), grid)
         assert void is not None
         assert void[grid.r < 0.299].all()
         assert not void[grid.r > 0.301].any()
         slow = solve(replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1)))
-        alpha = difference(FIELDS["Angle of attack"], slow).void(b, grid)
-        other_way = difference(FIELDS["Angle of attack"], b).void(slow, grid)
+        alpha = difference(FIELDS["Angle of attack"], slow).void(Drawn(b), grid)
+        other_way = difference(FIELDS["Angle of attack"], b).void(Drawn(slow), grid)
         assert alpha is not None
         assert other_way is not None
         assert alpha.any()

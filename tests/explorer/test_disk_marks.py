@@ -21,6 +21,7 @@ from explorer.picture.picture import disk_png, field_values
 from explorer.picture.plan import stall_segments
 from explorer.picture.polar import (
     NO_MARKS,
+    Drawn,
     MarkedRegion,
     Marks,
     mark_line,
@@ -58,7 +59,7 @@ def shown(solution: Solution, size: int, marks: Marks) -> np.ndarray:
 
 def codes_of(solution: Solution, marks: Marks, size: int = disk_image.AT_REST) -> np.ndarray:
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
-    made = region_codes(solution, grid, marks, 2.8 / size)
+    made = region_codes(Drawn(solution), grid, marks, 2.8 / size)
     assert made is not None
     return made
 
@@ -114,7 +115,7 @@ class TestDynamicStall:
         assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
         assert 0.02 < vortex.max() < 1.0
         grid = polar_grid(solution.disk, 80, 240)
-        masks, flow = region_masks(solution, grid), refined(solution, grid)
+        masks, flow = region_masks(Drawn(solution), grid), refined(solution, grid)
         stalled = masks["stall"] | masks["negative_stall"]
         assert np.array_equal(stalled, (flow.attached < 0.0) & (flow.u_t > 0.0))
         assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05

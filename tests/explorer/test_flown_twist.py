@@ -13,7 +13,7 @@ from explorer.picture.blade_mesh import PAGE, drawn_pitch, inset
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS, fitted_range
 from explorer.picture.picture import field_values, flown_twist, follows_azimuth, make_picture, turned_blades
-from explorer.picture.polar import polar_grid
+from explorer.picture.polar import Drawn, polar_grid
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
@@ -126,13 +126,13 @@ class TestField:
 
     def test_a_rigid_blade_has_none(self, rigid: Solution):
         grid = polar_grid(rigid.disk, 40, 120)
-        void = FIELD.void(rigid, grid)
+        void = FIELD.void(Drawn(rigid), grid)
         assert void is not None
         assert void.all()
         assert flown_twist(rigid, 1.0) == rigid.design.twist
         assert probe(rigid, 0.8, 1.0).elastic is None
         assert "rigid" in trim_panel(rigid)
-        assert np.isfinite(FIELD.sample(rigid, grid)).all()
+        assert np.isfinite(FIELD.sample(Drawn(rigid), grid)).all()
         assert fitted_range(FIELD, field_values(rigid, FIELD)) == (FIELD.low, FIELD.high)
 
 

@@ -22,7 +22,7 @@ from explorer.picture.picture import (
     rotate,
     tip_path_pose,
 )
-from explorer.picture.polar import PolarGrid, polar_grid, refined
+from explorer.picture.polar import Drawn, PolarGrid, polar_grid, refined
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -94,12 +94,12 @@ class TestFields:
     @pytest.mark.parametrize("mu", [0.0, 0.05, 0.3])
     def test_every_field_is_finite(self, title: str, mu: float):
         solution = solve(make_design(mu=mu))
-        assert np.isfinite(FIELDS[title].sample(solution, grid_of(solution))).all()
+        assert np.isfinite(FIELDS[title].sample(Drawn(solution), grid_of(solution))).all()
 
     def test_thrust_per_blade_sums_to_the_weight(self, hover: Solution):
         """∫ dT/dr dr over R, four blades, is the thrust that holds 8322.4 kg and 3.5 % of download up."""
         grid = grid_of(hover)
-        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(hover, grid).mean(axis=1)  # [N/m]
+        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(Drawn(hover), grid).mean(axis=1)  # [N/m]
         lift = 4.0 * np.trapezoid(per_blade, grid.r) * hover.design.rotor.radius
         assert_allclose(lift, 1.035 * hover.design.condition.weight, rtol=0.02)
 
@@ -111,7 +111,7 @@ class TestFields:
         rotor, grid, line = fast.design.rotor, grid_of(fast), terms.line
         solved = point.x[point.system.structure.given :].reshape(line.panels, line.azimuths)
         solved = solved * math.pi / rotor.blades * rotor.tip_speed * rotor.radius  # [m²/s]
-        shown = FIELDS["Circulation"].sample(fast, grid)
+        shown = FIELDS["Circulation"].sample(Drawn(fast), grid)
         around = np.array([np.interp(line.r, grid.r, column) for column in shown.T]).T.mean(axis=1)
         outer = line.r > 0.6
         assert_allclose(around[outer], solved.mean(axis=1)[outer], rtol=0.03)

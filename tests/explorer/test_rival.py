@@ -13,6 +13,7 @@ from explorer.tabs.optimise.optimise_panel import is_rival
 from explorer.tabs.optimise.search_words import comparison
 from rotor import doubt, make_design, solve
 from rotor.optimisation import optimise
+from rotor.trim import Analysis
 
 START = make_design(mu=0.2, twist="linear:-4")
 
@@ -36,7 +37,8 @@ def test_an_optimum_that_came_by_a_link_is_still_the_rival_with_the_same_power()
 
 def test_the_words_are_the_difference_of_two_trims_and_its_band():
     own, other = solve(START).require(), solve(make_design(mu=0.2, twist="linear:-11")).require()
-    more, less = comparison(own, other, SI), comparison(other, own, SI)
+    mine, best = Analysis(own), Analysis(other)
+    more, less = comparison(mine, best, SI), comparison(best, mine, SI)
     found = re.search(r"yours (\d+\.\d+) ± (\d+\.\d+) kW more: (\w+)", more)
     assert found, more
     band = doubt(own, other)
@@ -45,5 +47,5 @@ def test_the_words_are_the_difference_of_two_trims_and_its_band():
     assert found[3] == band.sureness
     assert f"{found[1]} ± {found[2]} kW less" in less
     near = solve(make_design(mu=0.2, twist="linear:-11.001")).require()
-    assert comparison(near, other, SI).endswith("yours the same")
-    assert " hp more" in comparison(own, other, AVIATION)
+    assert comparison(Analysis(near), best, SI).endswith("yours the same")
+    assert " hp more" in comparison(mine, best, AVIATION)

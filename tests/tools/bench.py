@@ -33,10 +33,10 @@ from rotor.optimisation.search import Search, run_search
 from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
-from rotor.trim.adjoint import power_gradient
-from rotor.trim.doubt import power_changes
+from rotor.trim.adjoint import Adjoint, power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import first_point, newton
+from rotor.trim.power_changes import power_changes
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.tools.cross_codes import dynbem_case, moment_trimmed
@@ -227,7 +227,7 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
         pairs = list(zip(nearby, solutions, strict=True))
         figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
         figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
-        figures[f"{beside}doubt"] = _mean(power_changes.__wrapped__, solutions, 15)
+        figures[f"{beside}doubt"] = _mean(power_changes, [Adjoint(solution) for solution in solutions], 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
     cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
     linear = _designs(0.0, "linear:-16", _CASES["linear inflow, "])

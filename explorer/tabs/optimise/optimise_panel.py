@@ -300,7 +300,8 @@ class Rival:
         if self._now is None:
             return None
         state, other = self._now
-        words = text.comparison(state.solution, other, UNITS[state.view.units])
+        own, best = self._context.analyses.of(state.solution), self._context.analyses.of(other)
+        words = text.comparison(own, best, UNITS[state.view.units])
         return {"text": words, "actions": [("rival_take", "Take its twist"), ("rival_end", "End")]}
 
     def _take(self) -> None:

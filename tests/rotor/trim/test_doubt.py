@@ -15,7 +15,9 @@ from rotor.aero.problem import Problem, build_problem
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
-from rotor.trim.doubt import Doubt, DoubtRow, doubt, power_changes, sureness
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.doubt import Doubt, DoubtRow, doubt, sureness
+from rotor.trim.power_changes import power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
 
@@ -88,7 +90,7 @@ def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
     here, _ = at_speed()
     design = here.design
     by_hand = 0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
-    assert 1.0 < power_changes(here)["drag_area_percent"] / by_hand < 1.25
+    assert 1.0 < power_changes(Adjoint(here))["drag_area_percent"] / by_hand < 1.25
 
 
 def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
@@ -96,12 +98,12 @@ def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
     here = rotor.solve(rotor.make_design(hover=True)).require()
     tail = 1.0 + here.power.tail / here.power.main_rotor
     share = 0.01 * SIZES["section_drag_percent"] * here.power.profile * tail
-    assert power_changes(here)["section_drag_percent"] == pytest.approx(share, rel=0.12)
+    assert power_changes(Adjoint(here))["section_drag_percent"] == pytest.approx(share, rel=0.12)
 
 
 def test_with_dynamic_stall_and_bending_the_rows_are_those_of_new_trims(patch: Patch):
     options = {"mu": 0.3, "bending": True, "dynamic_stall": True}
-    found = power_changes(rotor.solve(rotor.make_design(**options)).require())
+    found = power_changes(Adjoint(rotor.solve(rotor.make_design(**options)).require()))
     ends: list[float] = []
     for sign in (1.0, -1.0):
         patch_sections("section_drag_percent", sign * SIZES["section_drag_percent"], patch)
@@ -110,11 +112,11 @@ def test_with_dynamic_stall_and_bending_the_rows_are_those_of_new_trims(patch: P
 
 
 def test_what_a_design_does_not_have_is_no_row():
-    thesis = power_changes(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require())
+    thesis = power_changes(Adjoint(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require()))
     assert not {"torsional_stiffness_percent", "section_moment", "wake_transport_percent"} & set(thesis)
     stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
-    assert set(power_changes(rotor.solve(stand).require())) <= set(thesis) | {"wake_transport_percent"}
-    assert "drag_area_percent" not in power_changes(rotor.solve(stand).require())
+    assert set(power_changes(Adjoint(rotor.solve(stand).require()))) <= set(thesis) | {"wake_transport_percent"}
+    assert "drag_area_percent" not in power_changes(Adjoint(rotor.solve(stand).require()))
 
 
 @pytest.mark.parametrize("options", [{"hover": True}, {"mu": 0.2, "inflow": "drees", "loss_on": "inflow"}])
