@@ -23,9 +23,9 @@ PUBLIC = (rotor, actuator, optimisation, validation, design, trim)
 """Packages with public names: a name is imported from the first that has it."""
 ORDER = {
     "rotor": (
-        "arrays", "units", "user_input", "terminal", "markup", "chart", "chart_svg", "compiled", "blas_threads",
-        "processes", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns", "files",
-        "trim", "optimisation", "study", "validation", "actuator", "reproduce", "command",
+        "arrays", "units", "user_input", "terminal", "table", "markup", "chart", "chart_svg", "compiled",
+        "blas_threads", "processes", "plots", "assets", "engine", "airfoil", "design", "dynamics", "aero", "columns",
+        "files", "trim", "optimisation", "study", "validation", "actuator", "reproduce", "command",
     ),
     "explorer": (
         "web", "colours", "workers", "hosting", "model", "text", "picture", "charts", "sharing", "scene",

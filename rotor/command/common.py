@@ -1,4 +1,4 @@
-"""What several commands share: flags of design and search, tables as CSV files, and the progress of long commands."""
+"""What several commands share: flags of design, search and output, and the progress of long commands."""
 
 import argparse
 import json
@@ -8,7 +8,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -30,7 +30,7 @@ from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.study.results import design_at
-from rotor.user_input import check_writable, csv_text, parse_range, write_whole
+from rotor.user_input import check_writable, parse_range
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -133,27 +133,6 @@ def check_output(args: argparse.Namespace) -> None:
         raise ValueError("--csv - and --json both print: give one of them")
     if args.csv and args.csv != "-":
         check_writable(args.csv)
-
-
-def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails.
-
-    The path - is stdout.
-    """
-    text = csv_text(rows, heading)
-    if path == "-":
-        print(text, end="")
-        return
-    try:
-        write_whole(path, text)
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
-
-
-def write_records(path: str, records: Sequence[Mapping[str, object]]) -> None:
-    """Records that share their keys, as CSV below these; None is an empty cell."""
-    cells = (["" if value is None else str(value) for value in record.values()] for record in records)
-    write_table(path, [tuple(records[0]), *cells])
 
 
 def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
+from rotor.table import CellValue, table
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
@@ -82,15 +83,16 @@ def _doubt(solution: Solution) -> Doubt | None:
 
 def doubt_table(doubt: Doubt) -> str:
     """The sentence, and what the band consists of."""
-    lines = [wrapped(doubt.sentence.replace(" It ", " Against the blade as built it ")), ""]
-    lines += [f"{'uncertain':<42}{'by':>8}{'power':>12}{'change':>12}"]
-    for row in doubt.rows:
-        change = "" if row.change is None else f"{row.change / 1e3:+9.2f} kW"
-        lines.append(f"{row.words:<42}{f'{row.size:g} {row.unit}':>8}{row.power / 1e3:+9.2f} kW{change}")
-    for other in doubt.models:
-        change = "" if other.change is None else f"{other.change / 1e3:+9.2f} kW"
-        lines.append(f"{f'with {other.name}':<50}{other.power / 1e3:9.1f} kW{change}")
-    return "\n".join(lines)
+    rows: list[tuple[CellValue, ...]] = [
+        (row.words, f"{row.size:g} {row.unit}", f"{row.power / 1e3:+.2f}", row.change and row.change / 1e3)
+        for row in doubt.rows
+    ]
+    rows += [
+        (f"with {other.name}", None, f"{other.power / 1e3:.1f}", other.change and other.change / 1e3)
+        for other in doubt.models
+    ]
+    sentence = wrapped(doubt.sentence.replace(" It ", " Against the blade as built it "))
+    return f"{sentence}\n\n{table('|uncertain|<; |by; |power kW; |change kW|+.2f', rows).text()}"
 
 
 def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
