@@ -170,25 +170,33 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     parser.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
     limits = parser.add_argument_group("limits")
     limits.add_argument(
-        "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",
+        "--bound",
+        action="append",
+        default=[],
+        metavar="NAME=LOW,HIGH",
         help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
-    )  # fmt: skip
+    )
     limits.add_argument(
         "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg -20,0"
     )
     limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
-        "--index-percent", type=finite, metavar="P",
+        "--index-percent",
+        type=finite,
+        metavar="P",
         help="largest vibration index on every condition, per cent of the weight; with --bending, from mu 0.2 on",
-    )  # fmt: skip
+    )
     limits.add_argument(
-        "--change-deg", type=finite, metavar="DEG",
+        "--change-deg",
+        type=finite,
+        metavar="DEG",
         help="largest change from the design's own twist, root to tip, linear along the blade",
-    )  # fmt: skip
+    )
     limits.add_argument(
-        "--actuator", metavar="ID",
+        "--actuator",
+        metavar="ID",
         help="limit the change of twist to the range of this actuator as a retrofit, e.g. MFC_P1",
-    )  # fmt: skip
+    )
     limits.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
     limits.add_argument("--derated", action="store_true", help="use that range derated by test")
 

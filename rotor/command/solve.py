@@ -134,20 +134,30 @@ def report(solution: Solution) -> str:
     if solution.converged:
         power = solution.power
         degrees = {
-            "collective": controls.collective, "cyclic 1c": controls.cyclic_1c, "cyclic 1s": controls.cyclic_1s,
-            "shaft tilt": controls.shaft_tilt, "coning": controls.coning, "flap 1c": controls.flap_1c,
+            "collective": controls.collective,
+            "cyclic 1c": controls.cyclic_1c,
+            "cyclic 1s": controls.cyclic_1s,
+            "shaft tilt": controls.shaft_tilt,
+            "coning": controls.coning,
+            "flap 1c": controls.flap_1c,
             "flap 1s": controls.flap_1s,
-        }  # fmt: skip
+        }
         kw = {
-            "total": power.total, "main rotor": power.main_rotor, "induced": power.induced,
-            "profile": power.profile, "parasite": power.parasite,
-            **({"climb": power.climb} if design.condition.climb_speed else {}), "tail rotor": power.tail,
-        }  # fmt: skip
+            "total": power.total,
+            "main rotor": power.main_rotor,
+            "induced": power.induced,
+            "profile": power.profile,
+            "parasite": power.parasite,
+            **({"climb": power.climb} if design.condition.climb_speed else {}),
+            "tail rotor": power.tail,
+        }
         if design.condition.stand is not None:
             kw = {
-                "shaft": power.shaft, "induced": power.induced, "profile": power.profile,
+                "shaft": power.shaft,
+                "induced": power.induced,
+                "profile": power.profile,
                 "propulsive": power.parasite,
-            }  # fmt: skip
+            }
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         if (band := between_drag_areas(solution)) is not None:

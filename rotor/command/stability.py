@@ -31,13 +31,17 @@ def add_parser(commands: Any) -> None:
         "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
     )
     parser.add_argument(
-        "--cg-offset-percent", type=finite, default=0.0, metavar="P",
+        "--cg-offset-percent",
+        type=finite,
+        default=0.0,
+        metavar="P",
         help="move the centre of gravity of the lifting blade aft by so much of the chord (default 0)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--boundary", metavar="A:B:STEP",
+        "--boundary",
+        metavar="A:B:STEP",
         help="also the stiffness in torsion that is needed over offsets of the centre of gravity, percent of the chord",
-    )  # fmt: skip
+    )
     parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
     parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
     add_design_arguments(parser, speed=True)
@@ -56,9 +60,11 @@ def run(args: argparse.Namespace) -> int:
             check_blade(design.aircraft)
             placement = default_placement(2 if args.plies is None else args.plies)
             result = actuator_stability(
-                install(find_actuator(args.actuator), placement, Host(), design.rotor), design,
-                air=args.air, offset=offset,
-            )  # fmt: skip
+                install(find_actuator(args.actuator), placement, Host(), design.rotor),
+                design,
+                air=args.air,
+                offset=offset,
+            )
         else:
             result = stability(design, air=args.air, offset=offset)
         points = stability_boundary(design, offsets, air=args.air)

@@ -238,9 +238,14 @@ class _Progress:
         """Processor time of the workers."""
         self._workers: set[str] = set()
         self._bar: Any = tqdm(
-            total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05,
+            total=total,
+            initial=done,
+            unit=" points",
+            file=sys.stderr,
+            dynamic_ncols=True,
+            smoothing=0.05,
             disable=not sys.stderr.isatty(),
-        )  # fmt: skip
+        )
 
     def add(self, done: FinishedChunk) -> None:
         self.points += done.rows

@@ -167,7 +167,8 @@ def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[
         waves_text(harmonics) or short_spec(twist),
         *(point.band or none),
         *(point.over_inflows or none),
-        *(point.preview or none),
+        point.preview and point.preview[0] / 1e3,
+        point.preview and point.preview[1],
     )
 
 
