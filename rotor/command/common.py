@@ -1,4 +1,4 @@
-"""What several commands share: flags of design and search, tables as CSV files, and the progress of long commands."""
+"""What several commands share: flags of design, search and output, and the progress of long commands."""
 
 import argparse
 import json
@@ -8,7 +8,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -30,7 +30,7 @@ from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.study.results import design_at
-from rotor.user_input import check_writable, csv_text, parse_range, write_whole
+from rotor.user_input import check_writable, parse_range
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -135,27 +135,6 @@ def check_output(args: argparse.Namespace) -> None:
         check_writable(args.csv)
 
 
-def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines, wholly or not at all; ValueError where that fails.
-
-    The path - is stdout.
-    """
-    text = csv_text(rows, heading)
-    if path == "-":
-        print(text, end="")
-        return
-    try:
-        write_whole(path, text)
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
-
-
-def write_records(path: str, records: Sequence[Mapping[str, object]]) -> None:
-    """Records that share their keys, as CSV below these; None is an empty cell."""
-    cells = (["" if value is None else str(value) for value in record.values()] for record in records)
-    write_table(path, [tuple(records[0]), *cells])
-
-
 def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:
     """Print the answer of a command: with --json the record, else the report; nothing after `--csv -`."""
     if getattr(args, "csv", None) == "-":
@@ -191,25 +170,33 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     parser.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
     limits = parser.add_argument_group("limits")
     limits.add_argument(
-        "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",
+        "--bound",
+        action="append",
+        default=[],
+        metavar="NAME=LOW,HIGH",
         help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
-    )  # fmt: skip
+    )
     limits.add_argument(
         "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg -20,0"
     )
     limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
-        "--index-percent", type=finite, metavar="P",
+        "--index-percent",
+        type=finite,
+        metavar="P",
         help="largest vibration index on every condition, per cent of the weight; with --bending, from mu 0.2 on",
-    )  # fmt: skip
+    )
     limits.add_argument(
-        "--change-deg", type=finite, metavar="DEG",
+        "--change-deg",
+        type=finite,
+        metavar="DEG",
         help="largest change from the design's own twist, root to tip, linear along the blade",
-    )  # fmt: skip
+    )
     limits.add_argument(
-        "--actuator", metavar="ID",
+        "--actuator",
+        metavar="ID",
         help="limit the change of twist to the range of this actuator as a retrofit, e.g. MFC_P1",
-    )  # fmt: skip
+    )
     limits.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
     limits.add_argument("--derated", action="store_true", help="use that range derated by test")
 

@@ -11,9 +11,9 @@ from rotor.command.common import (
     check_output,
     design_from,
     print_result,
-    write_records,
-)  # fmt: skip
+)
 from rotor.study.envelope import SPEEDS, Envelope, Reach, envelope
+from rotor.table import Table, table
 from rotor.terminal import wrapped
 from rotor.user_input import parse_range
 
@@ -46,11 +46,19 @@ def run(args: argparse.Namespace) -> int:
             envelope(design, speeds, moving=moving, tell=lambda point: advance(f"µ {point.mu:g}"))
             for design, moving in asked
         ]
-    rows = [{"envelope": each.label, **point.record()} for each in envelopes for point in each.points]
     if args.csv:
-        write_records(args.csv, rows)
+        points_table(*envelopes).write(args.csv)
     print_result(args, lambda: [each.record() for each in envelopes], lambda: "\n\n".join(map(report, envelopes)))
     return 0 if all(point.load_factor.value is not None for each in envelopes for point in each.points) else 1
+
+
+def points_table(*envelopes: Envelope) -> Table:
+    """A row for each point: the keys of its record, and which envelope it is of."""
+    columns = (
+        "envelope; mu|µ|g; speed_kt|kt|.0f; twist|twist|<; load_factor|n|.2f; limit|limit|<; "
+        "load_factor_stall|by stall|.2f; load_factor_engines|engines|.2f; mass_kg|kg at n 1|.0f"
+    )
+    return table(columns, ((each.label, *point.record().values()) for each in envelopes for point in each.points))
 
 
 def report(result: Envelope) -> str:
@@ -58,15 +66,8 @@ def report(result: Envelope) -> str:
     lines = [
         ", ".join((craft.name, result.label, f"{here.mass:.0f} kg, {here.altitude:.0f} m", *here.beside)),
         "",
-        f"{'µ':<7}{'kt':>6}{'n':>8}  {'limit':<9}{'by stall':>9}{'engines':>9}{'kg at n 1':>11}   twist",
+        points_table(result).text(),
     ]
-    for point in result.points:
-        row, n = point.record(), point.load_factor
-        mass = "" if point.mass_kg is None else f"{point.mass_kg:.0f}"
-        lines.append(
-            f"{row['mu']:<7g}{row['speed_kt']:>6.0f}{_number(n.value):>8}  {n.limit:<9}{_number(n.stall):>9}"
-            f"{_number(n.engines):>9}{mass:>11}   {row['twist']}"
-        )
     knots = result.record()["top_speed_kt"]
     mu = "" if knots is None else f" ({knots:.0f} kt)"
     power = craft.installed_power
@@ -85,7 +86,3 @@ def report(result: Envelope) -> str:
 
 def _reach(form: str, limit: Reach) -> str:
     return "none found" if limit.value is None else f"{form.format(limit.value)} by {limit.limit}"
-
-
-def _number(value: float | None) -> str:
-    return "" if value is None else f"{value:.2f}"

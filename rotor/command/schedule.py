@@ -22,7 +22,6 @@ from rotor.command.common import (
     print_result,
     processes_from,
     short_spec,
-    write_table,
 )
 from rotor.command.optimise import named
 from rotor.design.aircraft import told
@@ -30,12 +29,12 @@ from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
+from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
 from rotor.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
-COLUMNS = ("hours", "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist", "met")
 
 
 def add_parser(commands: Any) -> None:
@@ -72,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
         schedule = run_plan(plan, add, stop, processes if total > 2 else 1)
         stopped = stop()
     if args.csv:
-        write_table(args.csv, [(*_quantities(plan), *COLUMNS), *_rows(schedule)])
+        optima_table(schedule).write(args.csv)
     print_result(args, lambda: record(schedule), lambda: report(schedule))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
@@ -221,22 +220,30 @@ def _line(cell: Cell, width: int) -> str:
     return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 
-def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
-    rows: list[tuple[str, ...]] = []
+def optima_table(schedule: Schedule) -> Table:
+    """The CSV: an optimum a row; those of the one blade for all conditions come last, without hours."""
     quantities = _quantities(schedule.plan)
+    where = "".join(f"{name}|||{'.6g' if name == 'mass_kg' else '.4g'}; " for name in quantities)
+    columns = (
+        f"{where}hours|||.4g; concept; status; baseline_kw|||.2f; power_kw|||.2f; saving_percent|||.2f; twist; met"
+    )
+    rows: list[tuple[CellValue, ...]] = []
     for cell in schedule.cells:
-        condition, optimum = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
-        where = ("all", *[""] * len(quantities))
-        if condition is not None:
-            numbers = condition.flight.numbers
-            cells = (f"{numbers[name]:.{6 if name == 'mass_kg' else 4}g}" for name in quantities)
-            where = (*cells, f"{condition.hours:.4g}")
-        rows.append((
-            *where, cell.concept, optimum.status.value,
-            "" if optimum.baseline_power is None else f"{optimum.baseline_power / 1e3:.2f}",
-            "" if optimum.best is None else f"{optimum.best.power / 1e3:.2f}",
-            "" if optimum.saving is None else f"{100 * optimum.saving:.2f}",
-            "" if optimum.best is None else optimum.best.twist,
-            "" if optimum.best is None else ", ".join(optimum.best.active),
-        ))  # fmt: skip
-    return rows
+        optimum, best = cell.optimum, cell.optimum.best
+        flight: tuple[CellValue, ...] = ("all", *(None for _ in quantities))
+        if cell.condition is not None:
+            condition = schedule.plan.conditions[cell.condition]
+            flight = (*(condition.flight.numbers[name] for name in quantities), condition.hours)
+        rows.append(
+            (
+                *flight,
+                cell.concept,
+                optimum.status.value,
+                optimum.baseline_power and optimum.baseline_power / 1e3,
+                best and best.power / 1e3,
+                optimum.saving and 100.0 * optimum.saving,
+                best and best.twist,
+                best and ", ".join(best.active),
+            )
+        )
+    return table(columns, rows)

@@ -10,6 +10,7 @@ from typing import Any
 from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
+from rotor.table import CellValue, table
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
@@ -82,15 +83,16 @@ def _doubt(solution: Solution) -> Doubt | None:
 
 def doubt_table(doubt: Doubt) -> str:
     """The sentence, and what the band consists of."""
-    lines = [wrapped(doubt.sentence.replace(" It ", " Against the blade as built it ")), ""]
-    lines += [f"{'uncertain':<42}{'by':>8}{'power':>12}{'change':>12}"]
-    for row in doubt.rows:
-        change = "" if row.change is None else f"{row.change / 1e3:+9.2f} kW"
-        lines.append(f"{row.words:<42}{f'{row.size:g} {row.unit}':>8}{row.power / 1e3:+9.2f} kW{change}")
-    for other in doubt.models:
-        change = "" if other.change is None else f"{other.change / 1e3:+9.2f} kW"
-        lines.append(f"{f'with {other.name}':<50}{other.power / 1e3:9.1f} kW{change}")
-    return "\n".join(lines)
+    rows: list[tuple[CellValue, ...]] = [
+        (row.words, f"{row.size:g} {row.unit}", f"{row.power / 1e3:+.2f}", row.change and row.change / 1e3)
+        for row in doubt.rows
+    ]
+    rows += [
+        (f"with {other.name}", None, f"{other.power / 1e3:.1f}", other.change and other.change / 1e3)
+        for other in doubt.models
+    ]
+    sentence = wrapped(doubt.sentence.replace(" It ", " Against the blade as built it "))
+    return f"{sentence}\n\n{table('|uncertain|<; |by; |power kW; |change kW|+.2f', rows).text()}"
 
 
 def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
@@ -132,20 +134,30 @@ def report(solution: Solution) -> str:
     if solution.converged:
         power = solution.power
         degrees = {
-            "collective": controls.collective, "cyclic 1c": controls.cyclic_1c, "cyclic 1s": controls.cyclic_1s,
-            "shaft tilt": controls.shaft_tilt, "coning": controls.coning, "flap 1c": controls.flap_1c,
+            "collective": controls.collective,
+            "cyclic 1c": controls.cyclic_1c,
+            "cyclic 1s": controls.cyclic_1s,
+            "shaft tilt": controls.shaft_tilt,
+            "coning": controls.coning,
+            "flap 1c": controls.flap_1c,
             "flap 1s": controls.flap_1s,
-        }  # fmt: skip
+        }
         kw = {
-            "total": power.total, "main rotor": power.main_rotor, "induced": power.induced,
-            "profile": power.profile, "parasite": power.parasite,
-            **({"climb": power.climb} if design.condition.climb_speed else {}), "tail rotor": power.tail,
-        }  # fmt: skip
+            "total": power.total,
+            "main rotor": power.main_rotor,
+            "induced": power.induced,
+            "profile": power.profile,
+            "parasite": power.parasite,
+            **({"climb": power.climb} if design.condition.climb_speed else {}),
+            "tail rotor": power.tail,
+        }
         if design.condition.stand is not None:
             kw = {
-                "shaft": power.shaft, "induced": power.induced, "profile": power.profile,
+                "shaft": power.shaft,
+                "induced": power.induced,
+                "profile": power.profile,
                 "propulsive": power.parasite,
-            }  # fmt: skip
+            }
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         if (band := between_drag_areas(solution)) is not None:

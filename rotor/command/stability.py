@@ -2,6 +2,7 @@
 
 import argparse
 import json
+from collections.abc import Sequence
 from typing import Any
 
 from rotor.actuator.catalogue import find_actuator
@@ -16,9 +17,9 @@ from rotor.command.common import (
     design_from,
     finite,
     print_result,
-    write_records,
 )
 from rotor.dynamics.structure import check_blade
+from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
 from rotor.trim.stability import AIRS, BoundaryPoint, stability, stability_boundary
 from rotor.user_input import parse_range
@@ -30,13 +31,17 @@ def add_parser(commands: Any) -> None:
         "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
     )
     parser.add_argument(
-        "--cg-offset-percent", type=finite, default=0.0, metavar="P",
+        "--cg-offset-percent",
+        type=finite,
+        default=0.0,
+        metavar="P",
         help="move the centre of gravity of the lifting blade aft by so much of the chord (default 0)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--boundary", metavar="A:B:STEP",
+        "--boundary",
+        metavar="A:B:STEP",
         help="also the stiffness in torsion that is needed over offsets of the centre of gravity, percent of the chord",
-    )  # fmt: skip
+    )
     parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
     parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
     add_design_arguments(parser, speed=True)
@@ -55,9 +60,11 @@ def run(args: argparse.Namespace) -> int:
             check_blade(design.aircraft)
             placement = default_placement(2 if args.plies is None else args.plies)
             result = actuator_stability(
-                install(find_actuator(args.actuator), placement, Host(), design.rotor), design,
-                air=args.air, offset=offset,
-            )  # fmt: skip
+                install(find_actuator(args.actuator), placement, Host(), design.rotor),
+                design,
+                air=args.air,
+                offset=offset,
+            )
         else:
             result = stability(design, air=args.air, offset=offset)
         points = stability_boundary(design, offsets, air=args.air)
@@ -65,27 +72,28 @@ def run(args: argparse.Namespace) -> int:
         message = {"status": "not-converged", "message": str(error)}
         print(json.dumps(message, indent=2) if args.json else f"not converged: {error}")
         return 1
-    record = result.to_dict() | ({"boundary": [_record(point) for point in points]} if offsets else {})
+    boundary = boundary_table(points)
+    record = result.to_dict() | ({"boundary": boundary.records()} if offsets else {})
     if args.csv:
-        write_records(args.csv, record["boundary" if offsets else "modes"])
-    print_result(args, lambda: record, lambda: _report(result.table(), points))
+        modes: list[dict[str, CellValue]] = record["modes"]
+        (boundary if offsets else table("; ".join(modes[0]), (mode.values() for mode in modes))).write(args.csv)
+    print_result(args, lambda: record, lambda: _report(result.table(), boundary))
     return 0
 
 
-def _record(point: BoundaryPoint) -> dict[str, float | None]:
-    return {
-        "cg_offset_percent_chord": 100.0 * point.offset,
-        "instability_stiffness_percent": 100.0 * point.instability_stiffness,
-        "divergence_stiffness_percent": 100.0 * point.divergence_stiffness,
-    }
+def boundary_table(points: Sequence[BoundaryPoint]) -> Table:
+    """Stiffness needed in torsion over the offset of the centre of gravity."""
+    columns = (
+        "cg_offset_percent_chord|c.g. aft, % c|.1f; instability_stiffness_percent|unstable below %|.0f; "
+        "divergence_stiffness_percent|diverges below %|.0f"
+    )
+    return table(
+        columns, ((100.0 * p.offset, 100.0 * p.instability_stiffness, 100.0 * p.divergence_stiffness) for p in points)
+    )
 
 
-def _report(table: str, points: tuple[BoundaryPoint, ...]) -> str:
-    lines = [wrapped(line, "  ") if line.endswith(".") else line for line in table.splitlines()]
-    if points:
-        lines += ["", f"{'c.g. aft, % c':>14}{'unstable below':>16}{'diverges below':>16}  of the stiffness in torsion"]
-        lines += [
-            f"{100.0 * p.offset:14.1f}{100.0 * p.instability_stiffness:14.0f} %{100.0 * p.divergence_stiffness:14.0f} %"
-            for p in points
-        ]
+def _report(modes: str, boundary: Table) -> str:
+    lines = [wrapped(line, "  ") if line.endswith(".") else line for line in modes.splitlines()]
+    if boundary.rows:
+        lines += ["", "part of the stiffness in torsion", boundary.text()]
     return "\n".join(lines)

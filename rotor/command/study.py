@@ -21,7 +21,6 @@ from rotor.command.common import (
     check_output,
     interruptible,
     print_result,
-    write_records,
 )
 from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
@@ -36,6 +35,7 @@ from rotor.study.run import (
 )
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
+from rotor.table import table
 
 _SENTENCES = 3
 """Largest number of different failure messages printed."""
@@ -238,9 +238,14 @@ class _Progress:
         """Processor time of the workers."""
         self._workers: set[str] = set()
         self._bar: Any = tqdm(
-            total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05,
+            total=total,
+            initial=done,
+            unit=" points",
+            file=sys.stderr,
+            dynamic_ncols=True,
+            smoothing=0.05,
             disable=not sys.stderr.isatty(),
-        )  # fmt: skip
+        )
 
     def add(self, done: FinishedChunk) -> None:
         self.points += done.rows
@@ -294,9 +299,8 @@ def _show(args: argparse.Namespace) -> int:
     shown = record(results, args.least, uncertain)
     check_output(args)
     if args.csv:
-        names = tuple(results.columns)
-        rows = zip(*results.columns.values(), strict=True)
-        write_records(args.csv, [{name: _plain(v) for name, v in zip(names, row, strict=True)} for row in rows])
+        rows = (map(_plain, row) for row in zip(*results.columns.values(), strict=True))
+        table("; ".join(results.columns), rows).write(args.csv)
     print_result(args, lambda: shown, lambda: report(results, shown))
     return 0
 

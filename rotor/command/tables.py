@@ -7,6 +7,7 @@ physical effect, switched on one after another. `airfoil`: the data of a section
 
 import argparse
 import json
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -24,13 +25,13 @@ from rotor.command.common import (
     print_result,
     short_spec,
     waves_text,
-    write_table,
 )
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, SWEPT
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
-from rotor.study.series import PARTS, SHARED_COLUMNS, Waterfall, WaterfallStep, sweep, sweep_columns, waterfall
+from rotor.study.series import PARTS, SHARED_COLUMNS, SweepTable, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
@@ -53,37 +54,39 @@ def run_sweep(args: argparse.Namespace) -> int:
     name, steps = _swept(args)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
     designs = [design_from(args, spec) for spec in specs]
-    points = [
-        design.at(**cast(Any, {name: step})) for design in designs for step in steps
-    ]  # Bad input is reported first.
-    check_output(args)
-    rows: list[tuple[str, ...]] = []
-    records: list[dict[str, float | str | None]] = []
-    converged, quiet = True, args.json or args.csv == "-"
-    columns = tuple(name for name in sweep_columns(points) if name not in SHARED_COLUMNS or name == args.over)
-    level = all(design.condition.climb_speed == 0.0 for design in points)
-    unsaid = {"message", "status", *(name for name in columns if level and name.startswith("climb"))}
-    shown = [name for name in columns if name not in unsaid]
-    widths = {name: len(name) + 2 for name in shown} | {"mu": 7}
-    widths["twist"] = max(len(design.twist.spec()) for design in designs) + 2
-    if not quiet:
-        print("".join(f"{name:<{widths[name]}}" for name in shown).rstrip())
     for design in designs:
-        table = sweep(design, **cast(Any, {name: steps}))
-        converged = converged and all(solution.converged for solution in table)
-        for cells in table.rows:
-            named = dict(zip(table.columns, cells, strict=True))
-            records.append(named)
-            rows.append(tuple(_text(name, named[name]) for name in columns))
-            line = "".join(f"{_text(name, named[name], 1):<{widths[name]}}" for name in shown).rstrip()
-            if not quiet:
-                good = named["status"] == "converged"
-                print(line if good else wrapped(f"{line}  {named['status']}: {named['message']}", "    "))
+        for step in steps:  # Bad input is reported first.
+            design.at(**cast(Any, {name: step}))
+    check_output(args)
+    tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
+    solutions = SweepTable(tuple(solution for each in tables for solution in each))
+    found = sweep_table(solutions, args.over)
     if args.csv:
-        write_table(args.csv, [columns, *rows])
-    if args.json:
-        print(json.dumps(records, indent=2, allow_nan=False))
-    return 0 if converged else 1
+        found.write(args.csv)
+    print_result(args, lambda: [dict(zip(solutions.columns, row, strict=True)) for row in solutions.rows], found.text)
+    return 0 if all(solution.converged for solution in solutions) else 1
+
+
+def sweep_table(solutions: SweepTable, over: str) -> Table:
+    """Without the columns that are the same in all rows; the text has the status only where it did not converge."""
+    level = all(solution.design.condition.climb_speed == 0.0 for solution in solutions)
+    kept = [k for k, name in enumerate(solutions.columns) if name not in SHARED_COLUMNS or name == over]
+    columns = "; ".join(_sweep_column(solutions.columns[k], level) for k in kept)
+    rows = (
+        (*(row[k] for k in kept), "" if one.converged else f"{one.status.value}: {one.message}")
+        for row, one in zip(solutions.rows, solutions, strict=True)
+    )
+    return table(f"{columns}; ||<", rows)
+
+
+def _sweep_column(name: str, level: bool) -> str:
+    if name in ("status", "message"):
+        return name
+    head = "|" if level and name.startswith("climb") else f"|{name}"
+    if name == "twist":
+        return f"{name}{head}|<"
+    shown = stored = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
+    return f"{name}{head}|{'.1f' if name.endswith('_kw') else shown}|{stored}"
 
 
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
@@ -100,21 +103,13 @@ def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     return args.over, given[args.over]
 
 
-def _text(name: str, cell: float | str | None, digits: int = 2) -> str:
-    """A cell: powers with these decimals, loads and shares with two, nothing where there is no value."""
-    if cell is None or isinstance(cell, str):
-        return cell or ""
-    if name in CONDITION:
-        return f"{cell:.4g}"
-    return f"{cell:.{1 if name == 'speed_kt' else digits if name.endswith('_kw') else 2}f}"
-
-
 FRONT_COLUMNS = (
-    "twist_per_rev", "twist", "power_kw", "power_change_percent", "power_change_band_percent",
-    "index_percent", "index_change_percent",
-    "least_index_percent", "largest_index_percent", "least_change_percent", "largest_change_percent",
-    "preview_power_kw", "preview_index_percent",
-)  # fmt: skip
+    "twist_per_rev; twist; power_kw|power kW|.1f|.2f; power_change_percent|change %|+.2f|.2f; "
+    "power_change_band_percent|± %|.2f|.2f; index_percent|index %|.2f|.2f; |over models %; "
+    "index_change_percent|change %|+.0f|.2f; |over models %; |twist|<; "
+    "least_index_percent|||.2f; largest_index_percent|||.2f; least_change_percent|||.2f; "
+    "largest_change_percent|||.2f; preview_power_kw|||.2f; preview_index_percent|||.2f"
+)
 """The least and the largest are those over inflow models."""
 
 
@@ -146,26 +141,38 @@ def run_front(args: argparse.Namespace) -> int:
         print(json.dumps({"status": "not-converged", "message": str(error)}, indent=2) if args.json else str(error))
         return 1
     start = solve_alike(front.start.design, None)
-    rows = [front_row(point, front.start, start) for point in (front.start, *front.points)]
+    found = table(FRONT_COLUMNS, (front_row(point, front.start, start) for point in (front.start, *front.points)))
     if args.csv:
-        write_table(args.csv, [FRONT_COLUMNS, *([_text(name, row[name]) for name in FRONT_COLUMNS] for row in rows)])
-    print_result(args, lambda: front_record(design, front, rows), lambda: _front(front, rows))
+        found.write(args.csv)
+    print_result(args, lambda: front_record(design, front, found.records()), lambda: _front(front, found))
     return 0 if len(front.points) == args.points else 1
 
 
-def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> dict[str, float | str | None]:
+def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[CellValue, ...]:
     """A point by `FRONT_COLUMNS`; None for what it does not have. trimmed: the solution of the start."""
     sure = None if point is start else doubt(solve_alike(point.design, trimmed), trimmed).change_band_percent
-    active, preview, none = point.design.active_twist, point.preview, (None, None)
-    values = (
-        None if active is None else harmonics_text(active.harmonics), point.design.twist.spec(), point.power / 1e3,
-        100.0 * (point.power / start.power - 1.0), sure, point.index, 100.0 * (point.index / start.index - 1.0),
-        *(point.band or none), *(point.over_inflows or none), preview and preview[0] / 1e3, preview and preview[1],
-    )  # fmt: skip
-    return dict(zip(FRONT_COLUMNS, values, strict=True))
+    active, none = point.design.active_twist, (None, None)
+    harmonics = () if active is None else active.harmonics
+    twist = point.design.twist.spec()
+    return (
+        None if active is None else harmonics_text(harmonics),
+        twist,
+        point.power / 1e3,
+        100.0 * (point.power / start.power - 1.0),
+        sure,
+        point.index,
+        point.band and "{:.1f} … {:.1f}".format(*point.band),
+        100.0 * (point.index / start.index - 1.0),
+        point.over_inflows and "{:+.0f} … {:+.0f}".format(*point.over_inflows),
+        waves_text(harmonics) or short_spec(twist),
+        *(point.band or none),
+        *(point.over_inflows or none),
+        point.preview and point.preview[0] / 1e3,
+        point.preview and point.preview[1],
+    )
 
 
-def front_record(design: Design, front: VibrationFront, rows: list[dict[str, float | str | None]]) -> dict[str, Any]:
+def front_record(design: Design, front: VibrationFront, rows: list[dict[str, CellValue]]) -> dict[str, Any]:
     return {
         "status": "converged",
         "message": front.message,
@@ -178,21 +185,8 @@ def front_record(design: Design, front: VibrationFront, rows: list[dict[str, flo
     }
 
 
-def _front(front: VibrationFront, rows: list[dict[str, float | str | None]]) -> str:
-    lines = [
-        front.message,
-        f"{'power':>12}{'change':>10}{'±':>9}{'index':>10}{'over models':>14}{'change':>9}{'over models':>16}   twist",
-    ]
-    for point, row in zip((front.start, *front.points), rows, strict=True):
-        models = "" if point.over_inflows is None else "{:+.0f} … {:+.0f} %".format(*point.over_inflows)
-        band = "" if point.band is None else "{:.1f} … {:.1f} %".format(*point.band)
-        active = () if point.design.active_twist is None else point.design.active_twist.harmonics
-        twist = waves_text(active) or short_spec(point.design.twist.spec())
-        sure = "" if row["power_change_band_percent"] is None else f"{row['power_change_band_percent']:.2f} %"
-        lines.append(
-            f"{point.power / 1e3:9.1f} kW{row['power_change_percent']:+8.2f} %{sure:>9}{point.index:8.2f} %{band:>14}"
-            f"{row['index_change_percent']:+7.0f} %{models:>16}   {twist}"
-        )
+def _front(front: VibrationFront, found: Table) -> str:
+    lines = [front.message, found.text()]
     if any(
         point.over_inflows is not None and point.over_inflows[0] * point.over_inflows[1] < 0.0 for point in front.points
     ):
@@ -250,38 +244,35 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
 
 def waterfall_report(result: Waterfall) -> str:
     design = result.full.design
-    heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in _parts(design))
     return "\n".join(
         [
             f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, "
             f"µ {design.condition.advance_ratio:.4g}",
             "",
             "Switched on one after another",
-            heading,
-            *(_step_line(step) for step in result.steps),
+            _steps_text(result.steps, design),
             "",
             "Each effect removed on its own",
-            heading,
-            *(_step_line(step) for step in result.alone),
+            _steps_text(result.alone, design),
         ]
     )
 
 
-def _step_line(step: WaterfallStep) -> str:
-    parts, note = _parts(step.solution.design), f"   {step.note}" if step.note else ""
+def _steps_text(steps: Sequence[WaterfallStep], design: Design) -> str:
+    """The first step has its parts of the power, the others what they change; the climb's where there is one."""
+    parts = [part for part in PARTS if part != "climb" or design.condition.climb_speed]
+    columns = f"|kW|<; |total|.1f; |change|+.1f; {''.join(f'|{part}; ' for part in parts)}||<"
+    return table(columns, (_step_row(step, parts) for step in steps)).text()
+
+
+def _step_row(step: WaterfallStep, parts: Sequence[str]) -> tuple[CellValue, ...]:
     if step.power is None:
-        return f"{step.title:<18}{step.solution.message}"
-    start = f"{step.title:<18}{step.power / 1e3:9.1f}"
+        return step.title, None, None, *(None for _ in parts), step.solution.message
     if step.change is None or step.added is None:
-        power = step.solution.power
-        return f"{start}{'':9}" + "".join(f"{getattr(power, part) / 1e3:10.1f}" for part in parts)
-    changes = "".join(f"{_kilowatts(step.change[part]):+10.1f}" for part in parts)
-    return wrapped(f"{start}{_kilowatts(step.added):+9.1f}{changes}{note}", "    ")
-
-
-def _parts(design: Design) -> list[str]:
-    """Parts of the total power; that of the climb where there is one."""
-    return [part for part in PARTS if part != "climb" or design.condition.climb_speed]
+        shares = (f"{getattr(step.solution.power, part) / 1e3:.1f}" for part in parts)
+        return step.title, step.power / 1e3, None, *shares, None
+    shares = (f"{_kilowatts(step.change[part]):+.1f}" for part in parts)
+    return step.title, step.power / 1e3, _kilowatts(step.added), *shares, step.note
 
 
 def _kilowatts(power: float) -> float:
@@ -332,45 +323,40 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
 
 
 def _show_section(section: Section, as_json: bool) -> None:
-    table = section.table
+    data = section.table
     mach = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])
-    negative, positive = table.stall_alpha(mach)
-    sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), table.moment(0.0, mach)
-    columns: dict[str, tuple[str, int, Array]] = {
-        "mach": ("Mach", 2, mach),
-        "cl_alpha_per_deg": ("slope/deg", 4, np.deg2rad(table.lift_slope(mach))),
-        "zero_lift_deg": ("alpha0 deg", 2, np.rad2deg(table.zero_lift_alpha(mach))),
-        "stall_negative_deg": ("stall- deg", 1, np.rad2deg(negative)),
-        "stall_positive_deg": ("stall+ deg", 1, np.rad2deg(positive)),
-        "cl_max": ("cl max", 3, table(sweep[:, None], mach).cl.max(axis=0)),
-        "cl_at_4_deg": ("cl(4)", 3, table(four, mach).cl),
-        "cd_at_0_deg": ("cd(0)", 4, table(0.0, mach).cd),
-        "cd_at_4_deg": ("cd(4)", 4, table(four, mach).cd),
-        **({} if moment is None else {"cm_at_0_deg": ("cm(0)", 4, moment)}),
+    negative, positive = data.stall_alpha(mach)
+    sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), data.moment(0.0, mach)
+    values: dict[str, Array] = {
+        "mach|Mach|.2f": mach,
+        "cl_alpha_per_deg|slope/deg|.4f": np.deg2rad(data.lift_slope(mach)),
+        "zero_lift_deg|alpha0 deg|.2f": np.rad2deg(data.zero_lift_alpha(mach)),
+        "stall_negative_deg|stall- deg|.1f": np.rad2deg(negative),
+        "stall_positive_deg|stall+ deg|.1f": np.rad2deg(positive),
+        "cl_max|cl max|.3f": data(sweep[:, None], mach).cl.max(axis=0),
+        "cl_at_4_deg|cl(4)|.3f": data(four, mach).cl,
+        "cd_at_0_deg|cd(0)|.4f": data(0.0, mach).cd,
+        "cd_at_4_deg|cd(4)|.4f": data(four, mach).cd,
+        **({} if moment is None else {"cm_at_0_deg|cm(0)|.4f": moment}),
     }
-    """Heading and decimals of the table, and values."""
-    divergence = {f"{a:g}": round(float(table.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
+    divergence = {f"{a:g}": round(float(data.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
     offset = float(np.rad2deg(section.incidence_offset))
     if as_json:
         answer = {
             "name": section.name,
-            "source": table.source,
-            "mach_limit": table.mach_limit,
+            "source": data.source,
+            "mach_limit": data.mach_limit,
             "incidence_offset_deg": round(offset, 6),
             "chord_ratio": section.chord_ratio,
             "drag_divergence_mach": divergence,
-            **{key: [round(float(v), 5) for v in values] for key, (_, _, values) in columns.items()},
+            **{column.partition("|")[0]: [round(float(v), 5) for v in cells] for column, cells in values.items()},
         }
         print(json.dumps(answer))
         return
-    print(wrapped(f"{section.name}: {table.source}", "  "))
+    print(wrapped(f"{section.name}: {data.source}", "  "))
     print(
-        f"data to Mach {table.mach_limit:g}; chord line {offset:g} deg nose-down of, "
+        f"data to Mach {data.mach_limit:g}; chord line {offset:g} deg nose-down of, "
         f"and chord {section.chord_ratio:g} times, those of SC1095"
     )
-    widths = [max(len(head) + 1, 8) for head, _, _ in columns.values()]
-    print("".join(f"{head:>{width}}" for (head, _, _), width in zip(columns.values(), widths, strict=True)))
-    for k in range(len(mach)):
-        cells = zip(columns.values(), widths, strict=True)
-        print("".join(f"{values[k]:{width}.{decimals}f}" for (_, decimals, values), width in cells))
+    print(table("; ".join(values), zip(*values.values(), strict=True)).text())
     print("drag divergence (dcd/dM = 0.1) at Mach " + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items()))

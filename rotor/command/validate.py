@@ -9,6 +9,7 @@ from typing import Any
 
 from rotor.command.common import add_command
 from rotor.plots import draw_chart, drawing_module
+from rotor.table import CellValue, table
 from rotor.terminal import wrapped
 from rotor.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
@@ -75,11 +76,8 @@ def run(args: argparse.Namespace) -> int:
         tables += [airload_report(curves)] if curves else []
         tables += [power_report(powers)] if powers else []
         for other in others:
-            what, shown = (
-                max(map(len, words)) for words in zip(*((row.what, row.shown) for row in other.rows), strict=True)
-            )
-            lines = [f"{row.what:<{what}}  {row.shown:<{shown}}  {row.verdict}" for row in other.rows]
-            tables.append("\n".join([other.title, *lines]))
+            rows = ((row.what, row.shown, row.verdict) for row in other.rows)
+            tables.append(f"{other.title}\n{table('||<; |error|<; |verdict|<', rows).text()}")
         if tables:
             print(("\n" if comparisons else "") + "\n\n".join(tables))
     if args.plot:
@@ -92,71 +90,63 @@ def run(args: argparse.Namespace) -> int:
 
 
 def inflow_report(rows: list[InflowAgreement]) -> str:
+    cells = (
+        (row.mu, row.model, "–" if row.correlation is None else row.correlation, row.rms, row.mean, row.measured_mean)
+        for row in rows
+    )
     lines = [
         f"{INFLOW_SET}: inflow one chord above the disk of the NASA 2MRTS rotor, laser velocimeter; never fitted",
-        f"{'mu':>6}  {'model':<30}{'correlation':>12}{'rms':>9}{'mean':>9}{'measured':>10}",
+        table("|mu|.2f; |model|<; |correlation|.2f; |rms|.4f; |mean|.4f; |measured|.4f", cells).text(),
+        wrapped(description(INFLOW_SET).text[0]),
     ]
-    for row in rows:
-        correlation = "–" if row.correlation is None else f"{row.correlation:.2f}"
-        lines.append(
-            f"{row.mu:6.2f}  {row.model:<30}{correlation:>12}{row.rms:9.4f}{row.mean:9.4f}{row.measured_mean:10.4f}"
-        )
-    return "\n".join([*lines, wrapped(description(INFLOW_SET).text[0])])
+    return "\n".join(lines)
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:
+    columns = "|case; |r/R|.2f; |quantity|<; |correlation|.2f; |rms|.4f; |of|.4f; |mean|.4f; |measured|.4f"
+    cells = (
+        (row.case.name, row.r, row.quantity, row.correlation, row.rms, row.measured_rms, row.mean, row.measured_mean)
+        for row in rows
+    )
     lines = [
-        *(wrapped(f"{name}: {REPORTS[name]}; never fitted") for name in dict.fromkeys(row.case.test for row in rows))
+        *(wrapped(f"{name}: {REPORTS[name]}; never fitted") for name in dict.fromkeys(row.case.test for row in rows)),
+        table(columns, cells).text(),
+        wrapped("Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of difference and measured."),
     ]
-    lines.append(
-        f"{'case':>6}{'r/R':>7}  {'quantity':<14}{'correlation':>12}{'rms':>10}{'of':>10}{'mean':>10}{'measured':>10}"
-    )
-    for row in rows:
-        lines.append(
-            f"{row.case.name:>6}{row.r:7.2f}  {row.quantity:<14}{row.correlation:12.2f}{row.rms:10.4f}"
-            f"{row.measured_rms:10.4f}{row.mean:10.4f}{row.measured_mean:10.4f}"
-        )
-    lines.append(
-        wrapped("Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of difference and measured.")
-    )
     return "\n".join(lines)
 
 
 def power_report(rows: list[FlownPower]) -> str:
-    lines = [
-        f"{POWERS}: main-rotor power in level flight [kW]; never fitted",
-        f"{'rotor':<9}{'case':>9}{'mu':>8}{'measured':>10}{'ours':>8}{'error %':>9}  between the drag areas",
-    ]
+    columns = "|rotor|<; |case; |mu|.3f; |measured|.1f; |ours|.1f; |error %|+.1f; |between the drag areas|<"
+    cells: list[tuple[CellValue, ...]] = []
     for row in rows:
-        begin = f"{row.rotor:<9}{row.case:>9}{row.mu:8.3f}{row.measured / 1e3:10.1f}"
-        if row.ours is None:
-            lines.append(f"{begin}  does not trim")
-            continue
-        band = "" if row.band is None else f"  {row.band[0] / 1e3:.1f} … {row.band[1] / 1e3:.1f}"
-        lines.append(f"{begin}{row.ours / 1e3:8.1f}{100.0 * (row.ours / row.measured - 1.0):+9.1f}{band}")
-    return "\n".join(lines)
+        ours, error, words = None, None, "does not trim"
+        if row.ours is not None:
+            ours, error = row.ours / 1e3, 100.0 * (row.ours / row.measured - 1.0)
+            words = row.band and f"{row.band[0] / 1e3:.1f} … {row.band[1] / 1e3:.1f}"
+        cells.append((row.rotor, row.case, row.mu, row.measured / 1e3, ours, error, words))
+    title = f"{POWERS}: main-rotor power in level flight [kW]; never fitted"
+    return f"{title}\n{table(columns, cells).text()}"
 
 
 def report(comparison: Comparison) -> str:
     measured, quantity = comparison.measured, comparison.measured.quantity
+    given = "".join(f"|{name}|.5g; " for name in measured.given)
+    cells: list[tuple[CellValue, ...]] = []
+    for point in comparison.points:
+        ours, words = None, point.message
+        if point.ours is not None:
+            missed = "" if point.passed else ", misses the target"
+            aside = "" if point.judged or measured.indicative else " (no target here)"
+            ours, words = point.ours[quantity], f"{'yes' if point.within_scatter else 'no'}{missed}{aside}"
+        where = (point.given[name] for name in measured.given)
+        cells.append((*where, point.measured[quantity], ours, point.error_percent, words))
     lines = [
         wrapped(f"{measured.name}: {measured.title}"),
         wrapped(measured.report),
         f"inflow {comparison.inflow}; never fitted",
-        "".join(f"{name:>15}" for name in (*measured.given, "measured", "ours", "error %")) + "  within scatter",
+        table(f"{given}|measured|.6g; |ours|.6g; |error %|+.1f; |within scatter|<", cells).text(),
     ]
-    for point in comparison.points:
-        cells = "".join(f"{point.given[name]:15.5g}" for name in measured.given)
-        if point.ours is None:
-            lines.append(wrapped(f"{cells}{point.measured[quantity]:15.6g}  {point.message}", " " * 15))
-            continue
-        marks = "yes" if point.within_scatter else "no"
-        missed = "" if point.passed else ", misses the target"
-        aside = "" if point.judged or measured.indicative else " (no target here)"
-        lines.append(
-            f"{cells}{point.measured[quantity]:15.6g}{point.ours[quantity]:15.6g}{point.error_percent:+15.1f}"
-            f"  {marks}{missed}{aside}"
-        )
     lines.append(wrapped(verdict(comparison)))
     if lost := [point for point in comparison.points if point.ours is None]:
         counted = sum(point in comparison.judged for point in lost)

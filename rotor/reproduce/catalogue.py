@@ -123,18 +123,28 @@ def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:
 def _grid(known: dict[str, Report]) -> TrustSet:
     words, presets = description("grid"), ("thesis", FLIGHT_LINEAR)
     rows = [
-        words.share(f"Power at 40 elements, {where}", max(known[number].numbers[f"{p}_error_at_40"] for p in presets),
-                    2e-4, digits=2, against="limit of finer grids")
+        words.share(
+            f"Power at 40 elements, {where}",
+            max(known[number].numbers[f"{p}_error_at_40"] for p in presets),
+            2e-4,
+            digits=2,
+            against="limit of finer grids",
+        )
         for where, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
-    ]  # fmt: skip
+    ]
     error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
     area = known["2.8"].numbers
     rows += [
         words.bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5, "test_figure_3_9"),
-        words.share("Reverse-flow area, µ 0.30, counted in cells", area["reverse_area"] / area["circle_area"] - 1.0,
-                    5e-3, digits=2, against="the circle r = −µ sin ψ",
-                    test="rotor/reproduce/test_chapter_2.py::test_figure_2_8"),
-    ]  # fmt: skip
+        words.share(
+            "Reverse-flow area, µ 0.30, counted in cells",
+            area["reverse_area"] / area["circle_area"] - 1.0,
+            5e-3,
+            digits=2,
+            against="the circle r = −µ sin ψ",
+            test="rotor/reproduce/test_chapter_2.py::test_figure_2_8",
+        ),
+    ]
     charts = (_chart(known[number], -1) for number in ("3.7", "3.8", "3.9"))
     return words.page(f"{rows[0].shown} at 40 elements", rows, charts)
 
@@ -142,11 +152,16 @@ def _grid(known: dict[str, Report]) -> TrustSet:
 def _keys_1987(report: Report) -> TrustSet:
     words = description("keys-1987")
     rows = [
-        words.share(f"Power of −17.3° over −11.5°, {where}, {name}", report.numbers[f"{name}_{key}"] - published, 3e-3,
-                    unit="points", against=f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)")
+        words.share(
+            f"Power of −17.3° over −11.5°, {where}, {name}",
+            report.numbers[f"{name}_{key}"] - published,
+            3e-3,
+            unit="points",
+            against=f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)",
+        )
         for name in ("thesis-wake", "flight")
         for key, where, published in (("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST))
-    ]  # fmt: skip
+    ]
     return words.page(f"{rows[2].shown}, {rows[3].shown}", rows, (_chart(report),), text=(report.because,))
 
 
@@ -163,8 +178,9 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         chapter = checked.number[0] if checked.number[0].isdigit() else "3"
         name = checked.title.lower().replace(" ", "_").replace(".", "_")
         test = f"rotor/reproduce/test_chapter_{chapter}.py::test_{name}"
-        row = words.row(checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.ours,
-                        against=checked.statement)  # fmt: skip
+        row = words.row(
+            checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.ours, against=checked.statement
+        )
         rows.append(replace(row, error=None))
     count = Counter(row.shown for row in rows)
     series = (Points("", tuple(count.values()), range(len(count)), 1),)

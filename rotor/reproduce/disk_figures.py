@@ -39,9 +39,11 @@ def figure_2_7() -> Report:
         at_peak = float(disk.r[int(lift.argmax())])
         at_tip = float(lift[-1] / lift.max())
         numbers |= {
-            f"{preset}_share": inner, f"{preset}_tip_share": outer,
-            f"{preset}_peak": at_peak, f"{preset}_tip_over_peak": at_tip,
-        }  # fmt: skip
+            f"{preset}_share": inner,
+            f"{preset}_tip_share": outer,
+            f"{preset}_peak": at_peak,
+            f"{preset}_tip_over_peak": at_tip,
+        }
         rows += [(preset, r, v, f) for r, v, f in zip(disk.r, disk.induced[:, 0], lift, strict=True)]
         inflow.append(curve(f"{preset}, {twist}", disk.r, disk.induced[:, 0], colour=k))
         thrust.append(curve(f"{preset}, {twist}", disk.r, lift, colour=k))
@@ -70,10 +72,8 @@ def figure_2_8() -> Report:
     # One cell is 1/40 of the blade by 1/120 of the turn: the border of the region cuts through about 60 of them.
     good = abs(ours - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
     rows = [
-        (r, math.degrees(psi), disk.u_t[i, 4 * j])
-        for i, r in enumerate(disk.r)
-        for j, psi in enumerate(disk.psi[::4])
-    ]  # fmt: skip
+        (r, math.degrees(psi), disk.u_t[i, 4 * j]) for i, r in enumerate(disk.r) for j, psi in enumerate(disk.psi[::4])
+    ]
     curves = tuple(
         curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360]) for degrees in (0, 90, 180, 270)
     )
@@ -170,9 +170,11 @@ def elements_figure(number: str) -> Report:
         limit = row[-1] + ((row[-1] - row[-2]) / (2.0**order - 1.0) if order > 1.0 else 0.0)
         errors[name] = [abs(power / limit - 1.0) for power in row]
         numbers |= {
-            f"{name}_order": order, f"{name}_limit_kw": limit,
-            f"{name}_error_at_40": errors[name][ELEMENTS.index(40)], f"{name}_needed": _needed(ELEMENTS, errors[name]),
-        }  # fmt: skip
+            f"{name}_order": order,
+            f"{name}_limit_kw": limit,
+            f"{name}_error_at_40": errors[name][ELEMENTS.index(40)],
+            f"{name}_needed": _needed(ELEMENTS, errors[name]),
+        }
     return report(
         number,
         tables=[table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True))],

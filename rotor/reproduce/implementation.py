@@ -160,12 +160,20 @@ TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 """The thesis' hovering, low, medium and high speed; it states no numbers for them."""
 
 DOCUMENT_3_1 = {
-    "radius_m": 1.6764, "angular_speed_rad_s": 124.62, "chord_m": 0.2469, "blades": 4.0, "arm_m": 9.926,
-}  # fmt: skip
+    "radius_m": 1.6764,
+    "angular_speed_rad_s": 124.62,
+    "chord_m": 0.2469,
+    "blades": 4.0,
+    "arm_m": 9.926,
+}
 DOCUMENT_3_2 = {
-    "radius_m": 8.1788, "angular_speed_rad_s": 27.0, "reference_chord_m": 0.5273, "blades": 4.0,
-    "mass_per_length_kg_m": 13.92, "mass_kg": 8322.4,
-}  # fmt: skip
+    "radius_m": 8.1788,
+    "angular_speed_rad_s": 27.0,
+    "reference_chord_m": 0.5273,
+    "blades": 4.0,
+    "mass_per_length_kg_m": 13.92,
+    "mass_kg": 8322.4,
+}
 
 
 def table_3_1() -> Report:
@@ -246,23 +254,36 @@ def figure_3_10() -> Report:
                 zip(rotor_speeds, theirs, *(ours[name] for name in TWISTS), strict=True),
             ),
             table(
-                "hover_points", ("ct_over_sigma", "cp_over_sigma_digitised", "cp_over_sigma_flight"),
+                "hover_points",
+                ("ct_over_sigma", "cp_over_sigma_digitised", "cp_over_sigma_flight"),
                 zip(hover_ct, hover_cp, hover_ours, strict=True),
             ),
         ),
         panels=(
             Chart(
-                "8322.4 kg, sea level", Axis("advance ratio µ"), Axis("total power [kW]"),
+                "8322.4 kg, sea level",
+                Axis("advance ratio µ"),
+                Axis("total power [kW]"),
                 tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS)),
             ),
-            Chart("7257.5 kg, 1600 m", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), (
+            Chart(
+                "7257.5 kg, 1600 m",
+                Axis("advance ratio µ"),
+                Axis("main-rotor power [kW]"),
+                (
                     *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(TWISTS)),
                     curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
-                )),
-            Chart("hover", Axis("C_T/σ (σ = 0.0826)"), Axis("C_P/σ"), (
+                ),
+            ),
+            Chart(
+                "hover",
+                Axis("C_T/σ (σ = 0.0826)"),
+                Axis("C_P/σ"),
+                (
                     curve("flight", hover_ct, hover_ours),
                     curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7),
-                )),
+                ),
+            ),
         ),
         numbers={
             "rms_to_model_curve": error,
@@ -278,4 +299,4 @@ def figure_3_10() -> Report:
         thesis_bucket=bucket["thesis"],
         section=section,
         wake=line,
-    )  # fmt: skip
+    )

@@ -158,9 +158,12 @@ def _with_blades(design: Design, count: int) -> Design:
             )
         )
         structure = replace(
-            structure, torsional_stiffness=stiffness, torsional_inertia=inertia, mass_per_length=mass,
+            structure,
+            torsional_stiffness=stiffness,
+            torsional_inertia=inertia,
+            mass_per_length=mass,
             control_stiffness=share**2 * structure.control_stiffness,
-        )  # fmt: skip
+        )
     blade = replace(
         rotor.blade,
         chords=tuple(share * chord for chord in rotor.blade.chords),

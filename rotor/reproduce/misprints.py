@@ -69,9 +69,17 @@ def _names() -> dict[str, Any]:
         return float(np.asarray(chebval(t, series.coef), dtype=np.float64))
 
     helpers: tuple[Callable[..., Any], ...] = (
-        hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve, polynomial_section, polynomial_table,
+        hover_kw,
+        induced_kw,
+        free,
+        glauert_inflow,
+        prandtl,
+        make_design,
+        solve,
+        polynomial_section,
+        polynomial_table,
         load_section,
-    )  # fmt: skip
+    )
     return {"np": np, "reading": THESIS_READING, **{helper.__name__: helper for helper in helpers}}
 
 

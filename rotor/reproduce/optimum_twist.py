@@ -62,11 +62,16 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
     kinds = _by_kind(0.2) if number == "4.1" else {}
     rows = [
-        (name, optimum.mu, *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
-         optimum.power_kw, 100.0 * optimum.saving)
+        (
+            name,
+            optimum.mu,
+            *(cell for key in shown for cell in (_value(optimum, key), *_band(optimum, key))),
+            optimum.power_kw,
+            100.0 * optimum.saving,
+        )
         for name, row in optima.items()
         for optimum in row
-    ]  # fmt: skip
+    ]
     return report(
         number,
         tables=[

@@ -104,9 +104,14 @@ def curve(
 
 
 def with_gap(
-    label: str, mu: Sequence[float], y: Sequence[float], style: CurveStyle = "both", *, colour: int,
+    label: str,
+    mu: Sequence[float],
+    y: Sequence[float],
+    style: CurveStyle = "both",
+    *,
+    colour: int,
     upper: Sequence[float] | None = None,
-) -> list[Series]:  # fmt: skip
+) -> list[Series]:
     """A curve over forward flight and its point in hover, not joined: no inflow model is validated between them."""
     parts: list[Series] = []
     for words, flying in ((label, True), ("", False)):
@@ -152,9 +157,15 @@ def report(
     return Report(
         number=number.removeprefix("table ").capitalize(),
         kind="table" if number.startswith("table ") else "figure" if number[0].isdigit() else "claim",
-        caption=caption, statement=known, ours=ours, verdict=verdict, because=because,
-        tables=tuple(tables), panels=tuple(panels), numbers=numbers,
-    )  # fmt: skip
+        caption=caption,
+        statement=known,
+        ours=ours,
+        verdict=verdict,
+        because=because,
+        tables=tuple(tables),
+        panels=tuple(panels),
+        numbers=numbers,
+    )
 
 
 def _filled(text: str, values: Mapping[str, str | float]) -> str:

@@ -87,10 +87,12 @@ def figure_3_11() -> Report:
         panels += [
             Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
             Chart(
-                title, Axis("C_T/σ"), Axis("relative to the best of the five [%]"),
+                title,
+                Axis("C_T/σ"),
+                Axis("relative to the best of the five [%]"),
                 _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
             ),
-        ]  # fmt: skip
+        ]
         rows = [
             (mass, loading[k], *(powers[rate][k].power.main_rotor / 1e3 for rate in FIVE_RATES))
             for k, mass in enumerate(MASSES)
@@ -98,11 +100,13 @@ def figure_3_11() -> Report:
         tables.append(table(f"{name}_kw", ("mass_kg", "ct_over_sigma", *(f"linear_{r}" for r in FIVE_RATES)), rows))
         best, low, high, least = hover_optimum(name)
         numbers |= {
-            f"{name}_optimum": best, f"{name}_low": low, f"{name}_high": high,
+            f"{name}_optimum": best,
+            f"{name}_low": low,
+            f"{name}_high": high,
             f"{name}_cost_of_13_5": main_rotor_kw(name, DOCUMENT_HOVER, 0.0) / least - 1.0,
             f"{name}_cost_of_16": main_rotor_kw(name, -16, 0.0) / least - 1.0,
             f"{name}_cost_of_0": main_rotor_kw(name, 0, 0.0) / least - 1.0,
-        }  # fmt: skip
+        }
     span = 1.0 - make_design(preset="thesis").rotor.blade.root_cutout
     best, _, _, least = hover_optimum("thesis")
     tip, tip_strong = (
@@ -110,9 +114,12 @@ def figure_3_11() -> Report:
     )
     strong = solved("thesis", "linear:-16", 0.0).require()
     numbers |= {
-        "root_to_tip_optimum": best * span, "cost_of_13_5_root_to_tip": tip, "cost_of_16_root_to_tip": tip_strong,
-        "largest_alpha_deg": float(np.degrees(strong.disk.alpha.max())), "stalled_area": strong.stalled_area,
-    }  # fmt: skip
+        "root_to_tip_optimum": best * span,
+        "cost_of_13_5_root_to_tip": tip,
+        "cost_of_16_root_to_tip": tip_strong,
+        "largest_alpha_deg": float(np.degrees(strong.disk.alpha.max())),
+        "stalled_area": strong.stalled_area,
+    }
     agrees = numbers["thesis_cost_of_13_5"] <= TOLERANCE < numbers["thesis_cost_of_16"]
     return report("3.11", judged(agrees), tables=tables, panels=panels, numbers=numbers)
 
@@ -197,16 +204,23 @@ def figure_3_15() -> Report:
     best = [best_of_five("flight", mu) for mu in FULL]
     flown = tuple(mu for mu in FULL if all(math.isfinite(slower_kw(rate, mu)) for rate in FIVE_RATES))
     slow = [min(FIVE_RATES, key=lambda rate, mu=mu: slower_kw(rate, mu)) for mu in flown]
-    gain = {mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
-            for mu, rate, saving in zip(flown, slow, best, strict=False)}  # fmt: skip
+    gain = {
+        mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
+        for mu, rate, saving in zip(flown, slow, best, strict=False)
+    }
     beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
         "3.15",
         tables=[
-            table("flight_kw", ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-                  [(mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
-                   for mu, saving in zip(FULL, best, strict=True)]),
+            table(
+                "flight_kw",
+                ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
+                [
+                    (mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
+                    for mu, saving in zip(FULL, best, strict=True)
+                ],
+            ),
         ],
         panels=[
             Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))
@@ -217,11 +231,17 @@ def figure_3_15() -> Report:
             )
         ],
         numbers={"hover_best": float(best[0]), "fast_best": float(best[-1]), "slower_saves": gain[0.2]},
-        best=_path(best, FULL), slow=_path(slow, flown), beyond=beyond, fastest=flown[-1],
-        hover_spread=spread[0], least_spread=min(spread[1:]), largest_spread=max(spread[1:]),
-        slow_changes=-gain[0.2], fast_changes=-gain[flown[-1]],
+        best=_path(best, FULL),
+        slow=_path(slow, flown),
+        beyond=beyond,
+        fastest=flown[-1],
+        hover_spread=spread[0],
+        least_spread=min(spread[1:]),
+        largest_spread=max(spread[1:]),
+        slow_changes=-gain[0.2],
+        fast_changes=-gain[flown[-1]],
         neighbours=", ".join(f"{_neighbours(mu)} % at µ {mu:g}" for mu in (0.2, 0.35)),
-    )  # fmt: skip
+    )
 
 
 def _at(value: Callable[[float, float], float], rate: int, place: int) -> float:
@@ -232,8 +252,9 @@ def _at(value: Callable[[float, float], float], rate: int, place: int) -> float:
 def _neighbours(mu: float) -> str:
     """What the two twists beside the best of the five cost [%]."""
     k = FIVE_RATES.index(best_of_five("flight", mu))
-    return " and ".join(f"{_percent('flight', rate, mu):.1f}" for rate in (*FIVE_RATES[max(k - 1, 0) : k],
-                                                                      *FIVE_RATES[k + 1 : k + 2]))  # fmt: skip
+    return " and ".join(
+        f"{_percent('flight', rate, mu):.1f}" for rate in (*FIVE_RATES[max(k - 1, 0) : k], *FIVE_RATES[k + 1 : k + 2])
+    )
 
 
 def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Series, ...]:
@@ -273,15 +294,17 @@ def crossings(name: str, first: int, second: int, speeds: tuple[float, ...]) -> 
 
 def _speeds(
     number: str, speeds: tuple[float, ...], verdict: Agreement, numbers: dict[str, float], **words: str | float
-) -> Report:  # fmt: skip
+) -> Report:
     panels = tuple(
         Chart(
-            VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(label),
+            VARIANT_TITLES[name],
+            Axis("advance ratio µ"),
+            Axis(label),
             _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
         )
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
         for name in FIVE_NAMES
-    )  # fmt: skip
+    )
     paths = "; ".join(
         f"{name}: best of five " + _path([best_of_five(name, mu) for mu in speeds], speeds) for name in FIVE_NAMES
     )
@@ -371,28 +394,56 @@ def keys_1987() -> Report:
         "keys 1987",
         judged(all(near)),
         tables=(
-            table("over_propulsive_force", ("X_over_qd2sigma", *(f"{words} [%]" for words in over), "slower [km/h]"),
-                  [(x, *(row[k] for row in ratio.values()), over["flight"][k][1]) for k, x in enumerate(force)]),
-            table("over_speed_percent", ("speed_kmh", *percent),
-                  [(kmh, *row) for kmh, *row in zip(SPEEDS_KMH, *percent.values(), strict=True)]),
+            table(
+                "over_propulsive_force",
+                ("X_over_qd2sigma", *(f"{words} [%]" for words in over), "slower [km/h]"),
+                [(x, *(row[k] for row in ratio.values()), over["flight"][k][1]) for k, x in enumerate(force)],
+            ),
+            table(
+                "over_speed_percent",
+                ("speed_kmh", *percent),
+                [(kmh, *row) for kmh, *row in zip(SPEEDS_KMH, *percent.values(), strict=True)],
+            ),
         ),
         panels=(
-            Chart("", Axis("speed [km/h]"), Axis("power of −17.3° over −11.5° [%]"), (
-                *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
-                curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
-            )),
-            Chart("", Axis("X/qd²σ"), Axis("power of −17.3° over −11.5° at 330 km/h [%]"), (
-                curve("", force, lowest, "band", upper=highest, colour=2),
-                *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),
-                curve("measured, force not stated", (force[0], force[-1]), (100 * FAST,) * 2, "dashed", colour=7),
-            )),
+            Chart(
+                "",
+                Axis("speed [km/h]"),
+                Axis("power of −17.3° over −11.5° [%]"),
+                (
+                    *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
+                    curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
+                ),
+            ),
+            Chart(
+                "",
+                Axis("X/qd²σ"),
+                Axis("power of −17.3° over −11.5° at 330 km/h [%]"),
+                (
+                    curve("", force, lowest, "band", upper=highest, colour=2),
+                    *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),
+                    curve("measured, force not stated", (force[0], force[-1]), (100 * FAST,) * 2, "dashed", colour=7),
+                ),
+            ),
         ),
         numbers={
-            **{f"{name}_{end}": row[at] / 100.0 for name, row in percent.items()
-               for end, at in (("hover", 0), ("fast", -1))},
-            "usual_force": usual / 100.0, "usual_low": low / 100.0, "usual_high": high / 100.0, "slower_kmh": slower,
+            **{
+                f"{name}_{end}": row[at] / 100.0
+                for name, row in percent.items()
+                for end, at in (("hover", 0), ("fast", -1))
+            },
+            "usual_force": usual / 100.0,
+            "usual_low": low / 100.0,
+            "usual_high": high / 100.0,
+            "slower_kmh": slower,
         },
-        lowest=lowest[-1], highest=highest[-1], models=len(over), usual_low_percent=low, usual_high_percent=high,
-        ends="both ends are" if all(near) else "not both ends are", without_force=ratio["flight"][0],
-        with_drag=ratio["flight"][-1], force=force[-1],
-    )  # fmt: skip
+        lowest=lowest[-1],
+        highest=highest[-1],
+        models=len(over),
+        usual_low_percent=low,
+        usual_high_percent=high,
+        ends="both ends are" if all(near) else "not both ends are",
+        without_force=ratio["flight"][0],
+        with_drag=ratio["flight"][-1],
+        force=force[-1],
+    )

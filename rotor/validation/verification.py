@@ -38,31 +38,61 @@ def theory() -> TrustSet:
     words, (marched, balanced, second) = description("theory"), marched_flapping("thesis", 0.15)
     flapping = math.degrees(np.abs(marched - balanced).max())
     bounds = (
-        words.bound("Uniform inflow of the ideal twist, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(), 1e-12,
-                    "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow"),
-        words.bound("Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)",
-                    _closes(), 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance"),
-        words.bound("Shaft power is the sum of its parts, three inflow models", "identity", _energy(), 1e-8,
-                    "rotor/trim/test_power.py::test_energy_identity"),
-        words.bound("Gradient of power by linear twist, lifting line", "central differences", _gradient(), 1e-6,
-                    "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences"),
-        words.bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
-                    "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected"),
-    )  # fmt: skip
+        words.bound(
+            "Uniform inflow of the ideal twist, eqs. (1.1), (2.28)",
+            "momentum theory",
+            _ideal_twist(),
+            1e-12,
+            "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow",
+        ),
+        words.bound(
+            "Closed form (3.3) satisfies the annulus balance, F included",
+            "4Fλ²r = ½σC_lα(θr² − λr)",
+            _closes(),
+            1e-12,
+            "rotor/trim/test_hover.py::test_closed_form_closes_the_balance",
+        ),
+        words.bound(
+            "Shaft power is the sum of its parts, three inflow models",
+            "identity",
+            _energy(),
+            1e-8,
+            "rotor/trim/test_power.py::test_energy_identity",
+        ),
+        words.bound(
+            "Gradient of power by linear twist, lifting line",
+            "central differences",
+            _gradient(),
+            1e-6,
+            "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences",
+        ),
+        words.bound(
+            "Profile power with reverse flow, (3.15) corrected",
+            "quadrature of |U_T|³",
+            _profile(),
+            1e-5,
+            "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected",
+        ),
+    )
     rest = f"The rest is the neglected 2/rev motion ({math.degrees(second):.2f}°)."
     motion = words.row(
-        "First-harmonic flapping, µ 0.15, free flapping", f"{flapping:.2f}°", flapping, 0.02,
-        against="equation of motion in time", note=rest,
-    )  # fmt: skip
+        "First-harmonic flapping, µ 0.15, free flapping",
+        f"{flapping:.2f}°",
+        flapping,
+        0.02,
+        against="equation of motion in time",
+        note=rest,
+    )
     places = range(len(bounds))
     chart = Chart(
-        "Errors and their bounds", Axis("relative error", log=True),
+        "Errors and their bounds",
+        Axis("relative error", log=True),
         Axis(names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)")),
         (
             Points("error", [max(row.error or 0.0, 1e-17) for row in bounds], places, 1),
             Points("bound", [row.allowed for row in bounds], places, mark="cross"),
         ),
-    )  # fmt: skip
+    )
     met = sum(row.verdict == "met" for row in bounds)
     return words.page(f"{met} of {len(bounds)} within bounds", (*bounds, motion), (chart,))
 
@@ -119,8 +149,9 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w by Runge–Kutta, its last of 12 turns. The load is that of the
     instant's own β and β', with controls and inflow as trimmed; nothing here uses harmonics.
     """
-    problem = build_problem(_with_inflow(make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist"),
-                                         "pitt-peters"))  # fmt: skip
+    problem = build_problem(
+        _with_inflow(make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist"), "pitt-peters")
+    )
     trim = newton(problem, first_guess(problem))
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)
