@@ -318,9 +318,23 @@ def _onset(rows: Any, xf: Any, dxf: Any, dm: Any, g: Any, dg: Any) -> None:
 
 @_compile
 def _sum_up(
-    rows: Any, steps: int, fm: Any, x: Any, f: Any, m: Any, cv: Any, tau: Any, dx: Any, dm: Any, dfs: Any, dms: Any,
-    dcv: Any, dtau: Any, added: Any, by: Any,
-) -> None:  # fmt: skip
+    rows: Any,
+    steps: int,
+    fm: Any,
+    x: Any,
+    f: Any,
+    m: Any,
+    cv: Any,
+    tau: Any,
+    dx: Any,
+    dm: Any,
+    dfs: Any,
+    dms: Any,
+    dcv: Any,
+    dtau: Any,
+    added: Any,
+    by: Any,
+) -> None:
     """What is added, brought back to the azimuths given."""
     fine, seeds = dx.shape
     n = fine // steps
@@ -361,9 +375,21 @@ def _sum_up(
 
 @_compile
 def _vortex(
-    rows: Any, ms: Any, dm: Any, es: Any, de: Any, f: Any, df: Any, g: Any, dg: Any, unit: float, cv: Any, dcv: Any,
-    tau: Any, dtau: Any,
-) -> None:  # fmt: skip
+    rows: Any,
+    ms: Any,
+    dm: Any,
+    es: Any,
+    de: Any,
+    f: Any,
+    df: Any,
+    g: Any,
+    dg: Any,
+    unit: float,
+    cv: Any,
+    dcv: Any,
+    tau: Any,
+    dtau: Any,
+) -> None:
     """C_nᵛ and τ with their slopes."""
     n, seeds = dm.shape
     s, ds = np.zeros(n + 1), np.zeros((n + 1, seeds))

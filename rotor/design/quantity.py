@@ -13,9 +13,19 @@ Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 here."""
 
 _UNITS = {
-    "_deg": "°", "_percent": "%", "_kt": "kt", "_kg": "kg", "_m": "m", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n": "N",
-    "_nm": "N m", "_w": "W", "_ms": "ms", "_per_rev": "/rev",
-}  # fmt: skip
+    "_deg": "°",
+    "_percent": "%",
+    "_kt": "kt",
+    "_kg": "kg",
+    "_m": "m",
+    "_m_s": "m/s",
+    "_kg_m3": "kg/m³",
+    "_n": "N",
+    "_nm": "N m",
+    "_w": "W",
+    "_ms": "ms",
+    "_per_rev": "/rev",
+}
 """Units by the end of a name of a number."""
 
 
