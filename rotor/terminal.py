@@ -12,12 +12,11 @@ import sys
 import textwrap
 import threading
 import time
-import warnings
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NoReturn, TextIO, cast
+from typing import Any, NoReturn, cast
 
-from rotor.user_input import Notice, brief, did_you_mean
+from rotor.user_input import brief, did_you_mean
 
 _ASCII = {
     "−": "-", "–": "-", "…": "...", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "×": "x", "·": "*", "±": "+/-",
@@ -121,16 +120,12 @@ def wrapped(text: str, indent: str = "") -> str:
 
 
 def run_command(program: str, run: Callable[[], int]) -> int:
-    """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr.
-
-    A `Notice` is one line on stderr, once.
-    """
+    """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr."""
     make_encodable()
     if signal.getsignal(signal.SIGINT) is _leave:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        with _plain_notices(program):
-            code = run()
+        code = run()
         sys.stdout.flush()
         return code
     except BrokenPipeError:  # The reader of a pipe has seen enough.
@@ -149,26 +144,6 @@ def run_command(program: str, run: Callable[[], int]) -> int:
         _say(f"{program}: {brief(_sentence(error))}")
         _discard_output()
     return 2
-
-
-@contextlib.contextmanager
-def _plain_notices(program: str) -> Generator[None]:
-    """Within it each `Notice` is one line on stderr, without the place in the code; other warnings stay as they are."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("default", Notice)
-        usual = warnings.showwarning
-
-        def show(
-            message: Warning | str, category: type[Warning], filename: str, lineno: int,
-            file: TextIO | None = None, line: str | None = None,
-        ) -> None:  # fmt: skip
-            if issubclass(category, Notice):
-                _say(f"{program}: {message}")
-            else:
-                usual(message, category, filename, lineno, file, line)
-
-        warnings.showwarning = show
-        yield
 
 
 def make_encodable() -> None:

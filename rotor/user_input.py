@@ -19,10 +19,6 @@ from typing import Any
 _log = logging.getLogger(__name__)
 
 
-class Notice(UserWarning):
-    """What a user should know although the input was accepted, as one sentence."""
-
-
 class MissingExtra(ImportError, ValueError):
     """A package is not installed that only some uses need; one sentence with the remedy."""
 

@@ -16,7 +16,7 @@ import rotor
 from rotor import actuator, design, optimisation, trim, validation
 
 ROOT = Path(__file__).parent.parent
-PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
+PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm", "msgspec"}
 KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 PUBLIC = (rotor, actuator, optimisation, validation, design, trim)

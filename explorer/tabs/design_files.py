@@ -21,7 +21,7 @@ from rotor.airfoil.contour import parse_contour
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import parse_polar_file
 from rotor.files.design_file import parse_design
-from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft, rotor_toml
+from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
 from rotor.markup import tag
 from rotor.user_input import refusing, shorten
 
@@ -78,7 +78,7 @@ class UploadedFiles:
 
     def _rotor(self, name: str, text: str) -> UploadResult:
         """A rotor file, when all that it names is here."""
-        named = named_files(rotor_toml(name, text))  # An `outline` may also name a known section.
+        named = read_tables(name, text).named  # An `outline` may also name a known section.
         missing = [file for file in named if file.lower().endswith(SUFFIXES) and file not in self.texts]
         if missing:
             self.texts[name], self.waiting = text, name

@@ -97,9 +97,13 @@ class BladeBending:
 @lru_cache(maxsize=32)
 @read_only
 def build_bending(
-    rotor: Rotor, disk: Disk, density: float, modes: tuple[int, int] = MODES, harmonics: int = HARMONICS,
+    rotor: Rotor,
+    disk: Disk,
+    density: float,
+    modes: tuple[int, int] = MODES,
+    harmonics: int = HARMONICS,
     reference: float = REFERENCE_COLLECTIVE,
-) -> BladeBending:  # fmt: skip
+) -> BladeBending:
     """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
     blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
     assert structure is not None

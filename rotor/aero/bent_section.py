@@ -81,8 +81,12 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
             for o in range(forces):
                 out[o, i, j] = f[o, i, j]
             w, v, kw, kv, b = (
-                c[first, i, j], c[first + 1, i, j], c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
-            )  # fmt: skip
+                c[first, i, j],
+                c[first + 1, i, j],
+                c[first + 2, i, j],
+                c[first + 3, i, j],
+                c[first + 4, i, j],
+            )
             out[FZ, i, j], out[FX, i, j], out[FR, i, j] = _back(f[FZ, i, j], f[FX, i, j], f[FR, i, j], w, v)
             sine, cosine = of_double_angle(c[TH, i, j])
             out[M, i, j] -= coupling[i] * ((kw * kw - kv * kv) * sine + 2.0 * kw * kv * cosine)

@@ -70,9 +70,15 @@ class Disk:
     def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]:
         """What the loads of the blade elements need beside velocities."""
         return (
-            self.half_solidity, self.section, self.weight, self.offset, self.tables, self.held, self.cos_sweep,
+            self.half_solidity,
+            self.section,
+            self.weight,
+            self.offset,
+            self.tables,
+            self.held,
+            self.cos_sweep,
             self.sin_sweep,
-        )  # fmt: skip
+        )
 
 
 def element_edges(widths: Array) -> Array:

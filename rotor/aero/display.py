@@ -44,8 +44,22 @@ AREA_RADII = 80
 
 
 _OVER_DISK = (
-    "theta", "u_t", "u_p", "u_r", "loss", "rate", "induced", "fz", "fx", "fr", "alpha", "mach", "cl", "cd", "cd_mach"
-)  # fmt: skip
+    "theta",
+    "u_t",
+    "u_p",
+    "u_r",
+    "loss",
+    "rate",
+    "induced",
+    "fz",
+    "fx",
+    "fr",
+    "alpha",
+    "mach",
+    "cl",
+    "cd",
+    "cd_mach",
+)
 """Fields of `BladeElements` by element and azimuth."""
 
 
@@ -99,10 +113,27 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
         twist = TwistState(e.torsion.coordinates, torsion.radial.T @ around, f[M])
     theta, u_t, u_p, u_r, loss, rate, induced = fields
     return replace(
-        e, theta=theta, u_t=u_t, u_p=u_p, u_r=u_r, loss=loss, rate=rate, beta=e.beta @ matrix, induced=induced,
-        fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
-        torsion=twist, bent=bends, rates=rates,
-    )  # fmt: skip
+        e,
+        theta=theta,
+        u_t=u_t,
+        u_p=u_p,
+        u_r=u_r,
+        loss=loss,
+        rate=rate,
+        beta=e.beta @ matrix,
+        induced=induced,
+        fz=f[FZ],
+        fx=f[FX],
+        fr=f[FR],
+        alpha=s[ALPHA],
+        mach=s[MACH],
+        cl=s[CL],
+        cd=s[CD],
+        cd_mach=s[CD_MACH],
+        torsion=twist,
+        bent=bends,
+        rates=rates,
+    )
 
 
 def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
@@ -141,7 +172,7 @@ def unsteady_part(problem: Problem, elements: BladeElements) -> Unsteady | None:
 
 def areas(
     disk: Disk, elements: BladeElements, stall_margin: Array, unsteady: Unsteady | None = None
-) -> tuple[float, float, float]:  # fmt: skip
+) -> tuple[float, float, float]:
     """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.

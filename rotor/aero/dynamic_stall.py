@@ -296,9 +296,9 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
     v[_GATED, fine] = v[_GATED, 0]
     vortex = v[_GATED].max() > 0.0
     travel, low = np.empty((len(_TRAVEL), fine + 1 if vortex else 0)), np.empty((2, fine if vortex else 0), np.int32)
-    turns, share = np.empty_like(low), np.empty(low.shape)
+    earlier = low, np.empty(low.shape), np.empty_like(low)
     if vortex:
-        _shed(rows, unit, weights[2, _DECAY], v, travel, low, turns, share)
+        _shed(rows, unit, weights[2, _DECAY], v, travel, earlier)
     _along(element, data, cells, places, v[_X], slopes, static)
     added[:] = 0.0
     _sum_up(rows, steps, static, v, added)
@@ -312,9 +312,7 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
         _separation_slopes(rows, h, weights, lagged, v, dx, dm, dg, df, dplace)
         dcv, dtau = np.zeros_like(dg), np.zeros_like(dg)
         if vortex:
-            _shed_slopes(
-                rows, unit, weights[2, _DECAY], h[2, 1], v, travel, low, turns, share, dx, dm, df, dg, dcv, dtau
-            )
+            _shed_slopes(rows, unit, weights[2, _DECAY], h[2, 1], v, travel, earlier, (dx, dm, df, dg), dcv, dtau)
         by[:] = 0.0
         _sum_up_slopes(rows, steps, static, v, dx, dm, df, dplace, dcv, dtau, by)
 
@@ -349,7 +347,7 @@ def _numbers(numbers: Any, ms: Any, cells: Any, places: Any, rows: Any) -> None:
 @_compile
 def _separation_slopes(
     rows: Any, h: Any, weights: Any, fm: Any, v: Any, dx: Any, dm: Any, dg: Any, df: Any, dplace: Any
-) -> None:  # fmt: skip
+) -> None:
     """Slopes of g, f″ and m″ by the seeds; fm: f and m at x_f with theirs."""
     fine = len(dx)
     dxf, given = np.empty_like(dx), np.empty_like(dx)
@@ -367,11 +365,9 @@ def _separation_slopes(
 
 
 @_compile
-def _shed(
-    rows: Any, unit: float, decay: Any, v: Any, travel: Any, low: Any, turns: Any, share: Any
-) -> None:  # fmt: skip
-    """C_nᵛ and τ, with the travel, and where the flow was one and two travels of the vortex before."""
-    n = len(decay)
+def _shed(rows: Any, unit: float, decay: Any, v: Any, travel: Any, earlier: Any) -> None:
+    """C_nᵛ and τ, with the travel; earlier: where the flow was one and two travels of the vortex ago."""
+    n, (low, share, turns) = len(decay), earlier
     g, s, total = v[_GATED], travel[_DISTANCE], travel[_SUM]
     s[0], total[0] = 0.0, 0.0
     for k in range(n):
@@ -423,7 +419,7 @@ def _sum_up(rows: Any, steps: int, static: Any, v: Any, added: Any) -> None:
 @_compile
 def _sum_up_slopes(
     rows: Any, steps: int, static: Any, v: Any, dx: Any, dm: Any, df: Any, dplace: Any, dcv: Any, dtau: Any, by: Any
-) -> None:  # fmt: skip
+) -> None:
     """Slopes of what is added by x and M at all azimuths."""
     fine, seeds = dx.shape
     n = fine // steps
@@ -455,10 +451,13 @@ def _sum_up_slopes(
 
 @_compile
 def _shed_slopes(
-    rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, travel: Any, low: Any, turns: Any, share: Any, dx: Any,
-    dm: Any, df: Any, dg: Any, dcv: Any, dtau: Any,
-) -> None:  # fmt: skip
-    """Slopes of C_nᵛ and τ by the seeds; by_mach: those of the steps over T_v by the sum of their Mach numbers."""
+    rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, travel: Any, earlier: Any, given: Any, dcv: Any, dtau: Any
+) -> None:
+    """Slopes of C_nᵛ and τ by the seeds, from those of x, M, f″ and g.
+
+    by_mach: slopes of the steps over T_v by the sum of their Mach numbers.
+    """
+    (low, share, turns), (dx, dm, df, dg) = earlier, given
     n, seeds = dm.shape
     g, s, fed, held = v[_GATED], travel[_DISTANCE], travel[_FED], travel[_HELD]
     ds, dtotal = np.zeros((n + 1, seeds)), np.zeros((n + 1, seeds))

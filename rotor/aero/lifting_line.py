@@ -295,9 +295,12 @@ class _Parts:
         """All of them."""
         single = np.float32
         return WakeLines(
-            np.concatenate(self._ends, axis=1).astype(single), np.concatenate(self._core).astype(single),
-            np.concatenate(self._places), np.concatenate(self._shares).astype(single), rows,
-        )  # fmt: skip
+            np.concatenate(self._ends, axis=1).astype(single),
+            np.concatenate(self._core).astype(single),
+            np.concatenate(self._places),
+            np.concatenate(self._shares).astype(single),
+            rows,
+        )
 
 
 def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
@@ -355,9 +358,14 @@ def at_points(line: LiftingLine, course: WakeCourse, points: Array, normals: Arr
 
 
 def _seen(
-    line: LiftingLine, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers,
+    line: LiftingLine,
+    wake: WakeLines,
+    targets: Singles,
+    azimuths: Integers,
+    places: Integers,
+    seen: Integers,
     young: Array,
-) -> Singles:  # fmt: skip
+) -> Singles:
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`. seen: the blade on which each target

@@ -209,9 +209,7 @@ def _mach_numbers(air: Any, cos: float, sin: float, tip_mach: float, out: Any) -
 
 
 @_compile
-def _coefficients(
-    data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, coeffs: Any
-) -> None:  # fmt: skip
+def _coefficients(data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, coeffs: Any) -> None:
     """C_l, C_d and C_m of one row, blended from the two sections at its element, each followed by ∂/∂α and ∂/∂M.
 
     cells (2, azimuths), places (3, azimuths): memory to work in.
@@ -305,9 +303,7 @@ def _force_slopes(c: Any, i: int, data: Any, mach: Any, coeffs: Any, w: Any, f: 
 
 
 @_inline
-def _by_velocities(
-    w: Any, f: Any, by_mach: Any, with_t: Any, with_p: Any, sign: float, i: int, d: Any
-) -> None:  # fmt: skip
+def _by_velocities(w: Any, f: Any, by_mach: Any, with_t: Any, with_p: Any, sign: float, i: int, d: Any) -> None:
     """Derivatives of a force ½σU (a U_T ± b U_P) or the moment by U_T, U_P and U_R, from those by θ and by Mach.
 
     with_t, with_p: ½σU a and ½σU b, with the sign of b; d: rows of this force.

@@ -138,7 +138,7 @@ def _push(c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, f: Any) -
 @_compile
 def _push_slopes(
     c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, d: Any, rows: Any, place: Any, out: Any
-) -> None:  # fmt: skip
+) -> None:
     """Partial derivatives of all forces by all channels; rows: those of the section within, place: those here."""
     half_chord, arm, mass = blade
     elastic = len(inertia) > 0

@@ -76,9 +76,20 @@ def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
 
 
 SECTION_NAMES = (
-    "sc1095", "sc1094r8", "naca0012", "naca63a015", "naca64208", "naca64118", "naca64528", "naca64935", "goe429",
-    "naca0015re242k", "oa209", "naca23012tab", "naca23012tab-model",
-)  # fmt: skip
+    "sc1095",
+    "sc1094r8",
+    "naca0012",
+    "naca63a015",
+    "naca64208",
+    "naca64118",
+    "naca64528",
+    "naca64935",
+    "goe429",
+    "naca0015re242k",
+    "oa209",
+    "naca23012tab",
+    "naca23012tab-model",
+)
 _OUTLINES = {"naca23012tab-model": "naca23012tab"}
 """Outlines of sections that have that of another: the same at another Reynolds number."""
 

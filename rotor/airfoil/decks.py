@@ -220,9 +220,8 @@ def with_lost_suction(alpha: Array, potential_cl: Array, cl: Array, cd: Array) -
 
 
 def corrected_polar(
-    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits,
-    base: float = BASE_MACH,
-) -> Columns:  # fmt: skip
+    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits, base: float = BASE_MACH
+) -> Columns:
     """(cl, cd, cm) at a `mach` beyond the polars, from the polar at `base`; `alpha` [rad] within +-0.5."""
     growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)

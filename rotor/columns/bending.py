@@ -154,9 +154,13 @@ class Bending(Freedom):
         if not steady_lag:
             s.term(row, 1.0, n["bend stiffness", k, harmonic], coordinate(s, self.first, k, h))
         for sign, force, shape in (
-            (-1.0, FZ, ("W", k)), (1.0, FX, ("V", k)), (1.0, slot[GW], ("W'", k)), (1.0, slot[GV], ("V'", k)),
-            (1.0, slot[MW], ("W''", k)), (1.0, slot[MV], ("V''", k)),
-        ):  # fmt: skip
+            (-1.0, FZ, ("W", k)),
+            (1.0, FX, ("V", k)),
+            (1.0, slot[GW], ("W'", k)),
+            (1.0, slot[GV], ("V'", k)),
+            (1.0, slot[MW], ("W''", k)),
+            (1.0, slot[MV], ("V''", k)),
+        ):
             s.term(row, sign, gain, q=s.measure(force, shape, h))
         if h == STEADY:
             s.term(row, -1.0, n["bend load", k])

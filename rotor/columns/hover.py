@@ -41,7 +41,7 @@ from rotor.aero.section import (
     M,
     SectionData,
     section,
-)  # fmt: skip
+)
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.columns.bending import freedoms_of
@@ -251,23 +251,33 @@ def hover_system(problem: Problem) -> System:
     structure = _structure(0 if torsion is None else len(torsion.gain), not given, cones, tuple(values))
     closed = models.hover_inflow == "closed-form"
     far, none = np.full_like(disk.r, math.inf), np.zeros(0)
-    ends = np.stack([
-        0.5 * problem.tip_spacing * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
-        0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
-    ])  # fmt: skip
+    ends = np.stack(
+        [
+            0.5 * problem.tip_spacing * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
+            0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
+        ]
+    )
     curve = lift_curve(problem) if closed else (none, none)
     data = AnnulusData(
-        Annuli(disk.r, problem.climb, models.has("swirl"), ends, *curve), problem.section_data(len(disk.psi)),
+        Annuli(disk.r, problem.climb, models.has("swirl"), ends, *curve),
+        problem.section_data(len(disk.psi)),
         np.full_like(disk.r, axial_inflow(problem.scale, problem.climb)),
-    )  # fmt: skip
+    )
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
     grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
     count = len(structure.equations)
     return System(
-        structure, Shapes(structure, shapes, disk.dr), grid, grid, _annulus_section, _nothing_made,
-        np.array([1.0, *values.values()]), np.full(count, problem.scale), np.ones(count),
-    )  # fmt: skip
+        structure,
+        Shapes(structure, shapes, disk.dr),
+        grid,
+        grid,
+        _annulus_section,
+        _nothing_made,
+        np.array([1.0, *values.values()]),
+        np.full(count, problem.scale),
+        np.ones(count),
+    )
 
 
 def hover_elements(problem: Problem, point: Point) -> BladeElements:
@@ -278,9 +288,10 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     coning = float(point.x[states["coning"]])
     thrust = float(disk.dr @ f[FZ, :, 0])
     state = TrimState(
-        collective=float(point.x[states["collective"]]), coning=coning,
+        collective=float(point.x[states["collective"]]),
+        coning=coning,
         lambda0=axial_inflow(max(thrust, 0.0), problem.climb),
-    )  # fmt: skip
+    )
     twist = None
     if torsion is not None:
         coordinates = np.zeros_like(problem.given_torsion)
@@ -293,13 +304,27 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
 
     zero = np.zeros(disk.shape)
     return BladeElements(
-        state=state, flow=DiskFlow(0.0, problem.climb, state.lambda0), theta=everywhere(channels[TH]),
-        u_t=everywhere(channels[UT]), u_p=everywhere(channels[UP]), u_r=zero, loss=np.ones(disk.shape), rate=zero,
-        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - channels[UT],
-        fz=everywhere(f[FZ, :, 0]), fx=everywhere(f[FX, :, 0]), fr=zero,
-        alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
-        cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,
-    )  # fmt: skip
+        state=state,
+        flow=DiskFlow(0.0, problem.climb, state.lambda0),
+        theta=everywhere(channels[TH]),
+        u_t=everywhere(channels[UT]),
+        u_p=everywhere(channels[UP]),
+        u_r=zero,
+        loss=np.ones(disk.shape),
+        rate=zero,
+        beta=np.full(azimuths, coning),
+        induced=everywhere(inflow),
+        swirl=disk.r - channels[UT],
+        fz=everywhere(f[FZ, :, 0]),
+        fx=everywhere(f[FX, :, 0]),
+        fr=zero,
+        alpha=everywhere(s[ALPHA, :, 0]),
+        mach=everywhere(s[MACH, :, 0]),
+        cl=everywhere(s[CL, :, 0]),
+        cd=everywhere(s[CD, :, 0]),
+        cd_mach=everywhere(s[CD_MACH, :, 0]),
+        torsion=twist,
+    )
 
 
 def steady_twist(point: Point) -> Array:

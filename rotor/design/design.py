@@ -258,8 +258,6 @@ class Design:
         changed = self.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
-        # Where Prandtl's factors act is always in a file of the preset `thesis`: see `design_from_record`.
-        always = {*switches, *(("loss_on",) if self.preset == "thesis" else ())}
         preset, stand = preset_models(self.preset), self.condition.stand
         return {
             "format": FORMAT,
@@ -272,7 +270,7 @@ class Design:
             **{
                 name: getattr(self.models, name)
                 for name in ("hover_inflow", "low_speed", "loss_on", *CHOSEN, *switches, *OPTIONS)
-                if name in always or getattr(self.models, name) != getattr(preset, name)
+                if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),

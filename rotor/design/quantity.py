@@ -12,15 +12,20 @@ Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
 here."""
 
-_WANTED: dict[Kind, tuple[str, Any]] = {
-    "number": ("a number", int | float), "whole": ("a whole number", int | float), "text": ("a text", str),
-    "choice": ("a text", str), "switch": ("true or false", bool), "object": ("a table", dict),
-}  # fmt: skip
-"""What a file gives for each kind, and its types."""
 _UNITS = {
-    "_deg": "°", "_percent": "%", "_kt": "kt", "_kg": "kg", "_m": "m", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n": "N",
-    "_nm": "N m", "_w": "W", "_ms": "ms", "_per_rev": "/rev",
-}  # fmt: skip
+    "_deg": "°",
+    "_percent": "%",
+    "_kt": "kt",
+    "_kg": "kg",
+    "_m": "m",
+    "_m_s": "m/s",
+    "_kg_m3": "kg/m³",
+    "_n": "N",
+    "_nm": "N m",
+    "_w": "W",
+    "_ms": "ms",
+    "_per_rev": "/rev",
+}
 """Units by the end of a name of a number."""
 
 
@@ -191,20 +196,9 @@ class Quantity:
             words, unit = (self.what, self.symbol and f" {self.symbol}") if self.what else (self.name, "")
             raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: choose a value inside")
 
-    @property
-    def wants(self) -> str:
-        """What a file must give."""
-        return _WANTED[self.kind][0]
-
     def chosen(self, value: Any) -> Any:
-        """The choice that a value is: true and false of older files are on and off, where these are choices."""
+        """The choice that a value is: true and false are on and off, where these are choices."""
         return ("on" if value else "off") if isinstance(value, bool) and "on" in self.choices else value
-
-    def holds(self, value: Any) -> bool:
-        """Whether a value from a file is of its kind."""
-        types = _WANTED[self.kind][1]
-        right = isinstance(value, types) and isinstance(value, bool) == (types is bool)
-        return right and (self.kind != "whole" or float(value).is_integer())
 
     def check_choice(self, value: Any) -> None:
         """ValueError with one sentence for what is none of the choices."""

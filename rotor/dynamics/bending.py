@@ -60,7 +60,7 @@ class BendingBeam:
 
 def bending_beam(
     structure: BladeStructure, angular_speed: float, root: float, pitch: Pitch, springs: tuple[float, float]
-) -> BendingBeam:  # fmt: skip
+) -> BendingBeam:
     """The blade from its hinge, or from where it is held, at `root` [m]; springs: see `BendingBeam`.
 
     ValueError for a structure without stiffness in flap and lag.
@@ -176,10 +176,13 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
 @lru_cache(maxsize=32)
 @read_only
 def blade_bending_modes(
-    structure: BladeStructure, angular_speed: float, root: float, pitch: tuple[tuple[float, ...], ...],
+    structure: BladeStructure,
+    angular_speed: float,
+    root: float,
+    pitch: tuple[tuple[float, ...], ...],
     count: tuple[int, int],
     springs: tuple[float, float],
-) -> BendingModes:  # fmt: skip
+) -> BendingModes:
     """The modes of a blade whose pitch [rad] is linear between stations [m], (stations, angles).
 
     count: how many of those that move more in flap, and in lag.

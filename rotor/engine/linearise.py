@@ -209,9 +209,16 @@ def with_data(point: Point, data: Any) -> Point:
 
 
 def _with_forces(
-    system: System, grid: Grid, x: Array, z: Array, by_roots: Array, phi: Array, channels: Array,
-    slopes: bool = False, flow: bool = False,
-) -> Point:  # fmt: skip
+    system: System,
+    grid: Grid,
+    x: Array,
+    z: Array,
+    by_roots: Array,
+    phi: Array,
+    channels: Array,
+    slopes: bool = False,
+    flow: bool = False,
+) -> Point:
     structure, nodes = system.structure, system.nodes
     forces, balanced, s = system.section(channels, grid.data, slopes, flow)
     q = np.concatenate([[1.0], _means(system, grid, forces)])
@@ -271,9 +278,7 @@ def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
 
 
 @_compile
-def _between(
-    slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any
-) -> None:  # fmt: skip
+def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any) -> None:
     """Means of Ψ D Φ w_p w_q from the Fourier coefficients of Σ Ψ D Φ, (coefficients, measures), see `Blocks`."""
     n = phi.shape[1]
     for b in range(len(blocks)):

@@ -84,7 +84,7 @@ class Memory:
 
     def add_between(
         self, by_inputs: Array, structure: Structure, phi: Array, psi: Array, waves: WaveGrid, out: Array
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Add ∂ of the measures by the coefficients of the shapes, (coefficients, measures).
 
         phi, psi: shapes and weights along the blade. Derivatives are those of an element at all azimuths, so all

@@ -116,9 +116,13 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
 
     shape = len(right), len(right)
     solution, unfinished = gmres(
-        LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-9, restart=20, maxiter=2,
+        LinearOperator(shape, matvec=times, dtype=np.float64),
+        right,
+        rtol=1e-9,
+        restart=20,
+        maxiter=2,
         M=LinearOperator(shape, matvec=partial(near.solve, transposed=True), dtype=np.float64),
-    )  # fmt: skip
+    )
     return None if unfinished else solution
 
 

@@ -34,7 +34,7 @@ def summed(place: Integers, values: Array, size: int) -> Array:
 @compiled(error_model="numpy")
 def _slopes(
     row: Any, measure: Any, first: Any, second: Any, factor: Any, z: Any, q: Any, skipped: int, by_q: Any, by_z: Any
-) -> None:  # fmt: skip
+) -> None:
     """`Terms.slopes`; skipped: atoms before the first."""
     for k in range(len(row)):
         i, j, value = first[k], second[k], q[measure[k]]
@@ -137,9 +137,7 @@ def _kind_of(name: Hashable) -> Hashable:
 class Structure:
     """Atoms, columns, measures and equations, and once finished all places in the matrices."""
 
-    def __init__(
-        self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None
-    ) -> None:  # fmt: skip
+    def __init__(self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None) -> None:
         """pairs: force and channel of each row of the section's partial derivatives.
 
         name: the same for structures with the same atoms and equations.
@@ -175,7 +173,7 @@ class Structure:
 
     def column(
         self, channel: int, shape: Shape, wave: int, factor: float, i: int, j: int = ONE, times: int = STEADY
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Add factor · z_i z_j · Φ(r) w_wave(ψ) w_times(ψ) to a channel."""
         shapes = self.shapes[channel]
         row = shapes.setdefault(shape, len(shapes))

@@ -8,32 +8,33 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+import msgspec
+
 from rotor.aero.inflow import inflow_model
-from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
 from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SWITCHES
-from rotor.design.quantity import Quantity
-from rotor.files.make_design import BEFORE_LOSS_ON, Tell, current_model, make_design, warn
+from rotor.files.declared import BY_KIND, Table, convert
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
 
-_LARGEST_NUMBER = 1e12
-"""No quantity of a design is larger; JSON has integers of any length. NaN is refused with the range of its quantity."""
-READS = (1, VERSION)
-"""Version 1 had no `rotor`: its designs are of the UH-60A."""
-
-_KEYS = ("format", "version", *BY_KEY, "solution")
-"""`solution` holds the results that `Solution.save` adds; they are not read back."""
 _GRID = ("elements", "azimuths")
 _MODELS = tuple(BY_KEY[key] for key in ("inflow", "hover_inflow", *SWITCHES, *OPTIONS))
 """Keys that are fields of `Models`."""
 _ARGUMENTS = tuple(row for row in BY_KEY.values() if row.name in ARGUMENTS and row not in _MODELS)
 """Keys that are arguments of `make_design`."""
-_READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand")
+_BESIDE = ("format", "version", "solution")
+"""Keys that are no quantities; `solution` holds the results that `Solution.save` adds, which are not read back."""
+_READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand", "active_twist", *_BESIDE)
 """Keys whose values are checked where they are read."""
+_Record = msgspec.defstruct(
+    "_Record",
+    [(key, Any if key in _READ_LATER else BY_KIND[BY_KEY[key].kind], None) for key in (*BY_KEY, *_BESIDE)],
+    bases=(Table,),
+)
 
 
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
@@ -56,37 +57,28 @@ def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
     return read_aircraft(main, texts)
 
 
-def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tell = warn) -> Design:
+def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design:
     """The design of a record; keys it leaves out take the preset's values. `paths` as in `read_rotor_record`.
 
-    `tell` gets a sentence where the record names a model that was retired; another one stands in for it.
     Raises ValueError with one sentence for a key or a value that it cannot use.
     """
-    unknown = sorted(set(record) - set(_KEYS))
-    if unknown:
-        raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS[2:-1])}")
-    if record.get("format", FORMAT) != FORMAT or record.get("version", VERSION) not in READS:
+    kind = record.get("format", FORMAT), record.get("version", VERSION)
+    if kind != (FORMAT, VERSION):
         raise ValueError(
-            f"design file is {record.get('format')!r} version {record.get('version')!r}: this program reads "
-            f"{FORMAT!r} version {' and '.join(map(str, READS))}"
+            f"design file is {kind[0]!r} version {kind[1]!r}: this program reads {FORMAT!r} version {VERSION}"
         )
+    given = convert(record, _Record)
     aircraft = read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths)
-    if record.get("preset") == "thesis" and "version" in record and "loss_on" not in record:
-        record = {"loss_on": "lift"} | ({"airfoils": THESIS_NAME} if aircraft.stated else {}) | record
-        tell(BEFORE_LOSS_ON)
     stand = record.get("stand")
     if not isinstance(stand, dict | None):
         raise ValueError(
             f'design file key \'stand\' is {stand!r}: write {{"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}}'
         )
-    asked = {row.name: _value(record, row) for row in _ARGUMENTS if row.key in record}
+    asked = {row.name: getattr(given, row.key) for row in _ARGUMENTS if row.key in record}
     asked["rotor"] = aircraft
     grid = {name: asked.pop(name) for name in _GRID if name in asked}  # May be too fine for the preset's inflow.
     design = make_design(**{name: value for name, value in asked.items() if value != ""})
-    changed = {row.field: _value(record, row) for row in _MODELS if row.key in record}
-    changed |= {
-        name: current_model(name, changed[name], tell) for name in ("inflow", "hover_inflow") if name in changed
-    }
+    changed = {row.field: getattr(given, row.key) for row in _MODELS if row.key in record}
     models = with_grid(replace(design.models, **changed), **grid)
     inflow_model(models.inflow)
     if "active_twist" in record:
@@ -97,21 +89,15 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file; ValueError with one sentence when it cannot be used.
-
-    Where it names a model that was retired, a warning says what stands in for it.
-    """
+    """Read a design file; ValueError with one sentence when it cannot be used."""
     name, remedy = shorten(str(path)), "give the path of a JSON design file"
     content = read_bytes(path, "design file", remedy)
     with refusing(f"design file {name!r}", remedy):
-        return _named(_record(content, name), name, warn, paths=True)
+        return _named(_record(content, name), name, paths=True)
 
 
-def parse_design(content: bytes, name: str, tell: Tell = warn) -> Design:
-    """The design in the content of an uploaded file, which may not name files of this machine.
-
-    `tell` as in `design_from_record`.
-    """
+def parse_design(content: bytes, name: str) -> Design:
+    """The design in the content of an uploaded file, which may not name files of this machine."""
     name = shorten(name)
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)
@@ -119,13 +105,13 @@ def parse_design(content: bytes, name: str, tell: Tell = warn) -> Design:
             raise ValueError(
                 f"design file {name!r} names a twist table of another machine: write its rows as points:…@…"
             )
-        return _named(record, name, tell)
+        return _named(record, name)
 
 
-def _named(record: dict[str, Any], name: str, tell: Tell, *, paths: bool = False) -> Design:
+def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
     """The design as of `design_from_record`, with the file's name in the message, since several may be read at once."""
     try:
-        return design_from_record(record, paths=paths, tell=tell)
+        return design_from_record(record, paths=paths)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
 
@@ -140,13 +126,3 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     if not isinstance(record, dict):
         raise ValueError(f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}')
     return cast(dict[str, Any], record)
-
-
-def _value(record: dict[str, Any], row: Quantity) -> Any:
-    """The value of a key of the record; ValueError for one of another kind."""
-    value: Any = row.chosen(record[row.key])
-    if row.key in _READ_LATER or (record[row.key] is None and row.default is None and row.numeric):
-        return value
-    if not row.holds(value) or (row.numeric and abs(value) >= _LARGEST_NUMBER):
-        raise ValueError(f"design file key {row.key!r} is {value!r}: give {row.wants}")
-    return int(value) if row.kind == "whole" else value

@@ -1,9 +1,8 @@
-"""A design from names: preset, aircraft, twist SPEC, models; also the names of models that were retired."""
+"""A design from names: preset, aircraft, twist SPEC, models."""
 
 import tomllib
-import warnings
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from inspect import cleandoc, signature
 from typing import Any, Unpack
@@ -28,61 +27,10 @@ from rotor.design.quantities import (
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
-from rotor.user_input import Notice, did_you_mean
+from rotor.user_input import did_you_mean
 
 ADVANCE_RATIO = 0.2
 """Advance ratio of a design whose speed is not given."""
-Tell = Callable[[str], object]
-"""Takes a sentence for the user."""
-
-
-@dataclass(frozen=True)
-class RetiredModel:
-    """What stands in for a model that is gone, which old design files, links, study files and commands still name."""
-
-    sentence: str
-    option: str = "inflow"
-    """The field of `Models` that named it."""
-    replacement: str = "lifting-line"
-
-
-RETIRED = {
-    "free-wake": RetiredModel(
-        "The free wake in hover was retired; hover is solved by the annulus balance.", "hover_inflow", "annulus"
-    ),
-    "dynamic-wake": RetiredModel("The dynamic wake was retired; the lifting line stands in for it."),
-    "dynamic-wake-quick": RetiredModel(
-        "The dynamic wake of few states was retired; the lifting line stands in for it."
-    ),
-    "dynamic-wake-infinite-blades": RetiredModel(
-        "The dynamic wake of infinitely many blades was retired; the lifting line of the rotor's own blades stands in "
-        "for it."
-    ),
-    "vortex-wake": RetiredModel("The vortex wake of rigid helices was retired; the lifting line stands in for it."),
-}
-
-
-BEFORE_LOSS_ON = (
-    "This design is of the preset thesis as it was before: Prandtl's factors on the lift, polynomials of the free "
-    "transition at Mach 0.3. It keeps both; choose the preset anew for those that hold most statements of the thesis."
-)
-
-
-def warn(sentence: str) -> None:
-    """The sentence as a warning: one line on stderr in the command lines, a warning in a notebook."""
-    warnings.warn(sentence, Notice, stacklevel=1)
-
-
-def current_model(option: str, name: str, tell: Tell = warn) -> str:
-    """The name itself, or that of the model in place of a retired one of this option, after telling the user.
-
-    Whoever reads the name of a model from outside passes it through here.
-    """
-    retired = RETIRED.get(name)
-    if retired is None or retired.option != option:
-        return name
-    tell(retired.sentence)
-    return retired.replacement
 
 
 @cache
@@ -215,14 +163,11 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
 def _changed(models: Models, inflow: str | None, off: str | None, **chosen: str | bool | None) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
-        options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
-        current = {option: current_model(option, inflow) for option in options}
-        chosen_options = [option for option, names in options.items() if current[option] in names]
-        if not chosen_options:
-            known = [name for names in options.values() for name in names]
+        known = (*INFLOW_MODELS, *HOVER_INFLOWS)
+        if inflow not in known:
             hint = did_you_mean(inflow, known) or ":"
             raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
-        models = replace(models, **{chosen_options[0]: current[chosen_options[0]]})
+        models = replace(models, **{"inflow" if inflow in INFLOW_MODELS else "hover_inflow": inflow})
     models = replace(models, **{field: value for field, value in chosen.items() if value is not None})
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 

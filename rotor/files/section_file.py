@@ -4,94 +4,113 @@ import math
 import re
 from collections.abc import Mapping
 from itertools import pairwise
+from typing import Annotated
+
+from msgspec import Meta
 
 from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, parse_polar_file
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
-from rotor.files.toml_table import TomlTable
+from rotor.files.declared import Place, Refusal, Table, Text, one_of
 
 UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
 
 
-def check_section_name(table: TomlTable, name: str) -> None:
-    """ValueError with one sentence for a name that no section of a rotor file may have."""
+class OwnSectionTable(Table, frozen=True, kw_only=True):
+    deck: Text | None = None
+    polars: Text | Annotated[tuple[Text, ...], Meta(min_length=1)] | None = None
+    outline: Text | None = None
+    thickness: Annotated[float, Meta(ge=0.02, le=0.4)] | None = None
+    """Thickness over chord; None: that of the outline."""
+    incidence_offset_deg: Annotated[float, Meta(ge=-15.0, le=15.0)] = 0.0
+    chord_ratio: Annotated[float, Meta(ge=0.5, le=2.0)] = 1.0
+
+    def __post_init__(self) -> None:
+        one_of(self, "deck", "polars")
+
+    @property
+    def data(self) -> tuple[str, ...]:
+        """The deck, or the files of polars."""
+        given = self.deck or self.polars or ()
+        return given if isinstance(given, tuple) else (given,)
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """All files; the outline may also be that of a known section."""
+        return (*self.data, self.outline) if self.outline else self.data
+
+
+def check_section_name(name: str) -> None:
+    """Refusal for a name that no section of a rotor file may have."""
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
-        raise table.fail(
-            None,
-            f"section name {name!r} is taken or has other characters: use letters a-z, digits and -, as my-section",
-        )
+        says = f"section name {name!r} is taken or has other characters"
+        raise Refusal(f"{says}: use letters a-z, digits and -, as my-section", "sections", name)
 
 
 def read_section(
-    table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> OwnSection:
     """The section `[sections.name]`; adds the texts it uses to `used` and its assumptions to `remarks`.
 
-    Raises ValueError with one sentence that names file, line and remedy.
+    Raises ValueError with one sentence, Refusal for what is wrong in the rotor file itself.
     """
+    key = "deck" if table.deck else "polars"
     outline, thickness = _outline(table, name, texts, used, remarks)
-    if table.has("deck") == table.has("polars"):
-        raise table.fail(None, f'section {name} needs either deck = "file.c81" or polars = ["file.txt", …]: give one')
-    if table.has("deck"):
-        files = (table.string("deck"),)
-        deck = _file(table, "deck", files[0], texts, used)
+    contents = [_file(("sections", name, key), file, texts, used) for file in table.data]
+    if key == "deck":
+        deck = contents[0]
     else:
-        files = table.strings("polars")
         polars = [
-            polar for file in files for polar in parse_polar_file(file, _file(table, "polars", file, texts, used))
+            polar for file, text in zip(table.data, contents, strict=True) for polar in parse_polar_file(file, text)
         ]
-        deck = _deck_of(table, name, polars, thickness, remarks)
+        deck = _deck_of(name, polars, thickness, remarks)
     section = OwnSection(
         name=name,
         deck=deck,
         outline=outline,
-        source=", ".join(files),
-        incidence_offset=math.radians(table.number("incidence_offset_deg", 0.0, low=-15.0, high=15.0, unit="°")),
-        chord_ratio=table.number("chord_ratio", 1.0, low=0.5, high=2.0),
+        source=", ".join(table.data),
+        incidence_offset=math.radians(table.incidence_offset_deg),
+        chord_ratio=table.chord_ratio,
     )
-    table.finish()
     try:
         install_own(section)
     except ValueError as error:
-        raise ValueError(f"{files[0]}: {error}" if files[0] not in str(error) else str(error)) from None
+        first = table.data[0]
+        raise ValueError(f"{first}: {error}" if first not in str(error) else str(error)) from None
     return section
 
 
 def _outline(
-    table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> tuple[str, float]:
     """The outline in the form of `OwnSection`, and t/c, given or measured on the outline."""
-    given = table.string("outline", None)
-    if given is None:
-        given = name if is_naca(name) else None
+    given = table.outline or (name if is_naca(name) else None)
     if given is None:
         remarks.append(f"The outline of section {name} is not given: it is drawn as a symmetric 12 % section.")
         outline, contour = UNKNOWN_OUTLINE, load_contour(UNKNOWN_OUTLINE)
     elif given in SECTION_NAMES or is_naca(given):
         outline, contour = given, load_contour(given)
     else:
-        outline = _file(table, "outline", given, texts, used)
+        outline = _file(("sections", name, "outline"), given, texts, used)
         contour = parse_contour(outline, given)
-    measured = thickness_and_camber(contour)[0]
-    return outline, table.number("thickness", measured, low=0.02, high=0.4, unit="of the chord")
+    return outline, table.thickness or thickness_and_camber(contour)[0]
 
 
-def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
+def _deck_of(name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
     """A C81 deck from XFOIL polars, one per Mach number."""
+    at = ("sections", name, "polars")
     machs = sorted(polar.mach for polar in polars)
     repeated = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
     if repeated:
-        raise table.fail("polars", f"two polars of {name} have Mach {repeated[0]:g}: keep one for each Mach number")
+        raise Refusal(f"two polars of {name} have Mach {repeated[0]:g}: keep one for each Mach number", *at)
     narrow = [p for p in polars if p.alpha_deg[0] > -4.0 or p.alpha_deg[-1] < 8.0]
     if narrow:
         low, high = narrow[0].alpha_deg[0], narrow[0].alpha_deg[-1]
-        raise table.fail(
-            "polars",
-            f"the polar of {name} at Mach {narrow[0].mach:g} covers {low:g}…{high:g} deg: give at least −4…8 deg",
-        )
+        says = f"the polar of {name} at Mach {narrow[0].mach:g} covers {low:g}…{high:g} deg"
+        raise Refusal(f"{says}: give at least −4…8 deg", *at)
     low = max(polar.alpha_deg[0] for polar in polars)
     high = min(polar.alpha_deg[-1] for polar in polars)
     listed = ", ".join(f"{mach:g}" for mach in machs)
@@ -110,10 +129,9 @@ def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float,
     return format_c81(deck)
 
 
-def _file(table: TomlTable, key: str, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
+def _file(at: Place, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
     if name not in texts:
-        raise table.fail(
-            key, f"{key} names {name!r}, which is missing: put it beside the rotor file, or load it on the page too"
-        )
+        says = f"{at[-1]} names {name!r}, which is missing"
+        raise Refusal(f"{says}: put it beside the rotor file, or load it on the page too", *at)
     used[name] = texts[name]
     return texts[name]

@@ -84,10 +84,15 @@ class EnvelopePoint:
         """A row of a table."""
         n = self.load_factor
         return {
-            "mu": self.mu, "speed_kt": self.design.airspeed / KNOT, "twist": self.design.twist.spec(),
-            "load_factor": n.value, "limit": n.limit, "load_factor_stall": n.stall, "load_factor_engines": n.engines,
+            "mu": self.mu,
+            "speed_kt": self.design.airspeed / KNOT,
+            "twist": self.design.twist.spec(),
+            "load_factor": n.value,
+            "limit": n.limit,
+            "load_factor_stall": n.stall,
+            "load_factor_engines": n.engines,
             "mass_kg": self.mass_kg,
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
@@ -149,9 +154,12 @@ def limit_line(
 
 
 def envelope(
-    design: Design, mu: Iterable[float] = SPEEDS, *, moving: bool = False,
+    design: Design,
+    mu: Iterable[float] = SPEEDS,
+    *,
+    moving: bool = False,
     tell: Callable[[EnvelopePoint], None] | None = None,
-) -> Envelope:  # fmt: skip
+) -> Envelope:
     """The largest load factor and mass at each speed, the top speed and the ceiling, by stall and by engines.
 
     The load factor is that of a steady turn: lift n W, and the propulsive force of straight flight at that speed.

@@ -24,7 +24,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft, told
 from rotor.design.design import Design, check_preset, preset_models
 from rotor.design.quantities import ARGUMENTS, CHOSEN, OPTIONS, STAND, SWITCHES
-from rotor.files.make_design import Tell, current_model, make_design, warn
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.limits import Limits
@@ -154,18 +154,17 @@ Row = dict[str, Any]
 Values = Mapping[str, Value]
 
 
-def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = warn) -> Design:
+def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     """The design that a point's values describe; a twist to be searched for is that of the preset.
 
-    `aircraft`: rotors of the user's own by name. `tell` as in `current_model`. Raises ValueError with one sentence.
+    `aircraft`: rotors of the user's own by name. Raises ValueError with one sentence.
     """
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = preset_models(preset)
     changed: dict[str, Any] = {name: values[name] for name in _MODELS if name in values}
     if "inflow" in changed:
-        changed["inflow"] = current_model("inflow", str(changed["inflow"]), tell)
-        inflow_model(changed["inflow"])
+        inflow_model(str(changed["inflow"]))
     changed |= {name: int(changed[name]) for name in _GRID if name in changed}
     stand = {key: values[f"stand_{key}"] for key in STAND if f"stand_{key}" in values}
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))

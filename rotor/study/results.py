@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from rotor.arrays import Array, Booleans, Integers
 from rotor.design.design import Design
-from rotor.files.make_design import Tell, warn
 from rotor.study.chunks import CONVERGED, arrow_modules, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
@@ -147,8 +146,8 @@ def columns_from(table: Any) -> dict[str, NDArray[Any]]:
     return columns
 
 
-def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
-    """The design of a row (0 upward); `tell` as in `current_model`.
+def design_of_row(results: Results, row: int) -> Design:
+    """The design of a row (0 upward).
 
     ValueError for one that has no blade, or is of a rotor file that is not here.
     """
@@ -160,7 +159,7 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
         for name in results.columns
         if name in QUANTITIES and name not in PLAIN and math.isfinite(results.columns[name][row])
     }
-    design = design_of({name: value for name, value in values.items() if name != "concept"}, {}, tell)
+    design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
     if "concept" not in values:
         return design
     concept, held = concept_with_breaks(str(values["concept"]), blade)
@@ -169,7 +168,7 @@ def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
     return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
 
-def design_at(place: str, tell: Tell = warn) -> Design:
+def design_at(place: str) -> Design:
     """The design of a point of a study, from `FOLDER:N` or `chunk-….parquet:N`, N as in the column `point`.
 
     ValueError with one sentence for a place that has no such point, and as `read_results` and `design_of_row`.
@@ -184,7 +183,7 @@ def design_at(place: str, tell: Tell = warn) -> Design:
         raise ValueError(
             f"study {shorten(path)!r} has no finished point {number}: give one of {points.min():.0f}…{points.max():.0f}"
         )
-    return design_of_row(results, row, tell)
+    return design_of_row(results, row)
 
 
 @dataclass(frozen=True)

@@ -31,9 +31,14 @@ from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 VIBRATION = (
-    "index_percent", "least_index_percent", "largest_index_percent", *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev",
+    "index_percent",
+    "least_index_percent",
+    "largest_index_percent",
+    *HUB_COLUMNS,
+    "flap_2_per_rev",
+    "lag_1_per_rev",
     "torsion_1_per_rev",
-)  # fmt: skip
+)
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over inflow models,
 their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
@@ -206,9 +211,14 @@ def schedule(
         for speed, time in sorted(zip(speeds, times, strict=True))
     ]
     plan = Plan(
-        design, tuple(find_concept(name) for name in concepts), tuple(flights), quantity,
-        limits or Limits(), starts, seed,
-    )  # fmt: skip
+        design,
+        tuple(find_concept(name) for name in concepts),
+        tuple(flights),
+        quantity,
+        limits or Limits(),
+        starts,
+        seed,
+    )
     return run_plan(plan, processes=processes)
 
 

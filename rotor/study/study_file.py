@@ -8,15 +8,17 @@ import re
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast, get_args
+from typing import Annotated, Any
+
+from msgspec import Meta, field
 
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
-from rotor.files.make_design import current_model, make_design
+from rotor.files.declared import BY_KIND, Number, Refusal, Table, Text, convert, naming, read_toml
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
-from rotor.files.toml_table import TomlTable, read_toml
-from rotor.optimisation.objective import QUANTITIES as OBJECTIVES
+from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.point import check_point
 from rotor.study.study import (
     PLAIN,
@@ -33,109 +35,148 @@ from rotor.study.study import (
     columns_of,
     default_chunk,
 )
-from rotor.user_input import is_file, parse_range, read_text, refusing, shorten
+from rotor.user_input import did_you_mean, is_file, parse_range, read_text, refusing, shorten
 
 _MANY = 10**10
 _STEEPEST = 100.0
 """Twist rates beyond this [°/R] are an error of writing, as in `--twist`."""
-_SECTIONS = ("axes", "fixed", "models", "sample", "optimum", "show")
-"""The keys of the first three are names of quantities."""
+_Rate = Annotated[float, Meta(ge=-_STEEPEST, le=_STEEPEST)]
+_Seed = Annotated[int, Meta(ge=0, le=2**31)]
+
+
+class _Range(Table, frozen=True, kw_only=True):
+    """An axis that is sampled."""
+
+    low: Number
+    high: Number
+
+
+def _kind(key: str) -> Any:
+    """What a value of a quantity is. Parameters of a concept have no limits of their own; others have theirs."""
+    return BY_KIND[QUANTITIES[key].kind] if key in PLAIN else _Rate
+
+
+class _Sample(Table, frozen=True, kw_only=True):
+    method: Method = "sobol"
+    count: Annotated[int, Meta(ge=1, le=2**24)]
+    seed: _Seed = 0
+
+
+class _Optimum(Table, frozen=True, kw_only=True):
+    starts: Annotated[int, Meta(ge=1, le=1000)] = OptimumSettings.starts
+    seed: _Seed = OptimumSettings.seed
+    objective: Objective = OptimumSettings.objective
+    rate_deg: tuple[_Rate, _Rate] | None = None
+    stalled_percent: Annotated[float, Meta(ge=0.0, le=100.0)] | None = None
+    index_percent: Annotated[float, Meta(ge=1e-6, le=1e12)] | None = None
+
+    def __post_init__(self) -> None:
+        if self.rate_deg and self.rate_deg[0] >= self.rate_deg[1]:
+            raise Refusal(f"rate_deg is {list(self.rate_deg)}: give the lower one first, as [-20, 0]", "rate_deg")
+
+    def settings(self) -> OptimumSettings:
+        rate = self.rate_deg and (math.radians(self.rate_deg[0]), math.radians(self.rate_deg[1]))
+        stalled = None if self.stalled_percent is None else self.stalled_percent / 100.0
+        return OptimumSettings(self.starts, self.seed, self.objective, rate, stalled, self.index_percent)
+
+
+class _Show(Table, frozen=True, kw_only=True):
+    least: Text = ShowSettings.least
+    uncertain: Text | tuple[Text, ...] = ()
+
+
+class _Top(Table, frozen=True, kw_only=True):
+    """The keys of the first three tables are names of quantities."""
+
+    axes: dict[str, Any] = field(default_factory=dict[str, Any])
+    fixed: dict[str, Any] = field(default_factory=dict[str, Any])
+    models: dict[str, Any] = field(default_factory=dict[str, Any])
+    title: Text | None = None
+    chunk: Annotated[int, Meta(ge=1, le=10**6)] | None = None
+    sample: _Sample | None = None
+    optimum: _Optimum | None = None
+    show: _Show = _Show()
 
 
 class Reader:
-    """Reads a study from the text of a file. ValueError with the line for whatever is wrong."""
+    """Reads a study from the text of a file. Refusal for whatever is wrong."""
 
-    def __init__(self, text: str, name: str) -> None:
+    def __init__(self, values: dict[str, Any], name: str) -> None:
         self._name = name
         self._aircraft: dict[str, Aircraft] = {}
-        top = read_toml(f"study file {name!r}", text)
-        self._title = top.string("title", Path(name).stem)
-        self._chunk = top.count("chunk", None, low=1, high=10**6)
-        self._searched = top.has("optimum")
-        self._sections: dict[str, TomlTable] = {
-            section: top.table(section, None) or TomlTable(top.file, text, (section,), {}) for section in _SECTIONS
-        }
-        top.finish()
-
-    def _wrong(self, section: str, key: str | None, sentence: str) -> ValueError:
-        """The error for a key, or a section: the sentence with file and line."""
-        return self._sections[section].fail(key, sentence)
+        self._top = convert(values, _Top)
 
     def study(self) -> Study:
+        top = self._top
         axes, ranges = self._axes()
-        places = StudyPoints(axes, self._sample(ranges))
-        if not axes and places.sample is None:
-            raise self._wrong("axes", None, "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
+        if top.sample and not ranges:
+            raise Refusal("[sample] has no range to sample: give an axis as { low = …, high = … }", "sample")
+        if ranges and not top.sample:
+            key = ranges[0][0]
+            raise Refusal(f"axis {key} is a range: add [sample] with method and count", "axes", key)
+        sample = top.sample and Sample(top.sample.method, top.sample.count, top.sample.seed, tuple(ranges))
+        places = StudyPoints(axes, sample)
+        if not axes and not ranges:
+            raise Refusal("the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]", "axes")
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
-        searching = self._searching()
         if places.count > _MANY:
-            raise self._wrong("axes", None, f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
-        chunk = self._chunk or default_chunk(places.count, search=searching is not None)
-        aircraft = tuple(self._aircraft.items())
-        study = Study(self._title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
+            raise Refusal(f"the study has {places.count:.3g} points: keep below {_MANY:.0e}", "axes")
+        searching = top.optimum and top.optimum.settings()
+        chunk = top.chunk or default_chunk(places.count, search=searching is not None)
+        aircraft, title = tuple(self._aircraft.items()), top.title or Path(self._name).stem
+        study = Study(title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
         self._try_points(study)
         return replace(study, show=self._aims(study))
 
     def _axes(self) -> tuple[tuple[StudyAxis, ...], list[tuple[str, float, float]]]:
         axes: list[StudyAxis] = []
         ranges: list[tuple[str, float, float]] = []
-        for key, value in self._sections["axes"].values.items():
-            self._known("axes", key)
-            if isinstance(value, dict):
-                ranges.append((key, *self._range(key, cast(dict[str, Any], value))))
+        for key, value in self._top.axes.items():
+            self._check_known("axes", key)
+            axis = self._axis(key, value)
+            if isinstance(axis, _Range):
+                for end in (axis.low, axis.high):
+                    convert(end, _kind(key), "axes", key)
+                if axis.low >= axis.high:
+                    runs = f"axis {key} runs from {axis.low:g} to {axis.high:g}"
+                    raise Refusal(f"{runs}: give the lower one first", "axes", key)
+                ranges.append((key, axis.low, axis.high))
             else:
-                axes.append(StudyAxis(key, self._listed(key, value)))
+                if len(set(axis)) < len(axis):
+                    raise Refusal(f"axis {key} holds a value twice: remove one", "axes", key)
+                numeric = QUANTITIES[key].numeric
+                values: Any = map(float, axis) if numeric else (self._portable("axes", key, text) for text in axis)
+                axes.append(StudyAxis(key, tuple(values)))
         return tuple(axes), ranges
 
-    def _known(self, section: str, key: str) -> None:
-        if key not in QUANTITIES:
+    def _axis(self, key: str, given: Any) -> _Range | tuple[Any, ...]:
+        """A range to sample, or the values, which may be written as a range in a text."""
+        quantity, one = QUANTITIES[key], _kind(key)
+        if isinstance(given, str) and quantity.numeric:
+            try:
+                given = [int(value) if value.is_integer() else value for value in parse_range(given)]
+            except ValueError as error:
+                raise Refusal(f"axis {key}: {error}", "axes", key) from None
+        kind: Any = Annotated[tuple[one, ...], Meta(min_length=1)]
+        return convert(given, kind | _Range if quantity.kind == "number" else kind, "axes", key)
+
+    def _check_known(self, section: str, key: str) -> None:
+        quantity = QUANTITIES.get(key)
+        if quantity is None:
             names = [
                 name
-                for name, quantity in QUANTITIES.items()
-                if (quantity.kind != "switch" if section == "axes" else quantity.section == section)
+                for name, row in QUANTITIES.items()
+                if (row.kind != "switch" if section == "axes" else row.section == section)
             ]
-            raise self._wrong(section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}")
-        if QUANTITIES[key].kind == "switch" and section == "axes":
-            raise self._wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
-
-    def _listed(self, key: str, value: Any) -> tuple[float, ...] | tuple[str, ...]:
-        """The values of an axis: a list, or a range written as a text."""
-        how = 'give a list, a range such as "0.05:0.40:0.05", or { low = 0.1, high = 0.3 } to sample'
-        if not QUANTITIES[key].numeric:
-            if not isinstance(value, list) or not all(isinstance(text, str) for text in cast(list[Any], value)):
-                raise self._wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
-            values: list[Any] = [self._portable("axes", key, text) for text in cast(list[str], value)]
-        elif isinstance(value, str):
-            try:
-                values = list(parse_range(value))
-            except ValueError as error:
-                raise self._wrong("axes", key, f"axis {key}: {error}") from None
-        elif isinstance(value, list):
-            values = cast(list[Any], value)
-        else:
-            raise self._wrong("axes", key, f"axis {key} is {value!r}: {how}")
-        if not values:
-            raise self._wrong("axes", key, f"axis {key} has no values: give one at least")
-        for entry in values:
-            if QUANTITIES[key].numeric and not _finite(entry):
-                raise self._wrong("axes", key, f"axis {key} holds {entry!r}: {how}")
-            self._check_size("axes", key, entry)
-            if QUANTITIES[key].kind == "whole" and float(entry) % 1.0:
-                raise self._wrong("axes", key, f"axis {key} holds {entry!r}: give whole numbers")
-        if len(set(values)) < len(values):
-            raise self._wrong("axes", key, f"axis {key} holds a value twice: remove one")
-        return tuple(float(entry) for entry in values) if QUANTITIES[key].numeric else tuple(values)
-
-    def _check_size(self, section: str, key: str, value: Any) -> None:
-        """Parameters of a concept have no limits of their own; those of the other quantities are with the quantity."""
-        if key not in PLAIN and abs(value) > _STEEPEST:
-            raise self._wrong(section, key, f"{key} is {value:g}: give −{_STEEPEST:g}…{_STEEPEST:g}")
+            says = f"{key!r} is not a quantity of [{section}]{did_you_mean(key, names) or ':'}"
+            raise Refusal(f"{says} use one of {', '.join(names)}", section, key)
+        if section == "axes" and quantity.kind == "switch":
+            raise Refusal(f"{key} cannot be an axis: set it in [models] and make two studies", section, key)
+        if section not in ("axes", quantity.section):
+            raise Refusal(f"{key} is in [{section}]: move it to [{quantity.section}]", section, key)
 
     def _portable(self, section: str, key: str, text: str) -> str:
-        """The value without files, for other machines: reads a rotor file, inlines a twist table.
-
-        In place of a retired model it is the one that stands in for it.
-        """
+        """The value without files, for other machines: reads a rotor file, inlines a twist table."""
         try:
             if key == "rotor" and text not in SHIPPED_ROTORS:
                 beside = Path(self._name).parent / text
@@ -143,84 +184,35 @@ class Reader:
             elif key == "twist" and "table:" in text:
                 return inline_spec(make_design(twist=text).twist)
         except ValueError as error:
-            raise self._wrong(section, key, str(error)) from None
-        return current_model(key, text)
-
-    def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
-        low, high = value.get("low"), value.get("high")
-        if not QUANTITIES[key].numeric or set(value) != {"low", "high"} or not (_finite(low) and _finite(high)):
-            raise self._wrong("axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}")
-        if QUANTITIES[key].kind == "whole":
-            raise self._wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
-        for end in (low, high):
-            self._check_size("axes", key, end)
-        if not cast(float, low) < cast(float, high):
-            raise self._wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
-        return float(cast(float, low)), float(cast(float, high))
-
-    def _sample(self, ranges: list[tuple[str, float, float]]) -> Sample | None:
-        sample = self._sections["sample"]
-        if not ranges:
-            if sample.values:
-                raise sample.fail(None, "[sample] has no range to sample: give an axis as { low = …, high = … }")
-            return None
-        if not sample.values:
-            key = ranges[0][0]
-            raise self._wrong("axes", key, f"axis {key} is a range: add [sample] with method and count")
-        methods = get_args(Method)
-        method = sample.string("method", methods[0], choices=methods)
-        count, seed = sample.count("count", low=1, high=2**24), sample.count("seed", 0, low=0, high=2**31)
-        sample.finish()
-        return Sample(method, count, seed, tuple(ranges))
+            raise Refusal(str(error), section, key) from None
+        return text
 
     def _given(self, varied: set[str]) -> dict[str, Value]:
         given: dict[str, Value] = {}
-        for section in ("fixed", "models"):
-            for key, value in self._sections[section].values.items():
-                self._known(section, key)
-                quantity = QUANTITIES[key]
-                if quantity.section != section:
-                    raise self._wrong(section, key, f"{key} is in [{section}]: move it to [{quantity.section}]")
+        for section, values in (("fixed", self._top.fixed), ("models", self._top.models)):
+            for key, written in values.items():
+                self._check_known(section, key)
                 if key in varied:
-                    raise self._wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
-                if not quantity.holds(value) or (quantity.numeric and not _finite(value)):
-                    raise self._wrong(section, key, f"{key} is {value!r}: give {quantity.wants}")
-                self._check_size(section, key, value)
+                    raise Refusal(f"{key} is an axis and also in [{section}]: remove one", section, key)
+                quantity = QUANTITIES[key]
+                value = convert(written, _kind(key), section, key)
                 if isinstance(value, str):
                     value = self._portable(section, key, value)
                 given[key] = float(value) if quantity.numeric else value
         return given
 
-    def _searching(self) -> OptimumSettings | None:
-        if not self._searched:
-            return None
-        section, plain = self._sections["optimum"], OptimumSettings()
-        rate = section.numbers("rate_deg", None, low=-_STEEPEST, high=_STEEPEST)
-        if rate is not None and not (len(rate) == 2 and rate[0] < rate[1]):
-            raise section.fail("rate_deg", f"rate_deg is {list(rate)}: give two numbers, as [-20, 0]")
-        stalled = section.number("stalled_percent", None, low=0.0, high=100.0)
-        settings = OptimumSettings(
-            starts=section.count("starts", plain.starts, low=1, high=1000),
-            seed=section.count("seed", plain.seed, low=0, high=2**31),
-            objective=section.string("objective", plain.objective, choices=OBJECTIVES),
-            rate=rate and (math.radians(rate[0]), math.radians(rate[1])),
-            stalled=None if stalled is None else stalled / 100.0,
-            index=section.number("index_percent", None, low=1e-6),
-        )
-        section.finish()
-        return settings
-
     def _aims(self, study: Study) -> ShowSettings:
-        show = self._sections["show"]
+        show = self._top.show
         numbers = [column.name for column in columns_of(study) if column.kind == "number"]
-        least = show.string("least", ShowSettings.least, choices=numbers)
-        uncertain = show.strings("uncertain", ())
-        show.finish()
+        if show.least not in numbers:
+            hint = did_you_mean(show.least, numbers) or ":"
+            raise Refusal(f"least is {show.least!r}{hint} use {' or '.join(numbers)}", "show", "least")
+        uncertain = (show.uncertain,) if isinstance(show.uncertain, str) else show.uncertain
         try:
             check_uncertain(uncertain, study.axis_names, tuple(study.points.sampled))
         except ValueError as error:
-            raise show.fail("uncertain", str(error)) from None
-        return ShowSettings(least, uncertain)
+            raise Refusal(str(error), "show", "uncertain") from None
+        return ShowSettings(show.least, uncertain)
 
     def _try_points(self, study: Study) -> None:
         """Try every value of every axis, the others at their first, to report errors before the run."""
@@ -237,11 +229,11 @@ class Reader:
                 check_point({**shared, **first, **point}, study)
             except ValueError as error:
                 section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
-                raise self._wrong(section, at, str(error)) from None
+                raise Refusal(str(error), section, *([at] if at else [])) from None
 
     def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str | None]:
         """The key named in an error message, else the key whose removal makes the point valid."""
-        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._sections[section].values]
+        keys = [(section, key) for section in ("fixed", "models", "axes") for key in getattr(self._top, section)]
         for section, key in keys:
             value = values[key]
             if re.search(rf"\b{re.escape(key)}\b", sentence) or (isinstance(value, str) and repr(value) in sentence):
@@ -251,10 +243,6 @@ class Reader:
                 check_point({name: value for name, value in values.items() if name != key}, study)
                 return section, key
         return "axes", None
-
-
-def _finite(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 @dataclass(frozen=True)
@@ -285,4 +273,6 @@ def read_study(path: str | Path) -> StudyFile:
 
 def parse_study(text: str, name: str = "study.toml") -> Study:
     """The study of a file's text. ValueError with one sentence that names file, line, key and remedy."""
-    return Reader(text, name).study()
+    file = f"study file {name!r}"
+    with naming(file, text):
+        return Reader(read_toml(file, text), name).study()

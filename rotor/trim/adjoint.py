@@ -218,9 +218,11 @@ class Adjoint(_Linear):
         on_swirl = share * (np.broadcast_to(weights.swirl, shape).sum(axis=1) - by_channel[UT])
         around = np.ones(shape) / shape[1]
         hovering = Weights(
-            fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
-            u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
-        )  # fmt: skip
+            fz=-(on_inflow @ difference.axial)[:, None] * around,
+            inflow=on_inflow[:, None] * around,
+            u_t=-(on_inflow @ difference.by_speed)[:, None] * around,
+            swirl=on_swirl[:, None] * around,
+        )
         adjoint = _difference_adjoint(difference)
         return adjoint.slopes(adjoint.hover_measure(hovering))[0]
 
@@ -269,9 +271,11 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     if objective == "induced":
         elements, gain = adjoint.elements, 1.0
         weights = Weights(
-            fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
+            fz=cell * elements.induced,
+            fx=cell * elements.swirl[:, None],
+            inflow=cell * elements.fz,
             swirl=cell * elements.fx,
-        )  # fmt: skip
+        )
     else:
         weights, gain = Weights(terms=adjoint.total_terms), tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit

@@ -174,9 +174,17 @@ def blade_system(linear: LinearisedTrim, *, shed: bool = False) -> BladeSystem:
     mean: Array = elements.theta.mean(axis=1)
     theta: Array = np.interp(r, disk.r, mean)
     on_blade = _Mass(
-        r, strips, _offset(problem, r), rotor.blade.chord(r) / rotor.radius * (r >= disk.root), theta,
-        along[0], along[1], along[3], along[4], phi,
-    )  # fmt: skip
+        r,
+        strips,
+        _offset(problem, r),
+        rotor.blade.chord(r) / rotor.radius * (r >= disk.root),
+        theta,
+        along[0],
+        along[1],
+        along[3],
+        along[4],
+        phi,
+    )
     slope, rate = elements.beta, _derivative(elements.beta)
     offset, unit = (_inertia(on_blade, x, slope, rate) for x in (on_blade.x, on_blade.chord))
     none = _inertia(on_blade, np.zeros_like(r), slope, rate)
@@ -268,7 +276,7 @@ _Motion = dict[int, tuple[Array, Array, Array]]
 
 def _air(
     linear: LinearisedTrim, shapes: Array, phi: Array, shed: bool
-) -> tuple[tuple[Array, Array, Array], tuple[Array, Array, Array, Array] | None]:  # fmt: skip
+) -> tuple[tuple[Array, Array, Array], tuple[Array, Array, Array, Array] | None]:
     """Generalised forces of the air by q, q' and q'', (azimuths, n, n), and the lags of shed vorticity."""
     problem, e = linear.problem, linear.elements
     plain = problem.section_data()

@@ -63,9 +63,13 @@ class Distribution(ShortRepr):
         except ModuleNotFoundError:
             raise ImportError("xarray is not installed: pip install xarray, or use to_dict()") from None
         fields = {
-            "lift_n_per_m": (self.lift, "N/m"), "cl": (self.cl, "1"), "cm": (self.cm, "1"), "mach": (self.mach, "1"),
-            "alpha_deg": (np.degrees(self.alpha), "degree"), "inflow_m_s": (self.inflow, "m/s"),
-        }  # fmt: skip
+            "lift_n_per_m": (self.lift, "N/m"),
+            "cl": (self.cl, "1"),
+            "cm": (self.cm, "1"),
+            "mach": (self.mach, "1"),
+            "alpha_deg": (np.degrees(self.alpha), "degree"),
+            "inflow_m_s": (self.inflow, "m/s"),
+        }
         values = {name: (("r", "psi_deg"), value, {"units": unit}) for name, (value, unit) in fields.items()}
         return xarray.Dataset(values, {"r": self.r, "psi_deg": np.degrees(self.psi)})
 

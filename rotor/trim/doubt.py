@@ -114,13 +114,17 @@ class Doubt:
             "sureness": self.sureness,
             "rows": [
                 {
-                    "name": row.name, "size": row.size, "unit": row.unit, "source": row.source, "power_w": row.power,
+                    "name": row.name,
+                    "size": row.size,
+                    "unit": row.unit,
+                    "source": row.source,
+                    "power_w": row.power,
                     "change_w": row.change,
                 }
                 for row in self.rows
             ],
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
-        }  # fmt: skip
+        }
 
 
 def sureness(change: float, band: float) -> str:
@@ -166,12 +170,16 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
     known = {row.name: row for row in uncertain_inputs(solution.design)}
     rows = [
         DoubtRow(
-            name, row.words, row.size, row.source, power=here.get(name, 0.0),
+            name,
+            row.words,
+            row.size,
+            row.source,
+            power=here.get(name, 0.0),
             change=None if there is None else here.get(name, 0.0) - there.get(name, 0.0),
         )
         for name, row in known.items()
         if name in here or (there is not None and name in there)
-    ]  # fmt: skip
+    ]
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
         solution.power.total,

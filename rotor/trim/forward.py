@@ -80,14 +80,19 @@ def along(result: TrimResult, course: WakeCourse) -> WakeCourse:
         tilt -= state.flap_1c
     mu_x, mu_z = in_disk_axes(design.condition.advance_ratio, problem.climb, tilt)
     return replace(
-        course, mu_x=mu_x, mu_z=mu_z, lambda0=flow.lambda0, coning=state.coning, flap_1c=state.flap_1c,
+        course,
+        mu_x=mu_x,
+        mu_z=mu_z,
+        lambda0=flow.lambda0,
+        coning=state.coning,
+        flap_1c=state.flap_1c,
         flap_1s=state.flap_1s,
-    )  # fmt: skip
+    )
 
 
 def trim_on_course(
     problem: Problem, start: Guess | None, options: SolverOptions, most_stalled: float = math.inf
-) -> TrimResult:  # fmt: skip
+) -> TrimResult:
     """`trim`, and of a free rotor once more with its wake along the trim found."""
     result = trim(problem, start, options, most_stalled)
     if problem.design.models.trim != "free-rotor" or not problem.inflow.fine_tip or not result.converged:
@@ -97,9 +102,11 @@ def trim_on_course(
 
 
 def trim(
-    problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS,
+    problem: Problem,
+    start: Guess | None = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
     most_stalled: float = math.inf,
-) -> TrimResult:  # fmt: skip
+) -> TrimResult:
     """Trim a forward-flight problem from a guess, or from simple estimates.
 
     Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as no more than
@@ -124,7 +131,7 @@ def trim(
 
 def trim_along(
     problem: Problem, options: SolverOptions = DEFAULT_OPTIONS, most_stalled: float = math.inf
-) -> TrimResult | None:  # fmt: skip
+) -> TrimResult | None:
     """The trim that belongs to those of easier conditions, whatever Newton's method finds; None where none is reached.
 
     Beyond the largest lift a rotor balances the same weight once more, deep in stall and at a multiple of the power.
@@ -229,7 +236,7 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
 
 def _continue(
     problem: Problem, best: TrimResult, passes: int, options: SolverOptions, most_stalled: float
-) -> TrimResult:  # fmt: skip
+) -> TrimResult:
     """Follow the trim from an easier condition in adaptive steps; where it ends on the way, tell how far it came."""
     design = problem.design
     easy = _easier(design, 0.0)

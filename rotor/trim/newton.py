@@ -131,7 +131,7 @@ class TrimResult:
         elastic = twist.reshape(modes, -1).copy() if modes else None
         return Guess(
             state, elastic, bending.copy(), inflow.copy(), self.problem.inflow_terms.key, self.factors, structure.name
-        )  # fmt: skip
+        )
 
 
 def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:

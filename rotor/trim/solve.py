@@ -51,9 +51,12 @@ _ENERGY = 1e-6
 
 @one_blas_thread()
 def solve(
-    design: Design, start: Solution | Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS, *,
+    design: Design,
+    start: Solution | Guess | None = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
+    *,
     freedoms: Sequence[Freedom] = (),
-) -> Solution:  # fmt: skip
+) -> Solution:
     """Trim a design: the controls, inflow and blade motion at which forces and moments balance.
 
     Parameters:
@@ -205,7 +208,7 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
 
 def _once(
     design: Design, start: Solution | Guess | None, options: SolverOptions, freedoms: Sequence[Freedom]
-) -> Solution:  # fmt: skip
+) -> Solution:
     """The trim with dynamic stall only where it is on."""
     begin = time.perf_counter()
     problem = trim_problem(design, freedoms)

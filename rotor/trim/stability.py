@@ -164,9 +164,13 @@ class Stability:
 
 
 def stability(
-    given: Design | Solution, *, air: Air = "quasi-steady", offset: float = 0.0, with_margins: bool = True,
+    given: Design | Solution,
+    *,
+    air: Air = "quasi-steady",
+    offset: float = 0.0,
+    with_margins: bool = True,
     harmonics: int = HARMONICS,
-) -> Stability:  # fmt: skip
+) -> Stability:
     """Modes and margins of the blade of a design, or of a solution of `solve`.
 
     offset: how far the centre of gravity is moved aft, all along the lifting blade [chords]. harmonics: of Hill's
@@ -292,7 +296,7 @@ class BoundaryPoint:
 
 def stability_boundary(
     given: Design | Solution, offsets: tuple[float, ...], *, air: Air = "quasi-steady"
-) -> tuple[BoundaryPoint, ...]:  # fmt: skip
+) -> tuple[BoundaryPoint, ...]:
     """The stiffness in torsion that the blade needs in pitch and flap, over offsets of its centre of gravity [chords].
 
     Empty for a blade that is rigid in torsion. Errors as of `stability`.

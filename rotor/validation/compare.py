@@ -14,7 +14,7 @@ from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.design.quantities import HoverInflow
-from rotor.files.make_design import current_model, make_design
+from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -337,9 +337,8 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    hover_inflow = cast(HoverInflow, current_model("hover_inflow", inflow))
     base = make_design(rotor=measured.rotor)
-    return replace(base, models=replace(base.models, hover_inflow=hover_inflow))
+    return replace(base, models=replace(base.models, hover_inflow=cast(HoverInflow, inflow)))
 
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:

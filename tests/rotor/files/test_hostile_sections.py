@@ -20,7 +20,7 @@ from rotor.airfoil.polars import COLUMNS, Polar, parse_polar_file
 from rotor.design.aircraft import Aircraft
 from rotor.files import rotor_file
 from rotor.files.make_design import make_design
-from rotor.files.rotor_file import load_rotor, named_files, read_aircraft, rotor_toml
+from rotor.files.rotor_file import load_rotor, read_aircraft, read_tables
 from rotor.trim.solve import solve
 
 POLAR = POLARS[2]
@@ -130,7 +130,7 @@ def test_only_sections_in_use_are_built(monkeypatch: pytest.MonkeyPatch):
     craft = read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
     assert built == ["s0"]
     assert "Section s1 and 1998 more is left out: no span of the blade uses it." in craft.remarks
-    assert named_files(rotor_toml("my.toml", text.replace("a.txt", "b.txt", 1))) == ["b.txt"]
+    assert read_tables("my.toml", text.replace("a.txt", "b.txt", 1)).named == ["b.txt"]
 
 
 def test_the_number_of_sections_and_files_is_bounded():
@@ -143,7 +143,7 @@ def test_the_number_of_sections_and_files_is_bounded():
         read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
     files = ", ".join(f'"{k}.txt"' for k in range(41))
     with pytest.raises(ValueError, match="name 41 files: 40 are allowed"):
-        named_files(rotor_toml("my.toml", GOOD.replace('"naca0012"', '"s"', 1) + f"[sections.s]\npolars = [{files}]\n"))
+        read_tables("my.toml", GOOD.replace('"naca0012"', '"s"', 1) + f"[sections.s]\npolars = [{files}]\n")
 
 
 LONG = 15_000

@@ -103,9 +103,11 @@ def test_design_files_name_a_shipped_rotor_and_contain_a_users_own(key: str):
     assert back.aircraft.key == ""
 
 
-def test_design_files_of_version_1_are_the_uh60a():
-    design = design_from_record({"format": "rotor-explorer design", "version": 1, "twist": "uh60a"})
+def test_design_files_without_a_rotor_are_the_uh60a():
+    design = design_from_record({"format": "rotor-explorer design", "version": 2, "twist": "uh60a"})
     assert design.aircraft == shipped_aircraft("uh60a")
+    with pytest.raises(ValueError, match=r"'rotor-explorer design' version 1: this program reads .* version 2"):
+        design_from_record({"format": "rotor-explorer design", "version": 1, "twist": "uh60a"})
     with pytest.raises(
         ValueError, match=r"design file key 'rotor' does not name or hold a rotor: write one of uh60a, r22, s61"
     ):
