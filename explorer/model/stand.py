@@ -108,13 +108,11 @@ def stand_like(solution: Solution) -> StandInputs:
     )
 
 
-@cache
 def flight_powers(rotor: str) -> tuple[MeasuredPower, ...]:
     """The powers of a shipped rotor measured in flight, by its name; none for a rotor without."""
     return tuple(measured for measured in measured_powers() if measured.rotor == rotor)
 
 
-@cache
 def airload_cases(rotor: str) -> tuple[FlownCase, ...]:
     """The conditions in which airloads of a shipped rotor were measured."""
     return tuple(case for case in CASES if case.rotor == rotor)

@@ -41,7 +41,6 @@ def rotor_head(rotor: Rotor) -> Mesh:
     return joined(parts).scaled(scale)
 
 
-@lru_cache(maxsize=4)
 def mast(radius: float) -> Mesh:
     """The shaft below the hub of a rotor of this radius [m]."""
     return revolved([[0.0, -1.3], [0.21, -1.3], [0.17, -0.75], [0.13, -0.09], [0.0, -0.09]], 28).scaled(size(radius))

@@ -159,7 +159,6 @@ class SetDescription:
         )  # fmt: skip
 
 
-@cache
 def description(name: str) -> SetDescription:
     """The words of a set of the trust page."""
     record: dict[str, Any] = dict(_descriptions()[name])
