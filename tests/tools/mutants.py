@@ -273,7 +273,7 @@ def asked(mutant: Mutant, tests: dict[str, tuple[list[int], float]], blocks: ran
     own = {mutant.block}
     if not any(mutant.block in entered for entered, _ in tests.values()):
         own = set(blocks)
-    enter = {name for name, (entered, _) in tests.items() if own & set(entered)}
+    enter = {name for name, (entered, _) in tests.items() if own & set(entered)} or set(tests)  # A file of data alone.
     beside = {name.partition("::")[0] for name in enter}
     stem = mutant.file.rpartition("/")[2].removesuffix(".py")
     order = sorted(
