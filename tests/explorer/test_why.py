@@ -76,6 +76,10 @@ def test_another_test_or_flight_is_named():
     assert why(flown(), first).startswith("The rotor alone, on a test stand: ")
     assert why(first, flown()).startswith("Flight instead of a test: ")
     assert why(first, second).startswith("Another test: ")
+    climbing, slower = (solved(make_design(mu=0.2, **one)) for one in ({"climb_m_s": 4}, {"rotor_speed_percent": 95}))
+    assert why(flown(), climbing).startswith("Climb 4.0 m/s: climb +")
+    assert why(climbing, flown()).startswith("Level flight: climb −")
+    assert why(flown(), slower).startswith("Rotor speed 95.0 %: profile −")
 
 
 UNTWISTED, TWISTED = {"mu": 0.0, "twist": "linear:0"}, {"mu": 0.0, "twist": "linear:-8"}

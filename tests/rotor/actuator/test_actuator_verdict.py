@@ -172,6 +172,7 @@ def test_required_twist_by_hand():
     root = pair().design.rotor.blade.root_cutout
     assert_allclose(judged.required, abs(second - first) * (1.0 - root), rtol=1e-9)
     assert judged.feasible == (judged.required <= judged.attainable)
+    assert f" the {math.degrees(judged.required):.1f}° needed from hover to µ 0.30 (" in verdict_details(judged)
 
 
 def without_band(sentence: str) -> str:
