@@ -53,7 +53,9 @@ def drag(history: History, name: str, values: list[float], pause: float) -> None
 class TestHistory:
     def test_a_drag_is_one_step(self):
         history = History(START)
-        drag(history, "two_inner", [-14.5, -15.0, -15.5, -16.0], LONG)
+        assert history.note(replace(START, two_inner=-14.5), LONG)
+        assert not history.note(replace(START, two_inner=-15.0), 0.05)
+        drag(history, "two_inner", [-15.5, -16.0], 0.05)
         drag(history, "two_outer", [-7.0, -6.0], 0.3)
         assert len(history.past) == 2
         assert history.undo() == replace(START, two_inner=-16.0)

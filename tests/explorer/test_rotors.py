@@ -64,6 +64,8 @@ def test_another_rotor_comes_as_it_is_built():
     assert inputs_of(design) == with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0), "s61")
     assert twist_name(inputs) == "Sikorsky S-61, As built"
     assert twist_name(Inputs(law="builtin")) == "As built"
+    assert twist_name(Inputs(law="three")) == "Three segments −16/−12/−6 at 0.4/0.75"
+    assert twist_name(Inputs(law="linear", linear=-9.5)) == "Linear −9.5°"
 
 
 def test_ones_own_rotor_stays_in_the_menu():

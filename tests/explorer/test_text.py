@@ -15,6 +15,7 @@ from explorer.charts.strip import autorotation_words
 from explorer.model.inputs import Inputs, baseline_of, baseline_title, inputs_of
 from explorer.model.units import number
 from explorer.text import readout
+from explorer.text.design_words import model_words
 from explorer.text.status import provenance, status_panel
 from explorer.text.why import why
 from rotor.aero.switches import SWITCHES, switched_off
@@ -40,6 +41,12 @@ class TestInputs:
             inputs = replace(Inputs(), **{name: False})
             assert [switch.name for switch in switched_off(inputs.design().models)] == [name]
             assert inputs_of(inputs.design()) == inputs
+
+    def test_the_models_in_words_name_the_inflow_in_use(self):
+        hover = Inputs(advance_ratio=0.0)
+        assert ": annulus balance, " in model_words(hover.design())
+        assert ": closed form, eq. (3.3), " in model_words(replace(hover, hover_inflow="closed-form").design())
+        assert model_words(Inputs(tip_loss=False).design()).endswith(": Lifting line, no tip loss")
 
     def test_crossed_divisions_are_one_sentence(self):
         with pytest.raises(ValueError, match=r"break points at 0\.8 and 0\.4 R are out of order") as caught:

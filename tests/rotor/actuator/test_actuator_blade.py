@@ -251,6 +251,9 @@ def test_limits(installed: InstalledActuator, swing: float, broken: set[str], ke
     assert broken <= {limit.name for limit in found if not limit.ok}
     assert kept <= {limit.name for limit in found if limit.ok}
     assert all(word in " ".join(limit.sentence for limit in found) for word in words)
+    for strain in (limit for limit in found if limit.name == "fibre-strain"):
+        assert_allclose(strain.value, 1e6 * fibre_strain(installed).total.max())
+        assert strain.ok == (strain.value <= strain.bound)
 
 
 # Centre of gravity and stability

@@ -172,6 +172,7 @@ def test_required_twist_by_hand():
     root = pair().design.rotor.blade.root_cutout
     assert_allclose(judged.required, abs(second - first) * (1.0 - root), rtol=1e-9)
     assert judged.feasible == (judged.required <= judged.attainable)
+    assert f" the {math.degrees(judged.required):.1f}° needed from hover to µ 0.30 (" in verdict_details(judged)
 
 
 def without_band(sentence: str) -> str:
@@ -305,7 +306,8 @@ def test_exit_code_is_1_if_nothing_trims(capsys: pytest.CaptureFixture[str]):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--actuator", "glue"], "actuator 'glue' is not known"),
+        (["--actuator", "glue"], "actuator 'glue' is not known: use one of MFC_P1"),
+        (["--actuator", "MFC_P"], "actuator 'MFC_P' is not known; did you mean 'MFC_P2'? use one of MFC_P1"),
         (["--concept", "wavy"], "concept 'wavy' is not known"),
         (["--concept", "two-segment", "--division", "1.5"], "division 1.5 of concept two-segment is outside"),
         (["--plies", "0"], "0 plies"),

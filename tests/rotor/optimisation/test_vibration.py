@@ -98,6 +98,8 @@ def test_front_of_active_twist():
     assert changes[0][1] > 0.0
     assert changes[-1][0] > 0.0
     assert changes[-1][1] < -50.0
+    assert_allclose(changes[-1], [100.0 * (getattr(front.points[-1], one) / getattr(front.start, one) - 1.0)
+                                  for one in ("power", "index")])  # fmt: skip
     assert front.preview_error is not None
     assert front.preview_error[0] < 0.35
     assert front.preview_error[1] < 3.0
