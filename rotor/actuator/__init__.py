@@ -18,7 +18,7 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.harmonic import DynamicTwist, EffectInFlight, dynamic_twist, effect, phase_sweep, steady_room
+from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
@@ -33,7 +33,6 @@ __all__ = (
     "ActuatorStability",
     "BreakEven",
     "ConditionPair",
-    "DynamicTwist",
     "EffectInFlight",
     "Engines",
     "ExtensionTwist",
@@ -53,7 +52,6 @@ __all__ = (
     "actuators",
     "break_even",
     "default_placement",
-    "dynamic_twist",
     "effect",
     "engines_of",
     "failure",
@@ -62,11 +60,11 @@ __all__ = (
     "install",
     "judge",
     "pay_sentence",
-    "phase_sweep",
     "programmes",
     "standard_flight",
     "steady_room",
     "suppose",
+    "tip_amplitude",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",

@@ -186,20 +186,6 @@ class Verdict:
         """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
         return segment_voltages(self.installed, self.optimum.swings)
 
-    @property
-    def actuator_off(self) -> Design:
-        """The second condition with the actuator on the blade, not driven and without its mass: a sweep starts here."""
-        return self.installed.on(self._fixed(self.resting))
-
-    @property
-    def without_actuator(self) -> Design:
-        """The second condition of the same blade without it."""
-        return self._fixed(self.baseline.fixed)
-
-    def _fixed(self, jig: TwistOptimum) -> Design:
-        design = self.baseline.pair.designs()[1]
-        return design if self.installed.host.kind == "retrofit" else self.baseline.concept.apply(design, jig.values)
-
 
 def try_actuator(
     name: str,

@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
 from rotor.actuator.pictures import break_even_chart
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
-from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
 from rotor.chart_svg import svg
 from rotor.command.common import (
@@ -29,7 +28,6 @@ from rotor.command.common import (
     print_result,
     short_spec,
 )
-from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
@@ -78,7 +76,6 @@ def add_parser(commands: Any) -> None:
         help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
     )
     parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
-    parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(
         "--what-would-pay",
@@ -101,10 +98,6 @@ def run(args: argparse.Namespace) -> int:
     if args.what_would_pay is None:
         check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
-    if args.harmonic is not None:
-        Harmonic(args.harmonic, 0.0)
-        if pair.design.active_twist is not None:
-            raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
     placement, host = _placement(args), Host(args.blade, stiffness)
     if args.plot is not None and args.what_would_pay is None:
@@ -118,25 +111,16 @@ def run(args: argparse.Namespace) -> int:
         if args.table == "5.2":
             return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
-        turned = None
-        if args.harmonic is not None:
-            turned = phase_sweep(
-                verdict.actuator_off,
-                verdict.installed,
-                args.harmonic,
-                reference=verdict.without_actuator,
-                derated=args.derated,
-            )
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    print_result(args, lambda: record(verdict, turned), lambda: report(verdict, turned))
+    print_result(args, lambda: record(verdict), lambda: report(verdict))
     return 0
 
 
-def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
+def record(verdict: Verdict) -> dict[str, Any]:
     """The JSON of `actuator --json`. Savings are means over both conditions [W]."""
-    values: dict[str, Any] = {
+    return {
         "status": "converged",
         "message": verdict_sentence(verdict),
         "actuator": verdict.installed.actuator.id,
@@ -161,17 +145,6 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "limits": [asdict(limit) for limit in verdict.limits],
         "caveats": list(verdict.caveats),
     }
-    if turned is not None:
-        values["harmonic"] = {
-            "per_rev": turned.dynamic.per_rev,
-            "amplitude_deg": math.degrees(turned.dynamic.amplitude),
-            "used_share": turned.share,
-            "tip_amplitude_deg": math.degrees(turned.response[0]),
-            "tip_phase_deg": math.degrees(turned.response[1]),
-            "gross_saving_w": turned.gross_saving,
-            "net_saving_w": turned.net_saving,
-        }
-    return values
 
 
 def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
@@ -186,7 +159,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
+def report(verdict: Verdict) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
@@ -221,23 +194,6 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
         lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
-    if turned is not None and not turned.dynamic.amplitude:
-        lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator is too slow"]
-    elif turned is not None:
-        left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW with"
-        elastic = turned.off.elastic is not None
-        at_rest = f" at rest (in flight {math.degrees(turned.response[0]):.2f}°)" if elastic else ""
-        cost = turned.wave_saving - turned.gross_saving
-        softer = f", while the other stiffness costs {cost / 1e3:.1f} kW" if abs(cost) >= PRINTED else ""
-        lines += [
-            "",
-            wrapped(
-                f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
-                f"±{math.degrees(turned.dynamic.amplitude):.2f}°{at_rest}, {100 * turned.share:.0f} % used, saves "
-                f"{turned.wave_saving / 1e3:.1f} kW{softer}; {left} its mass and losses. Not validated: no measured "
-                "power benefit of active twist was found."
-            ),
-        ]
     met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
     lines += ["", *(wrapped(limit, " " * 9) for limit in met)]
     return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])

@@ -22,10 +22,10 @@ from rotor.actuator import (
     EffectInFlight,
     InstalledActuator,
     Programme,
-    dynamic_twist,
     effect,
     programmes,
     steady_room,
+    tip_amplitude,
     with_actuator_mass,
 )
 from rotor.actuator.installation import harmonic_loss
@@ -72,7 +72,7 @@ class Fitted:
     @property
     def whole(self) -> float:
         """Amplitude at n/rev of half the voltage range at the tip of the blade at rest [°]; zero: it cannot follow."""
-        return math.degrees(dynamic_twist(self.installed, 2, elastic=True).at_rest)
+        return math.degrees(tip_amplitude(self.installed))
 
     @property
     def losses(self) -> list[float]:
