@@ -22,7 +22,7 @@ from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amp
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, PaySearch, Supposed, break_even, pay_sentence, suppose, what_would_pay
+from rotor.actuator.pay import BreakEven, Supposed, break_even, pay_sentence, suppose
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.stopped import Failure, failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -41,7 +41,6 @@ __all__ = (
     "FlightMoment",
     "Host",
     "InstalledActuator",
-    "PaySearch",
     "PiezoPly",
     "Placement",
     "Programme",
@@ -68,6 +67,5 @@ __all__ = (
     "try_actuator",
     "verdict_details",
     "verdict_sentence",
-    "what_would_pay",
     "with_actuator_mass",
 )

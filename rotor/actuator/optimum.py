@@ -91,11 +91,9 @@ def best_twist(
     return _search((design,), (1.0,), concept, None, 1.0, starts, alone=alone)
 
 
-def best_fixed(
-    pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
-) -> TwistOptimum:
-    """The concept's fixed twist of least mean power; `alone`: from these starts and no others."""
-    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts, alone=alone)
+def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
+    """The concept's fixed twist of least mean power."""
+    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
 
 
 def best_actuated(

@@ -18,7 +18,7 @@ from rotor.actuator.section import (
 )
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, Points, Series
+from rotor.chart import Axis, Chart, Line
 from rotor.dynamics.structure import structure_data, uh60a_structure
 
 
@@ -132,20 +132,12 @@ def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
     return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
 
 
-def break_even_chart(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> Chart:
-    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves.
-
-    actuator: name, linear twist that saves as much [rad] and mass of all blades [kg] of the one beside the line.
-    """
+def break_even_chart(even: BreakEven) -> Chart:
+    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves."""
     half, degrees = 0.5 * even.ideal_saving, tuple(np.degrees(even.twists).tolist())
     driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
-    lines: list[Series] = [
+    lines = (
         Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
         Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
-    ]
-    if actuator is not None:
-        name, twist, mass = actuator
-        lines.append(Points(name, (math.degrees(twist),), (mass,), 2))
-    return Chart(
-        "Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), tuple(lines)
     )
+    return Chart("Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), lines)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import STEPS, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven, Candidate
+from rotor.actuator.pay import ENOUGH, BreakEven
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import find_concept
@@ -170,27 +170,3 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
         "column.",
     )
     return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)
-
-
-def builds_table(builds: Sequence[Candidate]) -> ActuatorTable:
-    """Builds with what they save and cost, in kW as `Verdict.savings` has them."""
-    columns = (
-        "build", "twist °", "used %", "kg", "gross", "stiffness", "mass", "drive", "net kW", "earns %",
-    )  # fmt: skip
-    rows = [
-        (
-            build.name,
-            f"{math.degrees(build.installed.attainable):.1f}",
-            f"{100.0 * abs(build.estimate.swing):.0f}",
-            f"{build.mass:.0f}",
-            kilowatts(build.estimate.gross), kilowatts(-build.estimate.stiffness_cost),
-            kilowatts(-build.estimate.mass_cost), kilowatts(-build.estimate.drive_cost), kilowatts(build.estimate.net),
-            f"{100.0 * build.earned:.0f}",
-        )
-        for build in builds
-    ]  # fmt: skip
-    notes = (
-        "Each build is trimmed, and its best twist found to second order: gross within a tenth of a full search on an "
-        "elastic blade. Earns: gross over mass, drive and what the stiffness costs.",
-    )
-    return ActuatorTable("Nearest builds", columns, tuple(rows), notes)

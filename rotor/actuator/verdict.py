@@ -356,16 +356,13 @@ def _change(saving: float) -> str:
 
 def count(verdict: Verdict) -> str:
     """Number of plies or tubes as text; "passive" for a laminate."""
-    several = isinstance(verdict.installed.actuator, TorqueTube) and verdict.installed.placement.divisions
-    return layers_text(verdict.installed) + (" a segment" if several else "")
-
-
-def layers_text(installed: InstalledActuator) -> str:
-    """Number of plies, or of tubes side by side; "passive" for a laminate."""
+    installed = verdict.installed
     if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
     single, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
-    return f"{installed.placement.plies} {single if installed.placement.plies == 1 else more}"
+    several = isinstance(installed.actuator, TorqueTube) and installed.placement.divisions
+    plies = installed.placement.plies
+    return f"{plies} {single if plies == 1 else more}{' a segment' if several else ''}"
 
 
 def flight(advance_ratio: float) -> str:

@@ -11,10 +11,10 @@ import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
+from rotor.actuator.pay import BreakEven, break_even, pay_sentence
 from rotor.actuator.pictures import break_even_chart
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
+from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
 from rotor.chart_svg import svg
@@ -82,7 +82,7 @@ def add_parser(commands: Any) -> None:
         nargs="?",
         choices=("this", "all"),
         const="this",
-        help="what an actuator would have to be to pay on this rotor (all: on each), and the builds nearest to it",
+        help="what an actuator would have to be to pay on this rotor (all: on each)",
     )
     parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
     add_design_arguments(parser)
@@ -204,69 +204,39 @@ ROTORS = (*SHIPPED_ROTORS, "hart2")
 
 
 def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
+    pairs = [pair]
     if args.what_would_pay == "all":
-        searches = [PaySearch(break_even(replace(pair, design=make_design(rotor=key))), (), ()) for key in ROTORS]
-    else:
-        searches = [what_would_pay(pair, derated=args.derated)]
-    first = searches[0]
+        pairs = [replace(pair, design=make_design(rotor=key)) for key in ROTORS]
+    lines = [break_even(each) for each in pairs]
     if args.plot is not None:
-        best = None
-        if first.candidates:
-            candidate = first.candidates[0]
-            worth = first.even.twist_for(candidate.estimate.gross - candidate.estimate.stiffness_cost)
-            best = (candidate.installed.actuator.name, worth, candidate.mass)
-        write_whole(args.plot, svg(break_even_chart(first.even, best)))
+        write_whole(args.plot, svg(break_even_chart(lines[0])))
     if args.json:
-        records = [pay_record(search) for search in searches]
+        records = [pay_record(line) for line in lines]
         print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))
         return 0
-    print(pay_table([search.even for search in searches]).text())
+    print(pay_table(lines).text())
     if args.what_would_pay == "this":
-        print()
-        print(*map(wrapped, filter(None, [pay_sentence(first.even), search_sentence(first)])), sep="\n")
-        print(*_builds(first), sep="\n")
+        print(f"\n{wrapped(pay_sentence(lines[0]))}")
     return 0
 
 
-def _builds(search: PaySearch) -> list[str]:
-    if not search.candidates:
-        return []
-    judged = [
-        wrapped(f"{verdict.installed.actuator.id}: {verdict_sentence(verdict)}", "  ") for verdict in search.verdicts
-    ]
-    return ["", builds_table(search.candidates[:5]).text(), *(["", "By full search"] if judged else []), *judged]
-
-
-def pay_record(search: PaySearch) -> dict[str, Any]:
+def pay_record(even: BreakEven) -> dict[str, Any]:
     """The JSON of `actuator --what-would-pay --json`; masses are of all blades."""
-    even, needed = search.even, search.even.requirement
+    needed = even.requirement
+    pays = {"twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive}
     return {
         "rotor": even.pair.design.aircraft.name,
         "advance_ratios": list(even.pair.advance_ratios),
-        "message": " ".join(filter(None, [pay_sentence(even), search_sentence(search)])),
+        "message": pay_sentence(even),
         "ideal_saving_w": even.ideal_saving,
         "optima_apart_deg": math.degrees(abs(even.change)),
-        "pays_from": {
-            "twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive
-        } if even.worthwhile else None,
+        "pays_from": pays if even.worthwhile else None,
         "line": {
-            "twist_deg": np.degrees(even.twists).tolist(), "gross_saving_w": even.gross.tolist(),
+            "twist_deg": np.degrees(even.twists).tolist(),
+            "gross_saving_w": even.gross.tolist(),
             "mass_kg": even.masses.tolist(),
         },
-        "builds": [
-            {
-                "actuator": candidate.installed.actuator.id, "plies": candidate.installed.placement.plies,
-                "span_r": list(candidate.installed.placement.span), "blade": candidate.installed.host.label,
-                "twist_deg": math.degrees(candidate.installed.attainable), "swing": candidate.estimate.swing,
-                "mass_kg": candidate.mass,
-                "gross_saving_w": candidate.estimate.gross, "stiffness_cost_w": candidate.estimate.stiffness_cost,
-                "mass_cost_w": candidate.estimate.mass_cost, "drive_cost_w": candidate.estimate.drive_cost,
-                "net_saving_w": candidate.estimate.net,
-            }
-            for candidate in search.candidates
-        ],
-        "judged": [record(verdict) for verdict in search.verdicts],
-    }  # fmt: skip
+    }
 
 
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:

@@ -212,12 +212,8 @@ def test_actuate(watched: Watched, app: App, take: Callable[..., None]):
         page.wait_for_function("() => RX.state.dial?.settled", timeout=LONG)
         watched.reads("verdict", "needs|saves")
         take(watched, f"flight-{legs[at]}")
-    button = page.get_by_role("button", name="Find what would pay")
-    button.scroll_into_view_if_needed()
-    button.click()
-    ready = page.locator('[data-explorer="pay"][data-kind="ready"]')
-    ready.wait_for(timeout=2 * LONG)
-    ready.evaluate("pay => pay.scrollIntoView({block: 'end'})")
+    page.get_by_role("button", name="What would pay?").click()
+    page.wait_for_function("() => RX.state.suppose?.chart", timeout=2 * LONG)
     take(watched, "what-would-pay")
 
 
