@@ -110,7 +110,7 @@ class Page:
             envelope = EnvelopePanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-            self.vibration = VibrationPanel(context, self.scene, self.results.strip)
+        self.vibration = VibrationPanel(context, self.scene, self.results.strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
