@@ -141,7 +141,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     window = np.sort(undriven[:, None] + np.outer(per_unit, drives), axis=1)
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
-    shapes = verdict.derating * installed.shapes_in(pair.design)[:, -1]
+    shapes = installed.shapes_in(pair.design)[:, -1]
     unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), NOTHING), (-1.0, 1.0))
     parameters = list(base.fixed.values)
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
@@ -157,9 +157,9 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
                 powers[name].append(trim.power.total)
             best = best_twist(installed.on(design), base.concept, [parameters], alone=True)
             blade = replace(design, twist=jig)
-            reached = free = best_swings(blade, installed, unlimited, verdict.derating)
+            reached = free = best_swings(blade, installed, unlimited)
             if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-                reached = best_swings(blade, installed, window, verdict.derating)
+                reached = best_swings(blade, installed, window)
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:

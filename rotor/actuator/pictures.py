@@ -123,7 +123,7 @@ def twist_comparison(verdict: Verdict, stations: int) -> tuple[Array, Array]:
     """
     r = np.linspace(verdict.baseline.pair.design.rotor.blade.root_cutout, 1.0, stations)
     first, second = (np.array(swings) for swings in verdict.optimum.swings)
-    twist = verdict.derating * verdict.installed.change(second - first, r)
+    twist = verdict.installed.change(second - first, r)
     return verdict.baseline.change(r), twist - twist[0]
 
 

@@ -95,11 +95,10 @@ def table_5_2(
     *,
     placement: Placement | None = None,
     host: Host | None = None,
-    derated: bool = False,
 ) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
     verdicts = [
-        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host, derated=derated)
+        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host)
         for id in COMPARED_ACTUATORS
         for name in COMPARED_CONCEPTS
     ]
@@ -109,7 +108,7 @@ def table_5_2(
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
-        "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
+        "actuator", "concept", "blade", "needed °", "nominal °", "needed/nominal", "voltages V",
         "mass kg", "torsion /rev", "ideal kW", "gross kW", "stiffness kW", "mass kW", "drive kW", "net kW",
         "limits exceeded",
     )  # fmt: skip
@@ -117,7 +116,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
         (
             f"{verdict.installed.actuator.id}, {count(verdict)}", verdict.baseline.concept.name,
             verdict.installed.host.label, f"{math.degrees(verdict.required):.2f}",
-            f"{math.degrees(verdict.attainable):.2f}", f"{math.degrees(verdict.attainable_derated):.2f}",
+            f"{math.degrees(verdict.attainable):.2f}",
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
             "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
             f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
@@ -131,7 +130,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
-        "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
+        "whole voltage range.",
         f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
         "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net. Ideal: gross "
         "with unlimited twist in flight.",

@@ -75,7 +75,6 @@ def add_parser(commands: Any) -> None:
         default="best-fixed",
         help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
     )
-    parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(
         "--what-would-pay",
@@ -109,8 +108,8 @@ def run(args: argparse.Namespace) -> int:
         if args.what_would_pay is not None:
             return _run_pay(args, pair)
         if args.table == "5.2":
-            return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
-        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
+            return _show(args, table_5_2(pair, placement=placement, host=host))
+        verdict = judge(actuator, pair, concept, placement, host, against=args.against)
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
@@ -128,7 +127,6 @@ def record(verdict: Verdict) -> dict[str, Any]:
         "concept": verdict.baseline.concept.name,
         "required_twist_deg": math.degrees(verdict.required),
         "attainable_twist_deg": math.degrees(verdict.attainable),
-        "attainable_twist_derated_deg": math.degrees(verdict.attainable_derated),
         "feasible": verdict.feasible,
         "voltages_v": [list(pair) for pair in verdict.voltages],
         "added_mass_kg": verdict.installed.masses.aircraft,
@@ -152,7 +150,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     return {
         "status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies,
         "concept": args.concept, "required_twist_deg": None, "attainable_twist_deg": None,
-        "attainable_twist_derated_deg": None, "feasible": None, "voltages_v": [], "added_mass_kg": None,
+        "feasible": None, "voltages_v": [], "added_mass_kg": None,
         "torsion_frequency_per_rev": None, "against": args.against, "ideal_saving_w": None, "gross_saving_w": None,
         "stiffness_cost_w": None, "mass_cost_w": None, "drive_cost_w": None, "net_saving_w": None,
         "net_saving_band_w": None, "fuel_saving_kg_h": None, "limits": [], "caveats": [],
@@ -164,7 +162,6 @@ def report(verdict: Verdict) -> str:
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
     twists = [short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
-    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
     saved = verdict.fuel_saving
     fuel = (
         "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
@@ -182,7 +179,7 @@ def report(verdict: Verdict) -> str:
         f"  net                         {_kw(verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
-        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
+        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °",
         f"twist used        {math.degrees(verdict.attained):8.2f} °",
         f"moment            {installed.moment:8.0f} N·m on GJ {installed.section_stiffness:.0f} N·m²",
         f"torsion           {installed.frequency:8.2f} /rev",

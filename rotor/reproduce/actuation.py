@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from rotor.actuator import tables as actuator_tables
-from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
+from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator, electric_field, free_strain, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
@@ -112,7 +112,6 @@ def figure_5_10() -> Report:
         panels=[Chart("", Axis("r/R"), Axis("twist [°]"), tuple(curves))],
         numbers=numbers,
         each="; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items()),
-        derating=derating(sheet("MFC_P1")),
     )
 
 

@@ -18,7 +18,6 @@ INSTEAD = {
     "flies along": "fly A at the current condition",
     "met from behind": "reverse flow",
     "valley": "local minimum",
-    "as tests suggest": "derated by test",
     "plies a side": "plies per side",
     "Nothing searched": "not run yet",
     "Work out": "compute",
