@@ -82,9 +82,13 @@ def _has_curve(design: Design) -> bool:
 
 
 def index_chart(
-    curves: IndexCurves, solution: Solution, reference: Solution, index: float | None, held: Range | None = None,
+    curves: IndexCurves,
+    solution: Solution,
+    reference: Solution,
+    index: float | None,
+    held: Range | None = None,
     compared: Role = "reference",
-) -> Chart | None:  # fmt: skip
+) -> Chart | None:
     """Vibration index over µ of a design and its reference; None where no speed has one.
 
     index: at the present condition [%], None where there is none.

@@ -81,7 +81,7 @@ def mass_breakdown(
 
 def addition(
     masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, sheets: bool = True
-) -> Addition:  # fmt: skip
+) -> Addition:
     """Mass per length, its moments about the balance axis, and stiffness added over the active span.
 
     sheets: over the chord of the placement; a tube lies on the axis.

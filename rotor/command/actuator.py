@@ -148,13 +148,29 @@ def record(verdict: Verdict) -> dict[str, Any]:
 def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     """The keys of `record` where nothing trims; unknown values are null."""
     return {
-        "status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies,
-        "concept": args.concept, "required_twist_deg": None, "attainable_twist_deg": None,
-        "feasible": None, "voltages_v": [], "added_mass_kg": None,
-        "torsion_frequency_per_rev": None, "against": args.against, "ideal_saving_w": None, "gross_saving_w": None,
-        "stiffness_cost_w": None, "mass_cost_w": None, "drive_cost_w": None, "net_saving_w": None,
-        "net_saving_band_w": None, "fuel_saving_kg_h": None, "limits": [], "caveats": [],
-    }  # fmt: skip
+        "status": "not-converged",
+        "message": message,
+        "actuator": args.actuator,
+        "plies": args.plies,
+        "concept": args.concept,
+        "required_twist_deg": None,
+        "attainable_twist_deg": None,
+        "feasible": None,
+        "voltages_v": [],
+        "added_mass_kg": None,
+        "torsion_frequency_per_rev": None,
+        "against": args.against,
+        "ideal_saving_w": None,
+        "gross_saving_w": None,
+        "stiffness_cost_w": None,
+        "mass_cost_w": None,
+        "drive_cost_w": None,
+        "net_saving_w": None,
+        "net_saving_band_w": None,
+        "fuel_saving_kg_h": None,
+        "limits": [],
+        "caveats": [],
+    }
 
 
 def report(verdict: Verdict) -> str:

@@ -55,21 +55,17 @@ def figure_5_5() -> Report:
         curves.append(curve(label, KV_MM * field, PPM * along))
         rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
         numbers[shown.id] = float(np.ptp(along))
+    ends = (f"{way}_{end}_ppm" for way in ("along", "across") for end in ("low", "high"))
     return report(
         "5.5",
         tables=[
-            table(
-                "strain",
-                ("actuator", "lowest_v", "highest_v", "along_low_ppm", "along_high_ppm", "across_low_ppm",
-                 "across_high_ppm"),
-                rows,
-            )
+            table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows),
         ],
         panels=[Chart("", Axis("field [kV/mm]"), Axis("free strain along [µε]"), tuple(curves))],
         numbers=numbers,
         each=", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()),
         ratio=numbers["MFC_P1"] / numbers["MFC_P2"],
-    )  # fmt: skip
+    )
 
 
 def figure_5_7() -> Report:
@@ -81,8 +77,11 @@ def figure_5_7() -> Report:
     return report(
         "5.7",
         tables=[
-            table("field", ("actuator", "lowest_v", "highest_v", "low_kv_mm", "high_kv_mm"),
-                  [(id, *ends[id], *fields[id]) for id in ends])
+            table(
+                "field",
+                ("actuator", "lowest_v", "highest_v", "low_kv_mm", "high_kv_mm"),
+                [(id, *ends[id], *fields[id]) for id in ends],
+            )
         ],
         panels=[Chart("", Axis("voltage [V]"), Axis("field [kV/mm]"), lines)],
         numbers={id: float(np.ptp(row)) for id, row in fields.items()},
@@ -90,7 +89,7 @@ def figure_5_7() -> Report:
             f"{id.replace('_', ' ')}: {row[0]:.2f} to {row[1]:.2f} kV/mm for {ends[id][0]:.0f} to {ends[id][1]:.0f} V"
             for id, row in fields.items()
         ),
-    )  # fmt: skip
+    )
 
 
 def figure_5_10() -> Report:

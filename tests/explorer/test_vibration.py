@@ -86,9 +86,7 @@ class TestDrawnBlade:
         c, radius = bent.controls, bent.design.rotor.radius
         flap = c.coning + c.flap_1c * math.cos(psi) + c.flap_1s * math.sin(psi)
         shape = blade_shape(bent.design.rotor)
-        expected = [
-            np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))
-        ]  # fmt: skip
+        expected = [np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))]
         moved = flown_vertices(bent, VIEW, psi) - flown_vertices(bent, VIEW, psi, bent=False)
         rings = moved[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
         assert np.ptp(rings, axis=1).max() < 1e-12  # Each section as a whole.
@@ -185,7 +183,7 @@ class Page:
         context: Any = SimpleNamespace(
             bridge=SimpleNamespace(set=self.shown.update),
             controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
-        )  # fmt: skip
+        )
         self.panel = VibrationPanel(context, scene, strip)
 
     def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:

@@ -33,11 +33,22 @@ SPEED = 27.0
 def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BendingStructure:
     two = (0.0, length)
     return BendingStructure(
-        radius=length, chord=0.5, clamp=0.0, stations=two, torsional_stiffness=(gj, gj), mass_per_length=(10.0, 10.0),
-        torsional_inertia=(inertia, inertia), flap_stiffness=(9e4, 9e4), lag_stiffness=(2e6, 2e6),
-        axial_stiffness=1.3e8, tension_gyration=gyration, section_stiffness=gj, reference_mass=60.0,
-        control_stiffness=1e5, pitch_horn=0.2,
-    )  # fmt: skip
+        radius=length,
+        chord=0.5,
+        clamp=0.0,
+        stations=two,
+        torsional_stiffness=(gj, gj),
+        mass_per_length=(10.0, 10.0),
+        torsional_inertia=(inertia, inertia),
+        flap_stiffness=(9e4, 9e4),
+        lag_stiffness=(2e6, 2e6),
+        axial_stiffness=1.3e8,
+        tension_gyration=gyration,
+        section_stiffness=gj,
+        reference_mass=60.0,
+        control_stiffness=1e5,
+        pitch_horn=0.2,
+    )
 
 
 def mfc(plies: int = 2, host: Host | None = None, placement: Placement | None = None) -> InstalledActuator:

@@ -27,11 +27,29 @@ from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 KEYS = [
-    "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg",
-    "feasible", "voltages_v", "added_mass_kg", "torsion_frequency_per_rev",
-    "against", "ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w",
-    "net_saving_band_w", "fuel_saving_kg_h", "limits", "caveats",
-]  # fmt: skip
+    "status",
+    "message",
+    "actuator",
+    "plies",
+    "concept",
+    "required_twist_deg",
+    "attainable_twist_deg",
+    "feasible",
+    "voltages_v",
+    "added_mass_kg",
+    "torsion_frequency_per_rev",
+    "against",
+    "ideal_saving_w",
+    "gross_saving_w",
+    "stiffness_cost_w",
+    "mass_cost_w",
+    "drive_cost_w",
+    "net_saving_w",
+    "net_saving_band_w",
+    "fuel_saving_kg_h",
+    "limits",
+    "caveats",
+]
 
 CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
