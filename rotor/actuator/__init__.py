@@ -17,7 +17,7 @@ from rotor.actuator.catalogue import (
     find_actuator,
     programmes,
 )
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
@@ -38,7 +38,6 @@ __all__ = (
     "ExtensionTwist",
     "Failure",
     "FlightLeg",
-    "FlightMoment",
     "Host",
     "InstalledActuator",
     "PiezoPly",
