@@ -106,7 +106,7 @@ class Page:
             self.waterfall = WaterfallPanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-            self.vibration = VibrationPanel(context, self.scene, self.results.strip)
+        self.vibration = VibrationPanel(context, self.scene, self.results.strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:

@@ -53,13 +53,15 @@ def overview(report: DesignReport, curves: PowerCurves) -> Markup:
     against = f"vs. {report.reference.title} [%]"
     charts = [
         Chart(
-            "Power over advance ratio", Axis(f"{speed}; hover as a point", range=speeds),
-            Axis(f"total power [{unit}]", range=y_range), tuple(power),
+            "Power over advance ratio",
+            Axis(f"{speed}; hover as a point", range=speeds),
+            Axis(f"total power [{unit}]", range=y_range),
+            tuple(power),
         ),
         *([Chart("Change of power", Axis(speed, range=speeds), Axis(against), (zero, *changes))] if changes else []),
         Chart("Jig twist along the blade", Axis("r/R", range=along_r), Axis("twist [°], zero at 0.75 R"), tuple(twist)),
         Chart("Load along the blade", Axis("r/R", range=along_r), Axis("dT/dr, mean over azimuth [kN/m]"), tuple(load)),
-    ]  # fmt: skip
+    ]
     return tag("section", tag("h2", "Over speed and along the blade"), _charts(charts))
 
 

@@ -1,6 +1,6 @@
 """What worker processes do for a part of a page: work that a button begins, and answers that the page asks for.
 
-A search, a map, a schedule and what would pay are begun by a button. Verdicts, flights, the dial and
+A search, a map and a schedule are begun by a button. Verdicts, flights, the dial, what would pay and
 the numbers of the lecture are asked for as the design changes.
 """
 

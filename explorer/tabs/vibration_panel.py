@@ -1,7 +1,7 @@
-"""Vibration of blades that bend: the row of the power card, lines over the hub, index over speed, and the fan plot.
+"""Vibration of blades that bend: the row of the power card, lines over the hub, and index over speed.
 
 The index of a solution is a few milliseconds of work and follows every step of a drag, after its frame. Its band over
-wakes, curves over speed and frequencies are computed while the page rests.
+wakes and curves over speed are computed while the page rests.
 """
 
 import math
@@ -9,16 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from explorer.charts.vibration import (
-    FAN_SPEEDS,
-    FanKey,
-    FanPlots,
-    IndexCurves,
-    fan_chart,
-    index_chart,
-    index_unit,
-    stopping,
-)
+from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.colours import scene_theme
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
@@ -27,41 +18,31 @@ from explorer.picture.wake import hub_words, scale_words
 from explorer.scene.controller import SceneController
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import ChartStrip, chart_box
-from explorer.text.readout import faded
+from explorer.tabs.live_charts import ChartStrip
 from rotor import Solution, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.markup import Markup, tag
 from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
 from rotor.trim.hub_loads import BAND
 
 _NOTICEABLE = 0.5
 """Changes of the index below this [% of itself] have no colour."""
-_FAN_HEIGHT = 200.0
 
 
 class VibrationPanel:
     def __init__(self, context: TabContext, scene: SceneController, strip: ChartStrip) -> None:
-        """The fan plot goes where the context stands."""
         self._context, self._scene, self._strip = context, scene, strip
         self._state: SessionState | None = None
-        self._curves, self._fans = IndexCurves(), FanPlots()
+        self._curves = IndexCurves()
         self._loads: dict[Solution, HubLoads | None] = {}
         """Hub loads of the present solution and of its reference."""
         self._rigid: tuple[Solution, Solution] | None = None
         """A solution, and that of the same design without bending."""
-        self._heading = context.gui.add_html("", visible=False)
-        self._fan = context.gui.add_html("", visible=False)
-        self._content = Markup()
 
     def show(self, state: SessionState) -> None:
         self._state = state
-        on = state.solution.design.models.bending
         self._say_at_switch(state)
-        if self._fan.visible != on:
-            self._fan.visible = self._heading.visible = on
-        if not on:
+        if not state.solution.design.models.bending:
             self._clear()
             return
         known = self._loads
@@ -70,7 +51,6 @@ class VibrationPanel:
             if solution not in self._loads and solution.converged and solution.design.models.bending:
                 self._loads[solution] = hub_loads(solution, solve, band=False)
         self._draw()
-        self._show_fan()
 
     def turn(self, state: SessionState) -> None:
         self._state = state
@@ -86,7 +66,6 @@ class VibrationPanel:
             lambda: self._solve_loads(reference, False, superseded),
             lambda: self._solve_loads(solution, True, superseded),
             lambda: self._solve_cost(state),
-            lambda: self._solve_fan(superseded),
             lambda: self._curves.sweep(solution.design, superseded, self._draw_chart),
             lambda: self._curves.sweep(reference.design, superseded, self._draw_chart),
         )
@@ -99,8 +78,6 @@ class VibrationPanel:
         """The inputs have no answer: what stands here is of the last one."""
         self._scene.hub_loads.hide()
         self._context.bridge.set(hub_labels=[])
-        if self._content:
-            self._fan.content = faded(self._content)
 
     @property
     def index(self) -> float | None:
@@ -214,33 +191,6 @@ class VibrationPanel:
         kind = "" if abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad"
         against = "A" if state.pinned is not None else "as built"
         return f"{number(percent, 0, sign=True)} % vs. {against} ({number(reference.index, 1)})", kind
-
-    def _solve_fan(self, superseded: Callable[[], bool]) -> None:
-        state = self._state
-        if state is not None and self._context.layout.drawer == "probe" and can_bend(state.solution.design.rotor):
-            self._fans.solve(FanKey.of(state.solution), superseded)
-            self._show_fan()
-
-    def _show_fan(self) -> None:
-        state = self._state
-        if state is None or self._context.layout.drawer != "probe":
-            return
-        self._heading.content = tag("div.rxp-head", "FAN PLOT", data_ruled=True)
-        design, key = state.solution.design, FanKey.of(state.solution)
-        known = self._fans.known(key)
-        if not can_bend(design.rotor):
-            reason = why_no_hub_loads(design)
-            content = _no_fan("" if reason is None else reason.sentence.replace("hub loads", "fan plot"))
-        elif len(known) < len(FAN_SPEEDS):
-            content = faded(self._content) if self._content else _no_fan("Computing …")
-        else:
-            chart = chart_box(fan_chart(known, key.collective_deg), _FAN_HEIGHT)
-            content = self._content = tag("div.rx", chart, data_explorer="fan-plot")
-        self._fan.content = content
-
-
-def _no_fan(words: str) -> Markup:
-    return tag("div.rx.rx-dim.rx-small", words)
 
 
 def _title(loads: HubLoads) -> str:

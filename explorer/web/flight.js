@@ -124,12 +124,12 @@
     earns.hidden = !now;
     RX.again('power');
     if (!now) { earns.innerHTML = ''; return; }
-    const {pays, suppose} = RX.state;
+    const {suppose} = RX.state;
     earns.toggleAttribute('data-faded', now.kind !== 'ready' && !suppose);
     earns.toggleAttribute('data-suppose', Boolean(suppose));
-    if (suppose) return breakEven(suppose, pays);
+    if (suppose) return breakEven(suppose);
     earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span><button class="rxf-push" data-do="suppose" data-value="on" title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
-      ${pays ? `<div class="rxf-earns-pays" data-explorer="pays" title="${text(pays)}">${text(pays)}</div>` : ''}<svg role="img"></svg>
+      <svg role="img"></svg>
       <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(now.mass_note)}">${text(now.mass)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
     if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
@@ -149,7 +149,7 @@
     svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
     svg.innerHTML = inside;
   });
-  for (const name of ['pays', 'suppose']) RX.paint(name, () => RX.again('earns'));
+  RX.paint('suppose', () => RX.again('earns'));
 
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
   let held = null, told_at = 0, queued = 0;
@@ -171,10 +171,10 @@
       word.setAttribute('y', free[1].toFixed(1));
     }
   }
-  function breakEven(now, pays) {
+  function breakEven(now) {
     const focused = earns.contains(document.activeElement) && document.activeElement.dataset.supposed !== undefined;
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b><span class="rxf-dim">range of twist, mass of all blades</span><button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
-      <div class="rxf-num rxf-supposed" data-kind="${now.kind}" data-explorer="supposed">${text(now.words)}</div><svg></svg>${now.note || pays ? `<div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(pays)}">${text([now.note, pays].filter(Boolean).join(' '))}</div>` : ''}`;
+      <div class="rxf-num rxf-supposed" data-kind="${now.kind}" data-explorer="supposed">${text(now.words)}</div><svg></svg>${now.note ? `<div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(now.note)}">${text(now.note)}</div>` : ''}`;
     const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight;
     if (!now.chart || width < 100 || height < 40) return;
     const place = Charts.frame(now.chart, width, height, {bottom: 32}), [x, y] = held?.at ?? now.at, {left, right, top, base} = place;

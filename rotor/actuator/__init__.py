@@ -17,12 +17,12 @@ from rotor.actuator.catalogue import (
     find_actuator,
     programmes,
 )
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, FlightMoment, fly, standard_flight
-from rotor.actuator.harmonic import DynamicTwist, EffectInFlight, dynamic_twist, effect, phase_sweep, steady_room
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, PaySearch, Supposed, break_even, pay_sentence, suppose, what_would_pay
+from rotor.actuator.pay import BreakEven, Supposed, break_even, pay_sentence, suppose
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.stopped import Failure, failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -33,16 +33,13 @@ __all__ = (
     "ActuatorStability",
     "BreakEven",
     "ConditionPair",
-    "DynamicTwist",
     "EffectInFlight",
     "Engines",
     "ExtensionTwist",
     "Failure",
     "FlightLeg",
-    "FlightMoment",
     "Host",
     "InstalledActuator",
-    "PaySearch",
     "PiezoPly",
     "Placement",
     "Programme",
@@ -53,7 +50,6 @@ __all__ = (
     "actuators",
     "break_even",
     "default_placement",
-    "dynamic_twist",
     "effect",
     "engines_of",
     "failure",
@@ -62,14 +58,13 @@ __all__ = (
     "install",
     "judge",
     "pay_sentence",
-    "phase_sweep",
     "programmes",
     "standard_flight",
     "steady_room",
     "suppose",
+    "tip_amplitude",
     "try_actuator",
     "verdict_details",
     "verdict_sentence",
-    "what_would_pay",
     "with_actuator_mass",
 )

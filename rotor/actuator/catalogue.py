@@ -66,8 +66,6 @@ class PiezoPly:
     """[V]"""
     swing: tuple[float, float]
     """Free strain along and across over the whole voltage range, peak to peak [-]."""
-    low_swing: float
-    """Low end of the maker's strain, as a fraction of `swing`."""
     capacitance_per_area: float
     """[F/m²]"""
     linear_strain: float
@@ -166,12 +164,6 @@ def find_actuator(id: str) -> Actuator:
     return known[id]
 
 
-def derating(actuator: Actuator) -> float:
-    """Usable fraction of the nominal twist: low-end strain times that measured over predicted of one tested blade."""
-    tested = float(_data("actuators")["derating"]["model_to_test"])
-    return actuator.low_swing * tested if isinstance(actuator, PiezoPly) else 1.0
-
-
 def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
     """Caveats of holding a twist for minutes."""
     if not isinstance(actuator, PiezoPly):
@@ -206,7 +198,6 @@ def _ply(row: dict[str, Any]) -> PiezoPly:
         electrode_gap=1e-3 * row["electrode_gap_mm"],
         voltage_range=(row["voltage_min_v"], row["voltage_max_v"]),
         swing=(1e-6 * row["swing_along_ppm"], 1e-6 * row["swing_across_ppm"]),
-        low_swing=row["low_swing"],
         capacitance_per_area=1e-5 * row["capacitance_nf_cm2"],
         linear_strain=1e-6 * row["linear_strain_ppm"],
         largest_strain=1e-6 * row["largest_strain_ppm"],

@@ -8,7 +8,7 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, engines_of
 from rotor.actuator.installation import with_actuator_mass
-from rotor.actuator.optimum import best_swings, best_twist
+from rotor.actuator.optimum import best_swings
 from rotor.actuator.verdict import NOTHING, Verdict
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -45,23 +45,6 @@ UNLIMITED = math.radians(20.0)
 """Either way, by segment [rad]: more than any optimum asks for."""
 
 
-@dataclass(frozen=True)
-class FlightMoment:
-    """A flight between two of its legs, by straight lines. Climb [m/s], twists [rad], powers [W]."""
-
-    advance_ratio: float
-    climb_speed: float
-    wanted: float
-    reached: float
-    reference_power: float
-    power_with: float
-
-    @property
-    def net_saving(self) -> float:
-        """[W]"""
-        return self.reference_power - self.power_with
-
-
 @dataclass(frozen=True, eq=False)
 class ActuatorFlight:
     """An actuator over the legs of a flight. It pickles, and holds no solution.
@@ -87,8 +70,6 @@ class ActuatorFlight:
     """Best fixed blade of the verdict, without the actuator."""
     power_built: Array
     """Twist as built, without the actuator."""
-    power_ideal: Array
-    """Unlimited twist, of the concept or by the actuator, on the blade that carries it, without its mass."""
     power_with: Array
     """Driven, with the actuator's stiffness, mass and drive."""
     reference_power: Array
@@ -99,30 +80,9 @@ class ActuatorFlight:
     """The driven blade on each leg, without the actuator's mass."""
 
     @property
-    def shortfall(self) -> Array:
-        """Wanted twist beyond the range, signed [rad]; zero within it."""
-        return self.wanted - np.clip(self.wanted, *self.reach)
-
-    @property
     def net_saving(self) -> Array:
         """Saving with stiffness, mass and drive counted [W]."""
         return self.reference_power - self.power_with
-
-    def at(self, x: float) -> FlightMoment:
-        """The flight at x legs from the first, 0 … legs − 1; between legs by straight lines."""
-        place = np.arange(len(self.legs), dtype=float)
-
-        def value(of: Array | list[float]) -> float:
-            return float(np.interp(x, place, of))
-
-        return FlightMoment(
-            value([leg.advance_ratio for leg in self.legs]),
-            value([leg.climb_speed for leg in self.legs]),
-            value(self.wanted),
-            value(self.reached),
-            value(self.reference_power),
-            value(self.power_with),
-        )
 
 
 def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFlight:
@@ -141,11 +101,10 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     window = np.sort(undriven[:, None] + np.outer(per_unit, drives), axis=1)
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
-    shapes = verdict.derating * installed.shapes_in(pair.design)[:, -1]
+    shapes = installed.shapes_in(pair.design)[:, -1]
     unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), NOTHING), (-1.0, 1.0))
-    parameters = list(base.fixed.values)
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
-    powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "ideal", "with")}
+    powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "with")}
     wanted: list[tuple[float, ...]] = []
     swings: list[tuple[float, ...]] = []
     designs: list[Design] = []
@@ -155,18 +114,15 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
             for name, law in (("fixed", base.fixed_twist), ("built", design.twist)):
                 flown[name] = trim = solve(replace(design, twist=law), flown[name]).require()
                 powers[name].append(trim.power.total)
-            best = best_twist(installed.on(design), base.concept, [parameters], alone=True)
             blade = replace(design, twist=jig)
-            reached = free = best_swings(blade, installed, unlimited, verdict.derating)
+            reached = free = best_swings(blade, installed, unlimited)
             if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-                reached = best_swings(blade, installed, window, verdict.derating)
+                reached = best_swings(blade, installed, window)
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:
             raise RuntimeError(f"{leg.name}: {error}") from None
-        parameters = list(best.values)
         wanted.append(free.swings[0])
-        powers["ideal"].append(min(best.power, free.power, reached.power))
         powers["with"].append(heavy.power.total + verdict.drive.hold_power)
         swings.append(reached.swings[0])
         designs.append(driven)
@@ -189,7 +145,6 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         voltages=tuple(tuple(voltages) if verdict.voltages else () for voltages in volts.tolist()),
         power_fixed=power_of["fixed"],
         power_built=power_of["built"],
-        power_ideal=power_of["ideal"],
         power_with=power_of["with"],
         reference_power=counted,
         fuel_saving=saved,

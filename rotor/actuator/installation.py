@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, derating
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube
 from rotor.actuator.section import Host, Placement, active_section, section_spec, skin
 from rotor.arrays import Array, read_only
 from rotor.design.blade import BladeStructure, Rotor
@@ -81,7 +81,7 @@ def mass_breakdown(
 
 def addition(
     masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, sheets: bool = True
-) -> Addition:  # fmt: skip
+) -> Addition:
     """Mass per length, its moments about the balance axis, and stiffness added over the active span.
 
     sheets: over the chord of the placement; a tube lies on the axis.
@@ -140,10 +140,6 @@ class InstalledActuator:
     def segment_twists(self) -> Array:
         """Root to tip by segment [rad]."""
         return np.abs(self.shapes[:, -1])
-
-    @property
-    def derating(self) -> float:
-        return derating(self.actuator)
 
     def shapes_in(self, design: Design) -> Array:
         """Twist of each segment that the design's twist law gains [rad], (segments, nodes)."""
@@ -269,16 +265,13 @@ def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: fl
     return replace(design, rotor=replace(rotor, blade=loaded), condition=condition)
 
 
-def change_limit(
-    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
-) -> ChangeLimit:
+def change_limit(installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304) -> ChangeLimit:
     """The actuator's range as a limit on the change of twist in a search.
 
     Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
     `best_actuated` uses the true shape along the active span.
     """
-    share = installed.derating if derated else 1.0
-    ends = share * np.cumsum(installed.segment_twists)
+    ends = np.cumsum(installed.segment_twists)
     stations = (root, *installed.placement.divisions, 1.0)
     return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
 

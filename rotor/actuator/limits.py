@@ -195,28 +195,24 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     swings_by = (
         f"swings by {field:.2f} kV/mm" if field < UNREACHABLE * allowed else "would have to swing by hundreds of kV/mm"
     )
+    by_voltage = f"The required twist {needs}; the range is {span}."
+    by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
     return [
-        Limit(
-            "voltage", ok, most, ply.voltage_swing, "V",
-            f"The required twist {needs}; the range is {span}.",
-        ),
-        Limit(
-            "field", ok, field, allowed, "kV/mm",
-            f"The field {swings_by}; a reverse field beyond the range depolarises the sheet.",
-        ),
-    ]  # fmt: skip
+        Limit("voltage", ok, most, ply.voltage_swing, "V", by_voltage),
+        Limit("field", ok, field, allowed, "kV/mm", by_field),
+    ]
 
 
 def _strain(installed: InstalledActuator, ply: PiezoPly, solution: Solution | None) -> Limit:
     strain = fibre_strain(installed, solution)
-    worst = float(strain.total.max())
+    worst, linear, most = (1e6 * value for value in (float(strain.total.max()), ply.linear_strain, ply.largest_strain))
     where = float(strain.r[strain.total.argmax()])
     flap = "with flap bending of the trimmed rotor" if solution else "without flap bending"
-    return Limit(
-        "fibre-strain", worst <= ply.linear_strain, 1e6 * worst, 1e6 * ply.linear_strain, "µε",
-        f"Fibre strain is up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet is linear "
-        f"up to {1e6 * ply.linear_strain:.0f} µε and must stay below {1e6 * ply.largest_strain:.0f} µε.",
-    )  # fmt: skip
+    sentence = (
+        f"Fibre strain is up to {worst:.0f} µε at {where:.2f} R ({flap}); the sheet is linear "
+        f"up to {linear:.0f} µε and must stay below {most:.0f} µε."
+    )
+    return Limit("fibre-strain", worst <= linear, worst, linear, "µε", sentence)
 
 
 def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
@@ -224,10 +220,10 @@ def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
     bound = float(structure_data()["limits"]["surface_share"])
     outside = installed.host.kind == "retrofit"
     where = "outside the skins, which changes the contour" if outside else "inside the torsion skin"
-    return Limit(
-        "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
-        f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness.",
-    )  # fmt: skip
+    sentence = (
+        f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness."
+    )
+    return Limit("space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness", sentence)
 
 
 def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
@@ -239,25 +235,26 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
         if retrofit
         else "a spar designed for it can hold it"
     )
+    tubes, moment = installed.placement.plies, installed.moment
+    by_torque = (
+        f"The required twist needs {worst * moment:.0f} N·m; {tubes} tube(s) per segment give {moment:.0f} of "
+        f"{tubes * tube.torque:.0f} N·m when blocked."
+    )
+    fits = not retrofit and tube.diameter <= height
+    by_space = f"A tube of {1e3 * tube.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}."
     return [
-        Limit(
-            "torque", worst <= 1.0 + 1e-9, worst * installed.moment, installed.moment, "N·m",
-            f"The required twist needs {worst * installed.moment:.0f} N·m; {installed.placement.plies} tube(s) per "
-            f"segment give {installed.moment:.0f} of {installed.placement.plies * tube.torque:.0f} N·m when blocked.",
-        ),
-        Limit(
-            "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
-            f"A tube of {1e3 * tube.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}.",
-        ),
-    ]  # fmt: skip
+        Limit("torque", worst <= 1.0 + 1e-9, worst * moment, moment, "N·m", by_torque),
+        Limit("space", fits, 1e3 * tube.diameter, 1e3 * height, "mm", by_space),
+    ]
 
 
 def _rotor_speed(laminate: ExtensionTwist) -> Limit:
-    return Limit(
-        "rotor-speed", False, 0.0, 100.0 * laminate.speed_change, "% of Ω",
-        f"Only rotor speed changes the twist: {100.0 * laminate.speed_change:.0f} % slower for the full change, and "
-        "this rotor runs at constant speed.",
-    )  # fmt: skip
+    percent = 100.0 * laminate.speed_change
+    sentence = (
+        f"Only rotor speed changes the twist: {percent:.0f} % slower for the full change, and this rotor runs at "
+        "constant speed."
+    )
+    return Limit("rotor-speed", False, 0.0, percent, "% of Ω", sentence)
 
 
 def _temperature(installed: InstalledActuator) -> Limit:
@@ -271,10 +268,8 @@ def _temperature(installed: InstalledActuator) -> Limit:
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
     heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
     remedy = "" if hottest <= top else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"
-    return Limit(
-        "temperature", hottest <= top, hottest, top, "°C",
-        f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}.",
-    )  # fmt: skip
+    sentence = f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}."
+    return Limit("temperature", hottest <= top, hottest, top, "°C", sentence)
 
 
 def _mass(installed: InstalledActuator) -> Limit:
@@ -282,11 +277,11 @@ def _mass(installed: InstalledActuator) -> Limit:
     reference = float(structure_data()["blade"]["reference_mass_kg"])
     masses = installed.masses
     share = masses.blade / reference
-    return Limit(
-        "mass", share <= bound, 100.0 * share, 100.0 * bound, "% of blade",
+    sentence = (
         f"Each blade gains {masses.blade:.1f} kg ({masses.actuator:.1f} actuator, {masses.wiring:.1f} leads, "
-        f"{masses.balance:.1f} nose weight): {100.0 * share:.0f} % of {reference:.0f} kg.",
-    )  # fmt: skip
+        f"{masses.balance:.1f} nose weight): {100.0 * share:.0f} % of {reference:.0f} kg."
+    )
+    return Limit("mass", share <= bound, 100.0 * share, 100.0 * bound, "% of blade", sentence)
 
 
 def _torsion(installed: InstalledActuator) -> list[Limit]:
@@ -295,16 +290,12 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
     frequency = installed.frequency
     near = min((3.0, 4.0), key=lambda harmonic: abs(frequency - harmonic))
     gap = abs(frequency - near)
+    first = f"First torsion at {frequency:.2f}/rev"
+    by_gap, by_load = f"{first} is {gap:.2f} from {near:.0f}/rev.", f"{first}; below {least:g}/rev control loads grow."
     return [
-        Limit(
-            "torsion-resonance", gap >= margin, gap, margin, "per rev",
-            f"First torsion at {frequency:.2f}/rev is {gap:.2f} from {near:.0f}/rev.",
-        ),
-        Limit(
-            "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev control loads grow.",
-        ),
-    ]  # fmt: skip
+        Limit("torsion-resonance", gap >= margin, gap, margin, "per rev", by_gap),
+        Limit("torsion-least", frequency >= least, frequency, least, "per rev", by_load),
+    ]
 
 
 def _flutter(solution: Solution | None) -> list[Limit]:
@@ -312,13 +303,8 @@ def _flutter(solution: Solution | None) -> list[Limit]:
     if solution is None or solution.elastic is None:
         return []
     margin = margins(solution)
-    bound = float(structure_data()["limits"]["flutter_stiffness"])
-    return [
-        Limit(
-            "flutter", margin.instability_stiffness <= bound, 100.0 * margin.instability_stiffness, 100.0 * bound,
-            "% of stiffness", margin.sentence,
-        ),
-    ]  # fmt: skip
+    needed, bound = margin.instability_stiffness, float(structure_data()["limits"]["flutter_stiffness"])
+    return [Limit("flutter", needed <= bound, 100.0 * needed, 100.0 * bound, "% of stiffness", margin.sentence)]
 
 
 @dataclass(frozen=True)
@@ -353,7 +339,7 @@ class ActuatorStability:
 
 def actuator_stability(
     installed: InstalledActuator, design: Design, *, air: Air = "quasi-steady", offset: float = 0.0
-) -> ActuatorStability:  # fmt: skip
+) -> ActuatorStability:
     """The blade of a design without the actuator and with it. Errors and arguments as of `rotor.stability`."""
     fits = [installed]
     if installed.masses.balance > 0.0:

@@ -4,10 +4,11 @@ With an actuator the optimum is sought among the twists it can make,
 
     θ_k(r) = θ_jig(p; r) + s Σ_j v_kj φ_j(r),   k = from, to,
 
-with φ_j the twist of segment j over its whole voltage range and s the derating: of the blade at rest where the trim is
-elastic, which finds what rotation and air make of it, else of the rotating blade. A new blade chooses its jig
-twist p within the concept, so only differences of v matter. A retrofit keeps its twist, so its voltages count from
-zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
+with φ_j the twist of segment j over its whole voltage range: of the blade at rest where the trim is elastic, which
+finds what rotation and air make of it, else of the rotating blade. s scales the range: 0 for a blade that carries the
+actuator without driving it. A new blade chooses its jig twist p within the concept, so only differences of v matter. A
+retrofit keeps its twist, so its voltages count from zero. SLSQP with exact gradients minimises the mean power of the
+two conditions, weighted by their shares of time.
 """
 
 from collections.abc import Iterable, Sequence
@@ -91,11 +92,9 @@ def best_twist(
     return _search((design,), (1.0,), concept, None, 1.0, starts, alone=alone)
 
 
-def best_fixed(
-    pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
-) -> TwistOptimum:
-    """The concept's fixed twist of least mean power; `alone`: from these starts and no others."""
-    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts, alone=alone)
+def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
+    """The concept's fixed twist of least mean power."""
+    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
 
 
 def best_actuated(
@@ -103,16 +102,16 @@ def best_actuated(
     concept: Concept,
     installed: InstalledActuator,
     *,
-    derating: float = 1.0,
+    scale: float = 1.0,
     starts: Sequence[Sequence[float]] = (),
 ) -> TwistOptimum:
-    """Least mean power with the actuator, within its range."""
-    return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
+    """Least mean power with the actuator, within its range times `scale`."""
+    return _search(pair.designs(), pair.shares, concept, installed, scale, starts)
 
 
-def best_swings(design: Design, installed: InstalledActuator, bounds: Array, derating: float) -> TwistOptimum:
+def best_swings(design: Design, installed: InstalledActuator, bounds: Array) -> TwistOptimum:
     """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2)."""
-    reached = _Task((design,), (1.0,), None, installed, derating, bounds).descend(())
+    reached = _Task((design,), (1.0,), None, installed, 1.0, bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
@@ -123,7 +122,7 @@ def _search(
     shares: tuple[float, ...],
     concept: Concept,
     installed: InstalledActuator | None,
-    derating: float,
+    scale: float,
     starts: Sequence[Sequence[float]],
     *,
     alone: bool = False,
@@ -133,12 +132,12 @@ def _search(
         if isinstance(installed.actuator, PiezoPly):
             low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
         either = [[ends] * 2 * len(installed.shapes) for ends in ((low, high), (-high, -low))]  # Direction of fibres.
-        tasks = [_Task(designs, shares, None, installed, derating, bounds) for bounds in either]
+        tasks = [_Task(designs, shares, None, installed, scale, bounds) for bounds in either]
         jigs: list[Sequence[float]] = [()]
     else:
         segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
         bounds = [(0.0, 0.0)] * segments + [(-1.0, 1.0)] * segments
-        tasks, jigs = [_Task(designs, shares, concept, installed, derating, bounds)], list(starts)
+        tasks, jigs = [_Task(designs, shares, concept, installed, scale, bounds)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, designs[0].twist)
             flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
@@ -160,7 +159,7 @@ class _Task:
         shares: tuple[float, ...],
         concept: Concept | None,
         installed: InstalledActuator | None,
-        derating: float,
+        scale: float,
         swings: Sequence[tuple[float, float]] | Array,
     ) -> None:
         """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
@@ -170,7 +169,7 @@ class _Task:
         self.segments = len(installed.shapes) if installed else 0
         self.shapes = np.zeros((0, len(STATIONS)))
         if installed:
-            self.shapes = derating * law_shapes(installed, designs[0])
+            self.shapes = scale * law_shapes(installed, designs[0])
         bounds = [(p.low, p.high) for p in concept.parameters] if concept else []
         self.low, high = np.array([*bounds, *swings]).T
         self.span = high - self.low

@@ -1,34 +1,28 @@
-"""What an actuator would have to be: the break-even line of twist, mass and drive, and a search that ranks builds.
+"""What an actuator would have to be: the break-even line of twist, mass and drive.
 
-The break-even line knows no blade structure, so it holds for any rotor: twist is linear along the blade, its range is
+The line knows no blade structure, so it holds for any rotor: twist is linear along the blade, its range is
 used at both conditions, the mass lies evenly on the blades over the span where plies would be. With the range x and
 the mass m of all blades together
 
     net(x, m, W) = gross(x) − cost(m) − W,   gross(x) = P_fixed − min over θ of [s₁ P₁(θ) + s₂ P₂(θ + x)]
 
-and the line is where net = 0. P_fixed is the best fixed blade, s the shares of time.
-
-The builds of the search are not read off that line: a ply over part of the span, or on a softer blade, saves more or
-less than its tip twist would along the whole blade. Each is trimmed (`rotor.actuator.estimate`).
+and the line is where net = 0. P_fixed is the best fixed blade, s the shares of time. A ply over part of the span, or on
+a softer blade, saves more or less than its tip twist would along the whole blade.
 """
 
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import product
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.catalogue import ExtensionTwist, actuators, engines_of
-from rotor.actuator.estimate import Estimate, estimate, host_blade
-from rotor.actuator.installation import InstalledActuator, heavier, install
+from rotor.actuator.catalogue import engines_of
+from rotor.actuator.installation import heavier
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline
-from rotor.actuator.section import Host, default_placement
-from rotor.actuator.verdict import Verdict, judge, layers_text
+from rotor.actuator.section import default_placement
 from rotor.arrays import Array, read_only
 from rotor.design.design import Design
-from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.doubt import mean_doubt
 from rotor.trim.solution import Solution
@@ -229,126 +223,12 @@ def suppose(pair: ConditionPair, rates: tuple[float, float], mass: float) -> Sup
     saving = base.fixed.power - task.power(rates, mass)
     flown = [trim for trim in task.trims if trim is not None]
     engines, doubt = engines_of(pair.design.aircraft), mean_doubt(pair.shares, flown, fixed)
-    burnt = None if engines is None else pair.mean(
-        engines.flow(before.power.total) - engines.flow(after.power.total)
-        for before, after in zip(fixed, flown, strict=True)
-    )  # fmt: skip
+    burnt = None
+    if engines is not None:
+        pairs = zip(fixed, flown, strict=True)
+        flows = (engines.flow(before.power.total) - engines.flow(after.power.total) for before, after in pairs)
+        burnt = pair.mean(flows)
     return Supposed(saving, burnt, None if doubt is None else doubt.change_band)
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """One build of an actuator, with what it saves and costs."""
-
-    installed: InstalledActuator
-    estimate: Estimate
-    """To second order, by trims of this build; nothing of it is read off the break-even line."""
-
-    @property
-    def earned(self) -> float:
-        """What its twist saves over what it costs: above one it pays.
-
-        Net savings alone would rank by mass, as the lightest build loses least. What a softer blade saves by itself is
-        not credited: that needs no actuator.
-        """
-        estimate = self.estimate
-        return estimate.gross / max(estimate.mass_cost + estimate.drive_cost + max(estimate.stiffness_cost, 0.0), 1e-9)
-
-    @property
-    def pays(self) -> bool:
-        return self.earned > 1.0
-
-    @property
-    def name(self) -> str:
-        """Actuator, count, span and blade, for a reader."""
-        actuator, (low, high) = self.installed.actuator, self.installed.placement.span
-        words = f"{actuator.id.replace('_', ' ')}, {layers_text(self.installed)}"
-        return f"{words}, {low:.2f}–{high:.2f} R, GJ × {self.installed.host.stiffness:g}"
-
-    @property
-    def mass(self) -> float:
-        """Mass added to the aircraft [kg]."""
-        return self.installed.masses.aircraft
-
-
-@dataclass(frozen=True, eq=False)
-class PaySearch:
-    """The break-even line of a rotor, and the builds that come nearest to paying."""
-
-    even: BreakEven
-    candidates: tuple[Candidate, ...]
-    """Candidates that earn most of their cost first; empty where the blade's structure is not known."""
-    verdicts: tuple[Verdict, ...]
-    """Verdicts on the first candidates, best net saving first."""
-    untrimmed: int = 0
-    """Builds that are none of the candidates because they do not trim."""
-
-
-PLIES = (1, 2, 4)
-SPANS = ((0.2433, 0.9292), (0.2433, 0.6), (0.6, 0.9292))
-"""r/R: the whole span of plies, its inner and its outer part."""
-HOSTS = (Host("new", 1.0), Host("new", 0.5), Host("new", 0.25))
-"""A retrofit starts from the twist as built and so from behind; it is judged on request only."""
-
-
-def what_would_pay(pair: ConditionPair, *, judged: int = 2, derated: bool = False) -> PaySearch:
-    """Search material, layers, span and stiffness for the build that earns most of what it costs.
-
-    Every build is trimmed and its best twist found to second order; the first of each of `judged` actuators is judged
-    with a search of its own. Without a known blade structure there is the line alone. Takes some ten seconds.
-    """
-    even = break_even(pair)
-    if pair.design.aircraft.key != KNOWN_BLADE or not even.worthwhile:
-        return PaySearch(even, (), ())
-    base = baseline(pair, find_concept("linear"))
-    candidates: list[Candidate] = []
-    untrimmed = 0
-    for host in HOSTS:
-        blade = host_blade(base, host)
-        for actuator, plies, span in product(actuators().values(), PLIES, SPANS):
-            if isinstance(actuator, ExtensionTwist):
-                continue  # It would need another rotor speed.
-            try:
-                installed = install(actuator, replace(default_placement(plies), span=span), host, pair.design.rotor)
-                estimated = estimate(installed, blade, derating=installed.derating if derated else 1.0)
-            except ValueError:
-                continue  # The plies alone are stiffer than the blade.
-            except RuntimeError:
-                untrimmed += 1
-                continue
-            candidates.append(Candidate(installed, estimated))
-    candidates.sort(key=lambda candidate: -candidate.earned)
-    firsts: dict[str, Candidate] = {}
-    for estimated in candidates:
-        firsts.setdefault(estimated.installed.actuator.id, estimated)
-    verdicts = [
-        judge(
-            first.installed.actuator,
-            pair,
-            base.concept,
-            first.installed.placement,
-            first.installed.host,
-            derated=derated,
-        )
-        for first in list(firsts.values())[:judged]
-    ]
-    return PaySearch(
-        even, tuple(candidates), tuple(sorted(verdicts, key=lambda verdict: -verdict.net_saving)), untrimmed
-    )
-
-
-def search_sentence(search: PaySearch) -> str:
-    """How near the best build comes, in one line; empty without a search."""
-    if not search.candidates:
-        return f"None of {search.untrimmed} builds trims." if search.untrimmed else ""
-    best = search.candidates[0]
-    twist = math.degrees(best.installed.attainable)
-    what = f"{best.name}: {twist:.1f}° for {best.mass:.0f} kg"
-    count, paying = len(search.candidates), sum(candidate.pays for candidate in search.candidates)
-    more = f" {search.untrimmed} more did not trim." if search.untrimmed else ""
-    if paying:
-        return f"{paying} of {count} builds pay; best: {what}, saves {best.earned:.1f} times its cost.{more}"
-    return f"None of {count} builds pays; nearest: {what}, saves {100.0 * best.earned:.0f} % of its cost.{more}"
 
 
 def pay_sentence(even: BreakEven) -> str:

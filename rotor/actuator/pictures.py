@@ -18,7 +18,7 @@ from rotor.actuator.section import (
 )
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, Points, Series
+from rotor.chart import Axis, Chart, Line
 from rotor.dynamics.structure import structure_data, uh60a_structure
 
 
@@ -123,7 +123,7 @@ def twist_comparison(verdict: Verdict, stations: int) -> tuple[Array, Array]:
     """
     r = np.linspace(verdict.baseline.pair.design.rotor.blade.root_cutout, 1.0, stations)
     first, second = (np.array(swings) for swings in verdict.optimum.swings)
-    twist = verdict.derating * verdict.installed.change(second - first, r)
+    twist = verdict.installed.change(second - first, r)
     return verdict.baseline.change(r), twist - twist[0]
 
 
@@ -132,20 +132,12 @@ def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
     return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
 
 
-def break_even_chart(even: BreakEven, actuator: tuple[str, float, float] | None = None) -> Chart:
-    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves.
-
-    actuator: name, linear twist that saves as much [rad] and mass of all blades [kg] of the one beside the line.
-    """
+def break_even_chart(even: BreakEven) -> Chart:
+    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves."""
     half, degrees = 0.5 * even.ideal_saving, tuple(np.degrees(even.twists).tolist())
     driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
-    lines: list[Series] = [
+    lines = (
         Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
         Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
-    ]
-    if actuator is not None:
-        name, twist, mass = actuator
-        lines.append(Points(name, (math.degrees(twist),), (mass,), 2))
-    return Chart(
-        "Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), tuple(lines)
     )
+    return Chart("Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), lines)

@@ -7,9 +7,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.actuator.catalogue import STEPS, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.catalogue import STEPS, Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven, Candidate
+from rotor.actuator.pay import ENOUGH, BreakEven
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge, reference
 from rotor.optimisation.concepts import find_concept
@@ -49,36 +49,17 @@ class ActuatorTable:
         return "\n".join([*lines, *(("", *map(wrapped, self.notes)) if self.notes else ())])
 
 
+Row = dict[str, str]
+"""A cell by the name of its column; all rows of a table have the same names."""
+
+
+def table_of(title: str, rows: Sequence[Row], notes: tuple[str, ...], keys: int = 1) -> ActuatorTable:
+    """A table whose columns are those of its rows."""
+    return ActuatorTable(title, tuple(rows[0]), tuple(tuple(row.values()) for row in rows), notes, keys)
+
+
 def table_5_1() -> ActuatorTable:
     """Actuator properties."""
-    columns = (
-        "actuator", "mode", "E1 GPa", "E2 GPa", "G12 GPa", "d pm/V", "ΔES mm", "α 1e-6/V", "voltage V",
-        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "readiness", "grade",
-    )  # fmt: skip
-    rows: list[tuple[str, ...]] = []
-    for actuator in actuators().values():
-        graded = (actuator.provenance.recalled, "recalled"), (actuator.provenance.assumed, "assumed")
-        grade = ", ".join(f"{len(keys)} {word}" for keys, word in graded if keys) or "sourced"
-        ready = f"{actuator.provenance.readiness} of {len(STEPS)}"
-        if isinstance(actuator, PiezoPly):
-            low, high = actuator.voltage_range
-            gap = actuator.electrode_gap
-            rows.append((
-                actuator.id, "d33" if actuator.electrodes == "interdigitated" else "d31",
-                f"{actuator.material.e1 / 1e9:.1f}", f"{actuator.material.e2 / 1e9:.1f}",
-                f"{actuator.material.g12 / 1e9:.2f}", f"{actuator.d_along * 1e12:.0f}", f"{gap * 1e3:.3g}",
-                f"{actuator.d_along / gap * 1e6:.2f}", f"{low:g}…{high:g}",
-                f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}", f"{actuator.swing[0] * 1e6:.0f}",
-                f"{actuator.thickness * 1e3:.3g}", f"{actuator.material.density:.0f}",
-                "{:.0f}…{:.0f}".format(*actuator.temperature_range), ready, grade,
-            ))  # fmt: skip
-        else:
-            if isinstance(actuator, TorqueTube):
-                mode = f"heat, {actuator.torque:.0f} N·m"
-                heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range)
-            else:
-                mode, heat = f"rotor speed, {math.degrees(actuator.twist):.2f}°", NONE
-            rows.append((actuator.id, mode, *[NONE] * 11, heat, ready, grade))
     steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
     tests = "; ".join(f"{actuator.id} {actuator.provenance.tested}" for actuator in actuators().values())
     notes = (
@@ -87,7 +68,50 @@ def table_5_1() -> ActuatorTable:
         f"Aerospace 13(3) 297, 2026), placed by us: {tests}.",
         "Numbers and sources: assets/actuators.toml.",
     )
-    return ActuatorTable("Table 5.1  Actuator properties", columns, tuple(rows), notes)
+    return table_of(
+        "Table 5.1  Actuator properties", [_properties(actuator) for actuator in actuators().values()], notes
+    )
+
+
+def _properties(actuator: Actuator) -> Row:
+    provenance = actuator.provenance
+    graded = (provenance.recalled, "recalled"), (provenance.assumed, "assumed")
+    if isinstance(actuator, PiezoPly):
+        mode = "d33" if actuator.electrodes == "interdigitated" else "d31"
+    elif isinstance(actuator, TorqueTube):
+        mode = f"heat, {actuator.torque:.0f} N·m"
+    else:
+        mode = f"rotor speed, {math.degrees(actuator.twist):.2f}°"
+    passive = isinstance(actuator, ExtensionTwist)
+    return {
+        "actuator": actuator.id,
+        "mode": mode,
+        **_ply_properties(actuator),
+        "T °C": NONE if passive else "{:.0f}…{:.0f}".format(*actuator.temperature_range),
+        "readiness": f"{provenance.readiness} of {len(STEPS)}",
+        "grade": ", ".join(f"{len(keys)} {word}" for keys, word in graded if keys) or "sourced",
+    }
+
+
+def _ply_properties(actuator: Actuator) -> Row:
+    """What only a sheet has; dashes for the others."""
+    if not isinstance(actuator, PiezoPly):
+        return dict.fromkeys(_ply_properties(find_actuator(COMPARED_ACTUATORS[0])), NONE)
+    material, gap = actuator.material, actuator.electrode_gap
+    low, high = actuator.voltage_range
+    return {
+        "E1 GPa": f"{material.e1 / 1e9:.1f}",
+        "E2 GPa": f"{material.e2 / 1e9:.1f}",
+        "G12 GPa": f"{material.g12 / 1e9:.2f}",
+        "d pm/V": f"{actuator.d_along * 1e12:.0f}",
+        "ΔES mm": f"{gap * 1e3:.3g}",
+        "α 1e-6/V": f"{actuator.d_along / gap * 1e6:.2f}",
+        "voltage V": f"{low:g}…{high:g}",
+        "field kV/mm": f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}",
+        "free strain µε": f"{actuator.swing[0] * 1e6:.0f}",
+        "thickness mm": f"{actuator.thickness * 1e3:.3g}",
+        "density kg/m³": f"{material.density:.0f}",
+    }
 
 
 def table_5_2(
@@ -95,11 +119,10 @@ def table_5_2(
     *,
     placement: Placement | None = None,
     host: Host | None = None,
-    derated: bool = False,
 ) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
     verdicts = [
-        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host, derated=derated)
+        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host)
         for id in COMPARED_ACTUATORS
         for name in COMPARED_CONCEPTS
     ]
@@ -108,37 +131,39 @@ def table_5_2(
 
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
-    columns = (
-        "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
-        "mass kg", "torsion /rev", "ideal kW", "gross kW", "stiffness kW", "mass kW", "drive kW", "net kW",
-        "limits exceeded",
-    )  # fmt: skip
-    rows = [
-        (
-            f"{verdict.installed.actuator.id}, {count(verdict)}", verdict.baseline.concept.name,
-            verdict.installed.host.label, f"{math.degrees(verdict.required):.2f}",
-            f"{math.degrees(verdict.attainable):.2f}", f"{math.degrees(verdict.attainable_derated):.2f}",
-            f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
-            "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
-            f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
-            kilowatts(verdict.ideal_saving), kilowatts(verdict.gross_saving), kilowatts(-verdict.stiffness_cost),
-            kilowatts(-verdict.mass_cost), kilowatts(-verdict.drive_cost), kilowatts(verdict.net_saving),
-            ", ".join(limit.name for limit in verdict.broken) or "none",
-        )
-        for verdict in verdicts
-    ]  # fmt: skip
     pair = verdicts[0].baseline.pair
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
-        "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
+        "whole voltage range.",
         f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
         "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net. Ideal: gross "
         "with unlimited twist in flight.",
     )
-    return ActuatorTable(
-        f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes, keys=2
-    )
+    title = f"Table 5.2  Actuators and concepts compared, advance ratios {mu}"
+    return table_of(title, [_comparison(verdict) for verdict in verdicts], notes, keys=2)
+
+
+def _comparison(verdict: Verdict) -> Row:
+    installed = verdict.installed
+    return {
+        "actuator": f"{installed.actuator.id}, {count(verdict)}",
+        "concept": verdict.baseline.concept.name,
+        "blade": installed.host.label,
+        "needed °": f"{math.degrees(verdict.required):.2f}",
+        "nominal °": f"{math.degrees(verdict.attainable):.2f}",
+        "needed/nominal": f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
+        "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
+        "mass kg": f"{installed.masses.aircraft:.0f}",
+        "torsion /rev": f"{installed.frequency:.2f}",
+        "ideal kW": kilowatts(verdict.ideal_saving),
+        "gross kW": kilowatts(verdict.gross_saving),
+        "stiffness kW": kilowatts(-verdict.stiffness_cost),
+        "mass kW": kilowatts(-verdict.mass_cost),
+        "drive kW": kilowatts(-verdict.drive_cost),
+        "net kW": kilowatts(verdict.net_saving),
+        "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
+    }
 
 
 def kilowatts(power: float) -> str:
@@ -148,49 +173,24 @@ def kilowatts(power: float) -> str:
 
 def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
     """What an actuator would have to be, a rotor a row."""
-    columns = (
-        "rotor", "µ", "optima apart °", "ideal kW", "twist ≥ °", "mass ≤ kg", "drive ≤ W", "mass ≤ kg, no drive",
-    )  # fmt: skip
-    rows: list[tuple[str, ...]] = []
-    for even in lines:
-        needed, pair = even.requirement, even.pair
-        wanted = [NONE] * 4
-        if even.worthwhile:
-            wanted = [
-                f"{math.degrees(needed.twist):.1f}", f"{needed.mass:.1f}", f"{needed.drive:.0f}",
-                f"{even.mass_allowed(needed.twist):.1f}",
-            ]  # fmt: skip
-        mu = " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios)
-        apart = f"{math.degrees(abs(even.change)):.1f}"
-        rows.append((pair.design.aircraft.name, mu, apart, f"{even.ideal_saving / 1e3:.2f}", *wanted))
     notes = (
         f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
         "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
         "column.",
     )
-    return ActuatorTable("What an actuator would have to be", columns, tuple(rows), notes)
+    return table_of("What an actuator would have to be", [_wanted(even) for even in lines], notes)
 
 
-def builds_table(builds: Sequence[Candidate]) -> ActuatorTable:
-    """Builds with what they save and cost, in kW as `Verdict.savings` has them."""
-    columns = (
-        "build", "twist °", "used %", "kg", "gross", "stiffness", "mass", "drive", "net kW", "earns %",
-    )  # fmt: skip
-    rows = [
-        (
-            build.name,
-            f"{math.degrees(build.installed.attainable):.1f}",
-            f"{100.0 * abs(build.estimate.swing):.0f}",
-            f"{build.mass:.0f}",
-            kilowatts(build.estimate.gross), kilowatts(-build.estimate.stiffness_cost),
-            kilowatts(-build.estimate.mass_cost), kilowatts(-build.estimate.drive_cost), kilowatts(build.estimate.net),
-            f"{100.0 * build.earned:.0f}",
-        )
-        for build in builds
-    ]  # fmt: skip
-    notes = (
-        "Each build is trimmed, and its best twist found to second order: gross within a tenth of a full search on an "
-        "elastic blade. Earns: gross over mass, drive and what the stiffness costs.",
-    )
-    return ActuatorTable("Nearest builds", columns, tuple(rows), notes)
+def _wanted(even: BreakEven) -> Row:
+    needed, pair, pays = even.requirement, even.pair, even.worthwhile
+    return {
+        "rotor": pair.design.aircraft.name,
+        "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
+        "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
+        "ideal kW": f"{even.ideal_saving / 1e3:.2f}",
+        "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
+        "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,
+        "drive ≤ W": f"{needed.drive:.0f}" if pays else NONE,
+        "mass ≤ kg, no drive": f"{even.mass_allowed(needed.twist):.1f}" if pays else NONE,
+    }

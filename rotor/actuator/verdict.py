@@ -45,8 +45,6 @@ class Verdict:
     installed: InstalledActuator
     baseline: Baseline
     against: Against
-    derating: float
-    """Factor on the nominal twist used for the saving."""
     required_segments: Array
     """Change of twist between the optima, by segment [rad], (segments,)."""
     optimum: TwistOptimum
@@ -79,13 +77,9 @@ class Verdict:
         return self.installed.attainable
 
     @property
-    def attainable_derated(self) -> float:
-        return self.installed.attainable * self.installed.derating
-
-    @property
     def ratio(self) -> float:
         """Required over attainable twist in the worst segment."""
-        available = np.maximum(self.installed.segment_twists * self.derating, NOTHING)
+        available = np.maximum(self.installed.segment_twists, NOTHING)
         return float(np.max(np.abs(self.required_segments) / available))
 
     @property
@@ -97,7 +91,7 @@ class Verdict:
     def attained_segments(self) -> Array:
         """Change of twist between the two conditions at the actuated optimum, by segment [rad]."""
         first, second = (np.array(swings) for swings in self.optimum.swings)
-        return (second - first) * self.installed.shapes[:, -1] * self.derating
+        return (second - first) * self.installed.shapes[:, -1]
 
     @property
     def attained(self) -> float:
@@ -186,20 +180,6 @@ class Verdict:
         """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
         return segment_voltages(self.installed, self.optimum.swings)
 
-    @property
-    def actuator_off(self) -> Design:
-        """The second condition with the actuator on the blade, not driven and without its mass: a sweep starts here."""
-        return self.installed.on(self._fixed(self.resting))
-
-    @property
-    def without_actuator(self) -> Design:
-        """The second condition of the same blade without it."""
-        return self._fixed(self.baseline.fixed)
-
-    def _fixed(self, jig: TwistOptimum) -> Design:
-        design = self.baseline.pair.designs()[1]
-        return design if self.installed.host.kind == "retrofit" else self.baseline.concept.apply(design, jig.values)
-
 
 def try_actuator(
     name: str,
@@ -210,7 +190,6 @@ def try_actuator(
     plies: int = 2,
     share: float = 0.5,
     new_blade: bool = False,
-    derated: bool = False,
     against: Against = "best-fixed",
 ) -> Verdict:
     """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
@@ -224,7 +203,7 @@ def try_actuator(
     host = Host("new", 0.5) if new_blade else Host()
     pair = ConditionPair(design, mu, share)
     placement = default_placement(plies)
-    return judge(find_actuator(name), pair, find_concept(concept), placement, host, derated=derated, against=against)
+    return judge(find_actuator(name), pair, find_concept(concept), placement, host, against=against)
 
 
 def judge(
@@ -234,20 +213,18 @@ def judge(
     placement: Placement,
     host: Host | None = None,
     *,
-    derated: bool = False,
     against: Against = "best-fixed",
 ) -> Verdict:
     """Install the actuator, find the best twist within its range, add its mass, and compute the net saving.
 
-    The segments are those of the concept. `derated` uses the twist measured on a test blade. `against`: the blade
-    that savings are counted from. Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims.
+    The segments are those of the concept. `against`: the blade that savings are counted from. Raises ValueError for a
+    blade that cannot be built, RuntimeError where nothing trims.
     """
     host = host or Host()
     base = baseline(pair, concept)
     rotor, aircraft = pair.design.rotor, pair.design.aircraft
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
-    share = installed.derating if derated else 1.0
     resting, counted_from = base.fixed, list(base.fixed.solutions)
     if host.kind == "retrofit" or against == "as-built":
         built = [solve(design).require() for design in pair.designs()]
@@ -257,20 +234,19 @@ def judge(
             counted_from = built
     bare_power, free = resting.power, [best.power for best in base.best]
     if pair.design.elastic:
-        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[base.fixed.values])
+        resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values])
         free = [
             best_twist(installed.on(design), base.concept, [best.values], alone=True).power
             for design, best in zip(pair.designs(), base.best, strict=True)
         ]
-    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[resting.values])
+    reached = best_actuated(pair, base.concept, installed, starts=[resting.values])
     required = base.segment_changes(divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
-    asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists * share, NOTHING))
+    asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, NOTHING))
     return Verdict(
         installed=installed,
         baseline=base,
         against=against,
-        derating=share,
         required_segments=required,
         optimum=reached,
         resting=resting,
@@ -340,11 +316,8 @@ def _reach(verdict: Verdict) -> str:
     what = f"{installed.actuator.name} ({count(verdict)}, {installed.host.label})"
     first, second = (flight(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
-    available = f"{nominal:.1f}° nominal"
-    if installed.derating < 1.0:
-        available += f", {math.degrees(verdict.attainable_derated):.1f}° derated by test"
     can = "can supply" if verdict.feasible else "cannot supply"
-    return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({available})."
+    return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
 
 
 def _savings(verdict: Verdict) -> str:
@@ -370,16 +343,13 @@ def _change(saving: float) -> str:
 
 def count(verdict: Verdict) -> str:
     """Number of plies or tubes as text; "passive" for a laminate."""
-    several = isinstance(verdict.installed.actuator, TorqueTube) and verdict.installed.placement.divisions
-    return layers_text(verdict.installed) + (" a segment" if several else "")
-
-
-def layers_text(installed: InstalledActuator) -> str:
-    """Number of plies, or of tubes side by side; "passive" for a laminate."""
+    installed = verdict.installed
     if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
     single, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
-    return f"{installed.placement.plies} {single if installed.placement.plies == 1 else more}"
+    several = isinstance(installed.actuator, TorqueTube) and installed.placement.divisions
+    plies = installed.placement.plies
+    return f"{plies} {single if plies == 1 else more}{' a segment' if several else ''}"
 
 
 def flight(advance_ratio: float) -> str:

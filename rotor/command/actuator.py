@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import PaySearch, break_even, pay_sentence, search_sentence, what_would_pay
+from rotor.actuator.pay import BreakEven, break_even, pay_sentence
 from rotor.actuator.pictures import break_even_chart
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.tables import ActuatorTable, builds_table, kilowatts, pay_table, table_5_1, table_5_2
-from rotor.actuator.verdict import PRINTED, Verdict, judge, reference, verdict_details, verdict_sentence
+from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
+from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
 from rotor.chart_svg import svg
 from rotor.command.common import (
@@ -29,7 +28,6 @@ from rotor.command.common import (
     print_result,
     short_spec,
 )
-from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
@@ -77,15 +75,13 @@ def add_parser(commands: Any) -> None:
         default="best-fixed",
         help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
     )
-    parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
-    parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(
         "--what-would-pay",
         nargs="?",
         choices=("this", "all"),
         const="this",
-        help="what an actuator would have to be to pay on this rotor (all: on each), and the builds nearest to it",
+        help="what an actuator would have to be to pay on this rotor (all: on each)",
     )
     parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
     add_design_arguments(parser)
@@ -101,10 +97,6 @@ def run(args: argparse.Namespace) -> int:
     if args.what_would_pay is None:
         check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
-    if args.harmonic is not None:
-        Harmonic(args.harmonic, 0.0)
-        if pair.design.active_twist is not None:
-            raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
     placement, host = _placement(args), Host(args.blade, stiffness)
     if args.plot is not None and args.what_would_pay is None:
@@ -116,27 +108,18 @@ def run(args: argparse.Namespace) -> int:
         if args.what_would_pay is not None:
             return _run_pay(args, pair)
         if args.table == "5.2":
-            return _show(args, table_5_2(pair, placement=placement, host=host, derated=args.derated))
-        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated, against=args.against)
-        turned = None
-        if args.harmonic is not None:
-            turned = phase_sweep(
-                verdict.actuator_off,
-                verdict.installed,
-                args.harmonic,
-                reference=verdict.without_actuator,
-                derated=args.derated,
-            )
+            return _show(args, table_5_2(pair, placement=placement, host=host))
+        verdict = judge(actuator, pair, concept, placement, host, against=args.against)
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    print_result(args, lambda: record(verdict, turned), lambda: report(verdict, turned))
+    print_result(args, lambda: record(verdict), lambda: report(verdict))
     return 0
 
 
-def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
+def record(verdict: Verdict) -> dict[str, Any]:
     """The JSON of `actuator --json`. Savings are means over both conditions [W]."""
-    values: dict[str, Any] = {
+    return {
         "status": "converged",
         "message": verdict_sentence(verdict),
         "actuator": verdict.installed.actuator.id,
@@ -144,7 +127,6 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "concept": verdict.baseline.concept.name,
         "required_twist_deg": math.degrees(verdict.required),
         "attainable_twist_deg": math.degrees(verdict.attainable),
-        "attainable_twist_derated_deg": math.degrees(verdict.attainable_derated),
         "feasible": verdict.feasible,
         "voltages_v": [list(pair) for pair in verdict.voltages],
         "added_mass_kg": verdict.installed.masses.aircraft,
@@ -161,37 +143,41 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
         "limits": [asdict(limit) for limit in verdict.limits],
         "caveats": list(verdict.caveats),
     }
-    if turned is not None:
-        values["harmonic"] = {
-            "per_rev": turned.dynamic.per_rev,
-            "amplitude_deg": math.degrees(turned.dynamic.amplitude),
-            "used_share": turned.share,
-            "tip_amplitude_deg": math.degrees(turned.response[0]),
-            "tip_phase_deg": math.degrees(turned.response[1]),
-            "gross_saving_w": turned.gross_saving,
-            "net_saving_w": turned.net_saving,
-        }
-    return values
 
 
 def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
     """The keys of `record` where nothing trims; unknown values are null."""
     return {
-        "status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies,
-        "concept": args.concept, "required_twist_deg": None, "attainable_twist_deg": None,
-        "attainable_twist_derated_deg": None, "feasible": None, "voltages_v": [], "added_mass_kg": None,
-        "torsion_frequency_per_rev": None, "against": args.against, "ideal_saving_w": None, "gross_saving_w": None,
-        "stiffness_cost_w": None, "mass_cost_w": None, "drive_cost_w": None, "net_saving_w": None,
-        "net_saving_band_w": None, "fuel_saving_kg_h": None, "limits": [], "caveats": [],
-    }  # fmt: skip
+        "status": "not-converged",
+        "message": message,
+        "actuator": args.actuator,
+        "plies": args.plies,
+        "concept": args.concept,
+        "required_twist_deg": None,
+        "attainable_twist_deg": None,
+        "feasible": None,
+        "voltages_v": [],
+        "added_mass_kg": None,
+        "torsion_frequency_per_rev": None,
+        "against": args.against,
+        "ideal_saving_w": None,
+        "gross_saving_w": None,
+        "stiffness_cost_w": None,
+        "mass_cost_w": None,
+        "drive_cost_w": None,
+        "net_saving_w": None,
+        "net_saving_band_w": None,
+        "fuel_saving_kg_h": None,
+        "limits": [],
+        "caveats": [],
+    }
 
 
-def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
+def report(verdict: Verdict) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
     twists = [short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
-    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
     saved = verdict.fuel_saving
     fuel = (
         "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
@@ -209,7 +195,7 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         f"  net                         {_kw(verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
-        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
+        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °",
         f"twist used        {math.degrees(verdict.attained):8.2f} °",
         f"moment            {installed.moment:8.0f} N·m on GJ {installed.section_stiffness:.0f} N·m²",
         f"torsion           {installed.frequency:8.2f} /rev",
@@ -221,23 +207,6 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
         lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
-    if turned is not None and not turned.dynamic.amplitude:
-        lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator is too slow"]
-    elif turned is not None:
-        left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW with"
-        elastic = turned.off.elastic is not None
-        at_rest = f" at rest (in flight {math.degrees(turned.response[0]):.2f}°)" if elastic else ""
-        cost = turned.wave_saving - turned.gross_saving
-        softer = f", while the other stiffness costs {cost / 1e3:.1f} kW" if abs(cost) >= PRINTED else ""
-        lines += [
-            "",
-            wrapped(
-                f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
-                f"±{math.degrees(turned.dynamic.amplitude):.2f}°{at_rest}, {100 * turned.share:.0f} % used, saves "
-                f"{turned.wave_saving / 1e3:.1f} kW{softer}; {left} its mass and losses. Not validated: no measured "
-                "power benefit of active twist was found."
-            ),
-        ]
     met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
     lines += ["", *(wrapped(limit, " " * 9) for limit in met)]
     return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])
@@ -248,69 +217,39 @@ ROTORS = (*SHIPPED_ROTORS, "hart2")
 
 
 def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
+    pairs = [pair]
     if args.what_would_pay == "all":
-        searches = [PaySearch(break_even(replace(pair, design=make_design(rotor=key))), (), ()) for key in ROTORS]
-    else:
-        searches = [what_would_pay(pair, derated=args.derated)]
-    first = searches[0]
+        pairs = [replace(pair, design=make_design(rotor=key)) for key in ROTORS]
+    lines = [break_even(each) for each in pairs]
     if args.plot is not None:
-        best = None
-        if first.candidates:
-            candidate = first.candidates[0]
-            worth = first.even.twist_for(candidate.estimate.gross - candidate.estimate.stiffness_cost)
-            best = (candidate.installed.actuator.name, worth, candidate.mass)
-        write_whole(args.plot, svg(break_even_chart(first.even, best)))
+        write_whole(args.plot, svg(break_even_chart(lines[0])))
     if args.json:
-        records = [pay_record(search) for search in searches]
+        records = [pay_record(line) for line in lines]
         print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))
         return 0
-    print(pay_table([search.even for search in searches]).text())
+    print(pay_table(lines).text())
     if args.what_would_pay == "this":
-        print()
-        print(*map(wrapped, filter(None, [pay_sentence(first.even), search_sentence(first)])), sep="\n")
-        print(*_builds(first), sep="\n")
+        print(f"\n{wrapped(pay_sentence(lines[0]))}")
     return 0
 
 
-def _builds(search: PaySearch) -> list[str]:
-    if not search.candidates:
-        return []
-    judged = [
-        wrapped(f"{verdict.installed.actuator.id}: {verdict_sentence(verdict)}", "  ") for verdict in search.verdicts
-    ]
-    return ["", builds_table(search.candidates[:5]).text(), *(["", "By full search"] if judged else []), *judged]
-
-
-def pay_record(search: PaySearch) -> dict[str, Any]:
+def pay_record(even: BreakEven) -> dict[str, Any]:
     """The JSON of `actuator --what-would-pay --json`; masses are of all blades."""
-    even, needed = search.even, search.even.requirement
+    needed = even.requirement
+    pays = {"twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive}
     return {
         "rotor": even.pair.design.aircraft.name,
         "advance_ratios": list(even.pair.advance_ratios),
-        "message": " ".join(filter(None, [pay_sentence(even), search_sentence(search)])),
+        "message": pay_sentence(even),
         "ideal_saving_w": even.ideal_saving,
         "optima_apart_deg": math.degrees(abs(even.change)),
-        "pays_from": {
-            "twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive
-        } if even.worthwhile else None,
+        "pays_from": pays if even.worthwhile else None,
         "line": {
-            "twist_deg": np.degrees(even.twists).tolist(), "gross_saving_w": even.gross.tolist(),
+            "twist_deg": np.degrees(even.twists).tolist(),
+            "gross_saving_w": even.gross.tolist(),
             "mass_kg": even.masses.tolist(),
         },
-        "builds": [
-            {
-                "actuator": candidate.installed.actuator.id, "plies": candidate.installed.placement.plies,
-                "span_r": list(candidate.installed.placement.span), "blade": candidate.installed.host.label,
-                "twist_deg": math.degrees(candidate.installed.attainable), "swing": candidate.estimate.swing,
-                "mass_kg": candidate.mass,
-                "gross_saving_w": candidate.estimate.gross, "stiffness_cost_w": candidate.estimate.stiffness_cost,
-                "mass_cost_w": candidate.estimate.mass_cost, "drive_cost_w": candidate.estimate.drive_cost,
-                "net_saving_w": candidate.estimate.net,
-            }
-            for candidate in search.candidates
-        ],
-        "judged": [record(verdict) for verdict in search.verdicts],
-    }  # fmt: skip
+    }
 
 
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:

@@ -198,7 +198,6 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
         help="limit the change of twist to the range of this actuator as a retrofit, e.g. MFC_P1",
     )
     limits.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
-    limits.add_argument("--derated", action="store_true", help="use that range derated by test")
 
 
 def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
@@ -229,14 +228,14 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
 def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
     """Limit on the change from the design's own twist to the range of an actuator."""
     if args.actuator is None:
-        if args.plies is not None or args.derated:
-            raise ValueError("--plies and --derated need an actuator: add --actuator, for example MFC_P1")
+        if args.plies is not None:
+            raise ValueError("--plies needs an actuator: add --actuator, for example MFC_P1")
         return None
     if args.change_deg is not None:
         raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
     placement = default_placement(2 if args.plies is None else args.plies)
     installed = install(find_actuator(args.actuator), placement, Host(), design.rotor)
-    return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
+    return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout)
 
 
 def waves_text(harmonics: tuple[Harmonic, ...]) -> str:

@@ -120,20 +120,12 @@ def stiffer_blade(structure: BladeStructure, scale: float, addition: Addition) -
     )
 
 
-def twist_under_moment(beam: TorsionBeam, moment: Array, *, per_rev: float = 0.0) -> Array:
-    """φ at the nodes [rad] of the clamped blade under M_a [N m] per element.
-
-    Steady, or as the amplitude at `per_rev` × Ω, undamped.
-    """
-    stiffness, mass = _matrices(beam)
-    if per_rev:
-        stiffness = stiffness - (per_rev * beam.angular_speed) ** 2 * mass
+def twist_under_moment(beam: TorsionBeam, moment: Array) -> Array:
+    """φ at the nodes [rad] of the clamped blade under a steady M_a [N m] per element."""
+    stiffness, _ = _matrices(beam)
     load = np.zeros(len(beam.r))
     load[1:] += moment
     load[:-1] -= moment
-    if per_rev:
-        free = _dense(stiffness)[1:, 1:]
-        return np.concatenate(([0.0], np.linalg.solve(free, load[1:])))
     return np.concatenate(([0.0], solveh_banded(stiffness[:, 1:], load[1:], lower=True)))
 
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from rotor.actuator import tables as actuator_tables
-from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
+from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator, electric_field, free_strain, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
@@ -55,22 +55,11 @@ def figure_5_5() -> Report:
         curves.append(curve(label, KV_MM * field, PPM * along))
         rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
         numbers[shown.id] = float(np.ptp(along))
+    ends = (f"{way}_{end}_ppm" for way in ("along", "across") for end in ("low", "high"))
     return report(
         "5.5",
         tables=[
-            table(
-                "strain",
-                (
-                    "actuator",
-                    "lowest_v",
-                    "highest_v",
-                    "along_low_ppm",
-                    "along_high_ppm",
-                    "across_low_ppm",
-                    "across_high_ppm",
-                ),
-                rows,
-            )
+            table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows),
         ],
         panels=[Chart("", Axis("field [kV/mm]"), Axis("free strain along [µε]"), tuple(curves))],
         numbers=numbers,
@@ -122,7 +111,6 @@ def figure_5_10() -> Report:
         panels=[Chart("", Axis("r/R"), Axis("twist [°]"), tuple(curves))],
         numbers=numbers,
         each="; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items()),
-        derating=derating(sheet("MFC_P1")),
     )
 
 

@@ -158,6 +158,26 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
 
 
 @pytest.mark.slow
+def test_an_actuator_that_stops_has_one_twist_everywhere(watched: Watched):
+    """Ticked in hover and flown on, the bar, the rail and the blade say the twist that stays."""
+    page = watched.page
+    page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
+    bar, box = page.locator(".rxf-fly-bar input"), page.get_by_label("Actuator stops here")
+    bar.fill("0")
+    watched.answered()
+    box.evaluate("box => box.click()")
+    page.wait_for_function("() => RX.state.flight.frozen !== null")
+    bar.fill("3")
+    watched.until(lambda: "mu=0.33" in page.url)
+    watched.answered()
+    frozen = watched.reads("tip-twist", "^−0")
+    assert frozen in watched.text("actuator-twist")
+    assert f"{frozen} at the tip" in page.locator('[data-explorer="labels"]').inner_text()
+    box.evaluate("box => box.click()")
+    watched.reads("tip-twist", r"^\+1")
+
+
+@pytest.mark.slow
 def test_the_flight_is_played_and_another_view_lets_the_blade_fly_back(watched: Watched):
     watched.page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     before = watched.page.evaluate("() => RX.state.flight.at")

@@ -1,4 +1,4 @@
-"""Blades that bend on the page: drawn shape, loads over the hub, index over speed, fan plot, and their words."""
+"""Blades that bend on the page: drawn shape, loads over the hub, index over speed, and their words."""
 
 import math
 import re
@@ -13,7 +13,7 @@ import viser
 from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
-from explorer.charts.vibration import FAN_SPEEDS, SPEEDS, FanKey, FanPlots, IndexCurves, fan_chart, index_chart
+from explorer.charts.vibration import SPEEDS, IndexCurves, index_chart
 from explorer.colours import scene_theme
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
@@ -86,9 +86,7 @@ class TestDrawnBlade:
         c, radius = bent.controls, bent.design.rotor.radius
         flap = c.coning + c.flap_1c * math.cos(psi) + c.flap_1s * math.sin(psi)
         shape = blade_shape(bent.design.rotor)
-        expected = [
-            np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))
-        ]  # fmt: skip
+        expected = [np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))]
         moved = flown_vertices(bent, VIEW, psi) - flown_vertices(bent, VIEW, psi, bent=False)
         rings = moved[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
         assert np.ptp(rings, axis=1).max() < 1e-12  # Each section as a whole.
@@ -173,28 +171,6 @@ class TestIndexOverSpeed:
         assert_allclose(curves.known(straight.design), known)
 
 
-class TestFanPlot:
-    def test_at_rated_speed_it_has_the_frequencies_of_the_blade(self, bent: Solution):
-        key = FanKey.of(bent)
-        plots = FanPlots()
-        assert plots.solve(key, lambda: False)
-        known = plots.known(key)
-        assert tuple(sorted(known)) == FAN_SPEEDS
-        # Published for the UH-60A: flap 1.035 and 2.81 per rev.
-        assert known[1.0].flap[:2] == pytest.approx((1.035, 2.81), rel=0.02)
-        named = [one.label for one in fan_chart(known, key.collective_deg).series]
-        assert any(one.startswith("flap 1.04, 2.85") for one in named)
-        assert "torsion 4.97" in named
-
-    def test_what_was_computed_is_kept(self, bent: Solution, monkeypatch: pytest.MonkeyPatch):
-        key, plots = FanKey.of(bent), FanPlots()
-        assert not plots.solve(key, lambda: len(plots.known(key)) > 3)
-        assert len(plots.known(key)) == 4
-        assert plots.solve(key, lambda: False)
-        monkeypatch.setattr(vibration, "blade_frequencies", lambda *_: pytest.fail("computed again"))
-        assert plots.solve(key, lambda: False)
-
-
 class Page:
     """A panel without a browser, and what it told the page."""
 
@@ -202,13 +178,12 @@ class Page:
         self.shown: dict[str, Any] = {}
         self.charts: list[Any] = []
         self.switch = ""
-        self.drawer = ""
         strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: (None, "reference"))
         scene: Any = SimpleNamespace(hub_loads=HubLoadLines(server.scene), atomic=nullcontext)
         context: Any = SimpleNamespace(
-            gui=server.gui, bridge=SimpleNamespace(set=self.shown.update), layout=self,
+            bridge=SimpleNamespace(set=self.shown.update),
             controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
-        )  # fmt: skip
+        )
         self.panel = VibrationPanel(context, scene, strip)
 
     def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:
@@ -277,8 +252,6 @@ class TestPanel:
         for module, names in ((vibration_panel, ("hub_loads", "solve", "deflections")), (vibration, ("solve",))):
             for name in names:
                 monkeypatch.setattr(module, name, never)
-        page.drawer = "probe"
         page.show(straight)
         page.panel.solve_deferred(lambda: False)
         assert page.shown["vibration"] is None
-        assert not page.panel._fan.visible

@@ -19,8 +19,8 @@ from explorer.tabs.actuator.actuator_inputs import (
 )
 from explorer.tabs.actuator.flight_bar import FlightBar
 from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture
-from explorer.tabs.actuator.pay_panel import PayPanel
 from explorer.tabs.actuator.per_rev import Fitted
+from explorer.tabs.actuator.what_would_pay import WhatWouldPay
 from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
@@ -42,7 +42,7 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
-        """`address` may hold a supposed actuator; `problems` as in `PayPanel`."""
+        """`address` may hold a supposed actuator; `problems` as in `WhatWouldPay`."""
         self._context = context
         self._blade = LiftedScene(context.client, context.bridge)
         self.lifted = False
@@ -70,7 +70,7 @@ class ActuatorPanel:
         context.bridge.on("pull", self._pull)
         self._pulled = (0.0,) * MOST_SEGMENTS, 0.0
         """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
-        self.pay = PayPanel(context, address, problems)
+        self.pay = WhatWouldPay(context, address, problems)
         self.inputs = self._controls.inputs
         self.top = self._controls.now.order
 

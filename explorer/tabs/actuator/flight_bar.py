@@ -141,9 +141,18 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     unit = units.power[0]
     state: dict[str, Any] = {
         "kind": "ready" if known and verdict else "problem" if problem else "computing",
-        "unit": unit.symbol, "where": "", "bars": [], "against": "best fixed blade", "fuel": "", "fuel_kind": "",
-        "fuel_note": "", "mass": "", "mass_note": "", "problem": problem, "mission": "" if problem else _COMPUTING,
-    }  # fmt: skip
+        "unit": unit.symbol,
+        "where": "",
+        "bars": [],
+        "against": "best fixed blade",
+        "fuel": "",
+        "fuel_kind": "",
+        "fuel_note": "",
+        "mass": "",
+        "mass_note": "",
+        "problem": problem,
+        "mission": "" if problem else _COMPUTING,
+    }
     if verdict is None:
         return state
     used, masses = fuel_used(verdict), verdict.installed.masses

@@ -97,8 +97,8 @@ def flown_twist(solution: Solution, undriven: Solution, psi: float) -> FlownTwis
     r, design = solution.disk.r, solution.design
     at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
     moved = driven[:, at] - alone[:, at] + design.twist(r) - undriven.design.twist(r)
-    given = [np.zeros(len(r)) if active is None else active(r, np.array([psi]))[:, 0]
-             for active in (design.active_twist, undriven.design.active_twist)]  # fmt: skip
+    waves = (design.active_twist, undriven.design.active_twist)
+    given = [np.zeros(len(r)) if wave is None else wave(r, np.array([psi]))[:, 0] for wave in waves]
     moved = moved + given[0] - given[1]
     return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
 
@@ -243,9 +243,13 @@ def _what(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
 
 _NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
 _LINES: dict[str, tuple[Rgb, float]] = {
-    "edges": (EDGE, 2.2), "ghost": (GHOST, 1.6), "leads": (LEAD, 3.0), "fibres": (FIBRE[0], 1.1), "arrow": (ARROW, 5.0),
+    "edges": (EDGE, 2.2),
+    "ghost": (GHOST, 1.6),
+    "leads": (LEAD, 3.0),
+    "fibres": (FIBRE[0], 1.1),
+    "arrow": (ARROW, 5.0),
     "leaders": (LEADER, 1.2),
-}  # fmt: skip
+}
 """Colours and widths [px] by name."""
 
 
@@ -293,9 +297,15 @@ class LiftedScene:
             vertices, surface = solid.mesh.vertices.astype(np.float32), solid.surface
             if name not in self._solids:
                 self._solids[name] = self._api.add_mesh_simple(
-                    f"{NODE}/{name}", vertices, solid.mesh.faces, color=surface.colour, opacity=surface.opacity,
-                    side="double", cast_shadow=False, receive_shadow=False,
-                )  # fmt: skip
+                    f"{NODE}/{name}",
+                    vertices,
+                    solid.mesh.faces,
+                    color=surface.colour,
+                    opacity=surface.opacity,
+                    side="double",
+                    cast_shadow=False,
+                    receive_shadow=False,
+                )
                 continue
             handle = self._solids[name]
             if not np.array_equal(handle.faces, solid.mesh.faces):

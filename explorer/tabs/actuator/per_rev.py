@@ -22,17 +22,17 @@ from rotor.actuator import (
     EffectInFlight,
     InstalledActuator,
     Programme,
-    dynamic_twist,
     effect,
     programmes,
     steady_room,
+    tip_amplitude,
     with_actuator_mass,
 )
 from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
 from rotor.chart import Axis, Chart, Line, Points, Rule, as_json, round_ticks, tick_text
 from rotor.design import Harmonic, TwistLaw
-from rotor.markup import Markup, tag
+from rotor.markup import tag
 from rotor.optimisation.vibration import TMatrix, front_twists, with_harmonics
 from rotor.trim import why_no_hub_loads
 from rotor.trim.adjoint import Adjoint
@@ -72,7 +72,7 @@ class Fitted:
     @property
     def whole(self) -> float:
         """Amplitude at n/rev of half the voltage range at the tip of the blade at rest [°]; zero: it cannot follow."""
-        return math.degrees(dynamic_twist(self.installed, 2, elastic=True).at_rest)
+        return math.degrees(tip_amplitude(self.installed))
 
     @property
     def losses(self) -> list[float]:
@@ -187,7 +187,7 @@ class TwistDial:
         with gui.add_folder("Twist at n/rev", order=after + 0.5):
             gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
             self._set = gui.add_html("")
-            gui.add_html(tag("div.rx.rx-small", programme_table(), data_explorer="programmes"))
+            gui.add_html(tag("div.rx.rx-dim.rx-small", _UNMEASURED, data_explorer="unmeasured"))
         self.refresh(context.inputs())
         bridge = context.bridge
         bridge.on("dial", self._act)
@@ -426,41 +426,6 @@ def programme_words(result: Programme) -> str:
 def _range(ends: tuple[float, float]) -> str:
     low, high = (number(end, 0, sign=True) for end in ends)
     return f"{low} %" if low == high else f"{low} to {high} %"
-
-
-def programme_table() -> Markup:
-    """Every published result with its kind and its source."""
-    rows = [tag("tr.rx-dim", tag("td"), tag("td"), tag("td.rx-num", "vibration"), tag("td.rx-num", "power"))]
-    for programme in programmes():
-        vibration = programme.vibration_percent
-        source = f"{programme.control.capitalize()}. {programme.source}."
-        rows += [
-            tag(
-                "tr",
-                tag("td", programme.short + _orders(programme)),
-                tag("td", programme.kind),
-                tag("td.rx-num", "–" if vibration is None else _range(vibration)),
-                tag("td.rx-num", _power_of(programme)),
-                title=programme_words(programme),
-            ),
-            tag("tr.rx-dim", tag("td", source, colspan=4)),
-        ]
-    note = (
-        "Other rotors, other measures of vibration. * Largest of its kind, not together with the vibration beside it."
-    )
-    return tag(
-        "details",
-        tag("summary", "Published programmes and their sources"),
-        tag("div.rx-dim", _UNMEASURED, data_explorer="unmeasured"),
-        tag("table.rxd-table", rows),
-        tag("div.rx-dim", note),
-    )
-
-
-def _power_of(result: Programme) -> str:
-    if result.power_change_percent is None:
-        return "–"
-    return f"{number(result.power_change_percent, 1, sign=True)} %{'' if result.together else ' *'}"
 
 
 def _rounded(values: Any) -> Any:

@@ -90,9 +90,9 @@ def test_two_cells_by_finite_elements():
     for k in range(len(line)):
         x = 0.5 * (line[k] + line[(k + 1) % len(line)])[0] / spec.chord
         on = x > 0.05 and k < len(skins) - 1
-        layers.append([
-            Layer(METAL if x < web else soft, wall, 0.0), active if on else Layer(NOTHING, active.thickness, 0.0)
-        ])  # fmt: skip
+        layers.append(
+            [Layer(METAL if x < web else soft, wall, 0.0), active if on else Layer(NOTHING, active.thickness, 0.0)]
+        )
     ends = (29, sum(len(part) for part in upper) + 19 + 25)
     answer = analyse(*with_web(*closed_wall(line, layers), ends, Layer(METAL, wall, 0.0)))
 
@@ -101,12 +101,14 @@ def test_two_cells_by_finite_elements():
         return Panel(points if side == "lower" else points[::-1], (layer, active) if on else (layer,), (cell,))
 
     metal, aft = Layer(METAL, wall, 0.0), Layer(soft, wall, 0.0)
-    section = build_section((
-        *(panel(side, 0.0, 0.05, metal, 1, False) for side in ("upper", "lower")),
-        *(panel(side, 0.05, web, metal, 1, True) for side in ("upper", "lower")),
-        *(panel(side, web, 0.8, aft, 2, True) for side in ("upper", "lower")),
-        Panel(web_line(spec, web), (metal,), (1, -2)),
-        Panel(web_line(spec, 0.8), (aft,), (2,)),
-    ))  # fmt: skip
+    section = build_section(
+        (
+            *(panel(side, 0.0, 0.05, metal, 1, False) for side in ("upper", "lower")),
+            *(panel(side, 0.05, web, metal, 1, True) for side in ("upper", "lower")),
+            *(panel(side, web, 0.8, aft, 2, True) for side in ("upper", "lower")),
+            Panel(web_line(spec, web), (metal,), (1, -2)),
+            Panel(web_line(spec, 0.8), (aft,), (2,)),
+        )
+    )
     assert_allclose(answer.torsional, torsional_stiffness(section), rtol=0.015)
     assert_allclose(answer.twist_rate, induced_twist_rate(section), rtol=0.07)

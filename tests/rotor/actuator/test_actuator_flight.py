@@ -53,7 +53,8 @@ def test_the_legs_of_the_verdict_save_what_the_verdict_says(kind: str, id: str):
 @pytest.mark.parametrize("kind", ["retrofit", "new"])
 def test_what_is_wanted_is_reached_within_the_range_and_cut_at_its_end(kind: str):
     flight = flown(kind)
-    inside = flight.shortfall == 0.0
+    low, high = flight.reach
+    inside = (low <= flight.wanted) & (flight.wanted <= high)
     assert_allclose(flight.reached[inside], flight.wanted[inside], atol=math.radians(0.03))
     ends = np.where(flight.wanted < flight.reach[0], *flight.reach)
     assert_allclose(flight.reached[~inside], ends[~inside], atol=1e-6)
@@ -78,7 +79,6 @@ def test_the_powers_are_those_of_trims():
         assert_allclose(flight.power_with[k], heavy + judged.drive.hold_power, rtol=1e-6)
         fixed = replace(leg.of(judged.baseline.pair.design), twist=judged.baseline.fixed_twist)
         assert_allclose(flight.power_fixed[k], solve(fixed).require().power.total, rtol=1e-6)
-        assert flight.power_ideal[k] <= solve(flight.designs[k]).require().power.total + 0.5
     assert flight.designs[1].condition.climb_speed == 5.0
     # A climb at 5 m/s takes m g V_c more than level flight, and a little for the tail rotor.
     level = fly(judged, (FlightLeg("level", 0.15),)).power_fixed[0]
@@ -86,15 +86,8 @@ def test_the_powers_are_those_of_trims():
     assert 0.9 < (flight.power_fixed[1] - level) / extra < 1.15
 
 
-def test_between_two_legs_by_straight_lines():
-    flight = flown()
-    middle = flight.at(0.5)
-    assert middle.advance_ratio == pytest.approx(0.075)
-    assert middle.climb_speed == pytest.approx(2.5)
-    assert middle.net_saving == pytest.approx(float(flight.net_saving[:2].mean()))
-    assert flight.at(2.0).reached == flight.reached[2]
-    assert flight.at(9.0) == flight.at(2.0)
-    assert len(pickle.dumps(flight)) < 100_000  # No solution is carried along.
+def test_no_solution_is_carried_along():
+    assert len(pickle.dumps(flown())) < 100_000
 
 
 def test_a_leg_that_does_not_trim_is_named():
@@ -109,4 +102,3 @@ def test_the_standard_flight_of_two_segments():
     flight = fly(verdict(concept="two-segment"))
     assert len(flight.voltages[0]) == 2
     assert all(-500.001 <= volts <= 1500.001 for leg in flight.voltages for volts in leg)
-    assert np.all(flight.power_ideal <= flight.power_fixed + verdict(concept="two-segment").stiffness_cost * 2.0)

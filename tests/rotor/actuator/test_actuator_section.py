@@ -123,11 +123,13 @@ def test_batho_two_cells_by_hand():
     a1, a2 = 2 * first * height, 2 * second * height
     q = np.linalg.solve([[d1, -d12], [-d12, d2]], [a1, a2])
     layer, whole = (Layer(METAL, t, 0.0),), first + second
-    section = build_section((
-        Panel(np.array([(first, height), (0.0, height), (0.0, 0.0), (first, 0.0)]), layer, (1,)),
-        Panel(np.array([(first, 0.0), (whole, 0.0), (whole, height), (first, height)]), layer, (2,)),
-        Panel(np.array([(first, 0.0), (first, height)]), layer, (1, -2)),
-    ))  # fmt: skip
+    section = build_section(
+        (
+            Panel(np.array([(first, height), (0.0, height), (0.0, 0.0), (first, 0.0)]), layer, (1,)),
+            Panel(np.array([(first, 0.0), (whole, 0.0), (whole, height), (first, height)]), layer, (2,)),
+            Panel(np.array([(first, 0.0), (first, height)]), layer, (1, -2)),
+        )
+    )
     assert_allclose(torsional_stiffness(section), METAL.g12 * (a1 * q[0] + a2 * q[1]), rtol=1e-9)
 
 

@@ -11,9 +11,14 @@ import rotor
 from rotor.actuator.stopped import frozen
 
 PLAIN: dict[str, Any] = {
-    "inflow": "drees", "elements": 24, "azimuths": 48, "mu": 0.25, "twist": "linear:-10", "dynamic_stall": "off",
+    "inflow": "drees",
+    "elements": 24,
+    "azimuths": 48,
+    "mu": 0.25,
+    "twist": "linear:-10",
+    "dynamic_stall": "off",
     "off": "compressibility,tip-loss,hub-loss,elastic-twist,surface-drag,swirl,swept-tip,download",
-}  # fmt: skip
+}
 
 
 def test_stopped_where_it_works_the_same_changes_nothing():

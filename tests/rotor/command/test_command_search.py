@@ -97,7 +97,7 @@ def test_flags_set_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path
         [], ["--objective", "induced"], ["--objective", "hover-cruise", "--hover-share", "0.3"],
         ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"],
         ["--change-deg", "1", "--on-top"],
-        ["--actuator", "MFC_P1", "--plies", "1", "--derated", "--on-top"],
+        ["--actuator", "MFC_P1", "--plies", "1", "--on-top"],
         ["--preset", "thesis"], ["--inflow", "uniform"],
     ):  # fmt: skip
         code, out, _ = run(capsys, *base, *flags)

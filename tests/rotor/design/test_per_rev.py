@@ -14,11 +14,10 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.__main__ import main
-from rotor.actuator.harmonic import tip_response
 from rotor.design.active_twist import ActiveTwist, Harmonic, harmonics_text, read_harmonics
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.dynamics.torsion import TorsionBeam, torsion_beam
+from rotor.dynamics.torsion import torsion_beam
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design
 from rotor.study.study_file import parse_study
@@ -26,6 +25,7 @@ from rotor.trim.forward import course_of
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from tests.torsion_waves import driven_by_its_root, tip_wave
 
 DEGREE = math.radians(1.0)
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
@@ -93,8 +93,7 @@ def tip_pitch(make: Callable[[str], Design], per_rev: int) -> complex:
     """Pitch of the tip at a harmonic, elastic and given, by a degree of root pitch at phase 0 [°]."""
 
     def wave(pitch: str) -> complex:
-        size, phase = tip_response(solve(make(pitch)).require(), per_rev)
-        return complex(math.degrees(size) * np.exp(1j * phase))
+        return math.degrees(1.0) * tip_wave(solve(make(pitch)).require(), per_rev)
 
     return 1.0 + wave(f"{per_rev}:1:0") - wave("")
 
@@ -106,24 +105,10 @@ def test_a_blade_on_its_controls_answers_root_pitch_as_a_beam(per_rev: int):
     structure, speed = design.rotor.blade.structure, design.rotor.angular_speed
     assert structure is not None
     beam = torsion_beam(structure, speed, control=True)
-    expected = _driven_by_its_root(beam, per_rev)
+    expected = driven_by_its_root(beam, per_rev)
     found = tip_pitch(in_thin_air, per_rev)
     assert_allclose(found, expected, rtol=0.01)
     assert abs(expected) > 1.05  # Further than a rigid blade.
-
-
-def _driven_by_its_root(beam: TorsionBeam, per_rev: int) -> float:
-    """Tip pitch per root pitch of a rotating blade in vacuum."""
-    nodes, length = len(beam.r), np.diff(beam.r)
-    stiffness, mass = np.zeros((nodes, nodes)), np.zeros((nodes, nodes))
-    for k in range(nodes - 1):
-        ends = np.ix_((k, k + 1), (k, k + 1))
-        stiffness[ends] += beam.stiffness[k] / length[k] * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        mass[ends] += beam.inertia[k] * length[k] / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
-    stiffness[0, 0] += beam.control_stiffness
-    load = np.zeros(nodes)
-    load[0] = beam.control_stiffness
-    return float(np.linalg.solve(stiffness + (1.0 - per_rev**2) * beam.angular_speed**2 * mass, load)[-1])
 
 
 def test_both_are_off_in_hover_and_the_wake_lies_where_it_lay():
@@ -254,8 +239,6 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert not {"pitch_per_rev", "active_twist"} & set(solved("--pitch-per-rev", "2:0:0", "--twist-per-rev", "2:0:0"))
     other = solved("--pitch-per-rev", "4:0.5:0")
     assert (other["pitch_per_rev"][0]["per_rev"], other["active_twist"]) == (4, found["active_twist"])
-    assert main(["actuator", "--harmonic", "2", "--twist-per-rev", "2:1:0"]) == 2
-    assert "take one of them away" in capsys.readouterr().err
     assert main(["solve", "--pitch-per-rev", "1:1:0"]) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 

@@ -1,55 +1,27 @@
-"""What would pay: the break-even line of this rotor on the stage, where real actuators and a supposed one stand, and in
-the rail the builds nearest to it.
+"""What would pay: the break-even line of this rotor on the stage, where real actuators and a supposed one stand.
 
-Worked out in the background when asked for, and kept until the design or the flight conditions are others. The
-supposed actuator is dragged (`explorer/web/flight.js`) and stays in the address; what it saves is read off the line
+The supposed actuator is dragged (`explorer/web/flight.js`) and stays in the address; what it saves is read off the line
 until its own trims are known.
 """
 
 import math
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from explorer.model.units import SI, Units, number
 from explorer.sharing.share import Address
-from explorer.tabs.background import BackgroundWork, Call, PoolAnswers
+from explorer.tabs.background import Call, PoolAnswers
 from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import chart_box
-from explorer.text.glossary import hint
 from explorer.text.readout import fuel_words, needs, needs_words
-from rotor.actuator import (
-    BreakEven,
-    ConditionPair,
-    PaySearch,
-    Supposed,
-    Verdict,
-    break_even,
-    pay_sentence,
-    suppose,
-    what_would_pay,
-)
-from rotor.actuator.pay import Candidate, search_sentence
+from rotor.actuator import BreakEven, ConditionPair, Supposed, Verdict, break_even, pay_sentence, suppose
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
-from rotor.markup import Markup, tag
-from rotor.processes import JobEnded, JobEvent, JobProgress
 from rotor.trim.doubt import sureness
-from rotor.worker_process import Stop, Tell
 
-_LIMIT = 300.0
-"""Longest time of a search [s], which takes ten on an idle machine."""
-_KEPT_SPACE = "\u00a0"
-_SHOWN = 5
-"""Builds in the table."""
-_START = "How far an actuator must twist this blade, and how light it must be, before it saves more than it costs."
 _URGENCY = 4
 """Asked for by hand, so before the verdicts on the other actuators."""
-_NO_BLADE = "This blade carries no actuator, as the sentence above says: choose the UH-60A, or change the build."
-_COMPUTING = "Trimming the break-even line, then material, layers, span and stiffness…"
 SUPPOSED = "i"
 """Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
 MOST_TWIST, MOST_MASS = 90.0, 1e4
@@ -59,52 +31,14 @@ _STILL = 0.25
 """How long the supposed actuator must stand before it is trimmed [s]."""
 
 
-@dataclass(frozen=True)
-class PayAnswer:
-    """What the panel shows; it pickles in some kilobytes."""
-
-    even: BreakEven
-    sentences: tuple[str, ...]
-    builds: tuple[Candidate, ...]
-
-
-def pay_answer(pair: ConditionPair, builds: bool) -> PayAnswer:
-    """The break-even line, and with `builds` the builds nearest to it.
-
-    ValueError or RuntimeError with a sentence where there is none.
-    """
-    search = what_would_pay(pair, judged=0) if builds else PaySearch(break_even(pair), (), ())
-    said = tuple(filter(None, (pay_sentence(search.even), search_sentence(search))))
-    return PayAnswer(search.even, said, search.candidates[:_SHOWN])
-
-
-@dataclass(frozen=True)
-class PayTask:
-    """Reports the line, then searches the builds; its result is a sentence where there is no answer."""
-
-    pair: ConditionPair
-
-    def run(self, tell: Tell, stop: Stop) -> PayAnswer | str:
-        del stop  # Ten seconds.
-        try:
-            tell(pay_answer(self.pair, builds=False))
-            return pay_answer(self.pair, builds=True)
-        except (ValueError, RuntimeError) as error:
-            return str(error)
-
-
-class PayPanel(BackgroundWork):
+class WhatWouldPay:
     """One client's, where the context stands."""
 
     def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
         """`problems` get a title and a sentence where the address cannot be read."""
-        super().__init__(context.pool, context.wake, _LIMIT, _URGENCY, restarts=True)
         self._context, self._address, self._bridge = context, address, context.bridge
         self._pair: ConditionPair | None = None
         """Conditions of the design on the sliders; None where it carries no actuator."""
-        self._asked: ConditionPair | None = None
-        self._answer: PayAnswer | None = None
-        """To what was asked last."""
         self._lines = PoolAnswers(context.pool, _URGENCY, context.wake)
         self._trims = PoolAnswers(context.pool, _URGENCY, context.wake)
         self._place = address.read(SUPPOSED, place_of, None, "Not the supposed actuator of the link", problems)
@@ -115,23 +49,10 @@ class PayPanel(BackgroundWork):
         """Whether the supposed actuator pays: its blade lights green."""
         self.sentence = ""
         """What it saves, for a picture; empty where none is shown."""
-        self.line = _START
         context.bridge.on("suppose", self._suppose)
-        with context.gui.add_folder("What would pay"):
-            button = context.gui.add_button("Find what would pay", hint=hint("what_would_pay"))
-            self._html = context.gui.add_html(_small("start", _START, ".rx-dim"))
-        button.on_click(lambda _: self.begin())
-
-    def prepare(self) -> tuple[PayTask, Callable[[JobEvent], None], str]:
-        """The search for the pair of conditions that is shown."""
-        if self._pair is None:
-            raise ValueError(_NO_BLADE)
-        self._asked, self._answer = self._pair, None
-        return PayTask(self._pair), partial(self._hear, self._pair), _COMPUTING
 
     def stop(self) -> None:
         """The browser has left."""
-        super().stop()
         self._lines.stop()
         self._trims.stop()
 
@@ -144,14 +65,7 @@ class PayPanel(BackgroundWork):
     def refresh(self, pair: ConditionPair | None, verdicts: Sequence[Verdict] = ()) -> None:
         """Follow the design; `verdicts` on actuators, as far as there are any, the chosen one's first."""
         self._pair = pair
-        # The last sentence counts the builds that pay: it stands on the stage, as long as it is about what is shown.
-        answer = self._answer if self._asked == pair else None
-        self._bridge.set(pays=None if answer is None else answer.sentences[-1], suppose=self._stage(verdicts))
-        if self._answer is not None:
-            self._html.content = pay_panel(self._answer, stale=self._asked != pair)
-            return
-        kind = "computing" if self.running else "start" if self.line == _START else "problem"
-        self._html.content = _small(kind, self.line, ".rx-dim" if kind == "start" else "")
+        self._bridge.set(suppose=self._stage(verdicts))
 
     def _suppose(self, value: Any) -> None:
         """The stage shows the line or no longer, or the supposed actuator is dragged to [°, kg]."""
@@ -191,7 +105,10 @@ class PayPanel(BackgroundWork):
         self.sentence = f"{size} {needs_words(saving, None if trimmed is None else trimmed.band, units)}"
         more = " …" if trimmed is None else f", {fuel_words(trimmed.fuel_saving)}"
         most = even.mass_allowed(twist)
-        note = f"With this twist it pays up to {number(most, 0 if most >= 10.0 else 1)} kg, less what its drive takes."
+        note = (
+            f"With this twist it pays up to {number(most, 0 if most >= 10.0 else 1)} kg, less what its drive takes. "
+            f"{pay_sentence(even)}"
+        )
         if isinstance(found, str):
             note = found
         return {
@@ -201,15 +118,6 @@ class PayPanel(BackgroundWork):
             "note": note,
             "kind": kind,
         }
-
-    def _hear(self, pair: ConditionPair, news: JobEvent) -> None:
-        if pair is not self._asked:
-            return  # Of the search before.
-        match news:
-            case JobProgress(PayAnswer() as answer) | JobEnded(PayAnswer() as answer):
-                self._answer = answer
-            case _:
-                self._ended_without(news)
 
 
 def place_of(text: str) -> tuple[float, float]:
@@ -227,50 +135,7 @@ def _first_place(even: BreakEven, verdicts: Sequence[Verdict]) -> tuple[float, f
     return math.degrees(0.5 * float(even.twists[-1])), 2.0 * float(even.masses[-1])
 
 
-def _small(kind: str, text: str, look: str = "") -> Markup:
-    return tag(f"div.rx{look}.rx-small", text, data_explorer="pay", data_kind=kind)
-
-
-def pay_panel(answer: PayAnswer, *, stale: bool = False) -> Markup:
-    """Sentences, the chart of drive power and the nearest builds."""
-    lead, *more = answer.sentences
-    earlier = "Of an earlier design or pair of conditions: find again."
-    charts = []
-    if answer.even.worthwhile:
-        charts = [
-            tag("div", chart_box(drive_chart(answer.even), _HEIGHT), data_explorer="pay-drive"),
-            tag("div.rx-dim", "Earns: what its twist saves over what it costs."),
-        ]
-    return tag(
-        "div.rx.rx-small.rx-faded" if stale else "div.rx.rx-small",
-        tag("div.rx-dim", earlier) if stale else None,
-        tag("b", lead),
-        [tag("div", sentence) for sentence in more],
-        charts,
-        _table(answer.builds),
-        data_explorer="pay",
-        data_kind="ready",
-    )
-
-
-def _table(builds: tuple[Candidate, ...]) -> Markup | None:
-    if not builds:
-        return None
-    rows = list[Markup]()
-    for build in builds:
-        cells = (math.degrees(build.installed.attainable), 1), (build.mass, 0), (100.0 * build.earned, 0)
-        name = build.name.replace(" × ", _KEPT_SPACE.join(("", "×", ""))).replace(" R", f"{_KEPT_SPACE}R")
-        net = build.estimate.net
-        numbers = [tag("td", number(value, places)) for value, places in cells]
-        last = tag("td.rx-less" if net > 0.0 else "td.rxa-bad", number(1e-3 * net, 1, sign=True))
-        rows.append(tag("tr", tag("td", name), numbers, last))
-    heads = ("nearest builds", "°", "kg", ("earns", tag("br"), "%"), ("net", tag("br"), "kW"))
-    head = tag("tr", [tag("th", head) for head in heads])
-    return tag("table.rxa-table.rxa-pay", head, rows, data_explorer="pay-builds")
-
-
 _LINE, _PAYS = "#1c7ed6", "#0ca678"
-_HEIGHT = 130.0
 
 
 def mass_chart(even: BreakEven, verdicts: Sequence[Verdict] = (), units: Units = SI) -> Chart:
@@ -304,20 +169,4 @@ def mass_chart(even: BreakEven, verdicts: Sequence[Verdict] = (), units: Units =
         tuple(series),
         note="Driven: half of what unlimited twist saves goes to the drive. Points: real actuators at the reach of "
         "their tip; what fitting them to this blade costs besides is in their words.",
-    )
-
-
-def drive_chart(even: BreakEven) -> Chart:
-    """Drive power that pays over mass, with all and with half of the twist."""
-    largest, all_twist = float(even.masses[-1]), float(even.twists[-1])
-    lines = list[Line]()
-    for twist, dashes in ((all_twist, ""), (0.5 * all_twist, "4 3")):
-        masses = np.linspace(0.0, even.mass_allowed(twist), 12)
-        power = [1e-3 * even.net(twist, mass) for mass in masses.tolist()]
-        lines.append(Line(f"{math.degrees(twist):.1f}°", masses, power, _LINE, dashes))
-    return Chart(
-        "Drive power that pays",
-        Axis("mass, all blades [kg]", (0.0, 1.05 * largest)),
-        Axis("kW", (0.0, 1.1e-3 * even.ideal_saving)),
-        tuple(lines),
     )
