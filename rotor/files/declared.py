@@ -31,7 +31,7 @@ BY_KIND: dict[Kind, Any] = {"number": Number, "whole": Whole, "text": str, "choi
 """What a file gives for each kind of quantity."""
 
 
-class Table(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class FileTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A table of a file: its keys with their types, bounds and defaults. Another key is an error."""
 
 
@@ -87,9 +87,9 @@ def _refusal(place: Place, value: Any, options: list[inspect.Type]) -> Refusal:
                 return _wrong_key(place, cast("dict[str, Any]", value), each)
             case inspect.VarTupleType(), []:
                 return Refusal(f"{_key(place)[0]} has no values: give one at least", *place)
-            case inspect.LiteralType(values=choices), str():
+            case inspect.LiteralType(values=choices), _ if isinstance(value, str) or len(options) == 1:
                 names = [str(choice) for choice in choices]
-                hint = did_you_mean(value, names) or ":"
+                hint = (isinstance(value, str) and did_you_mean(value, names)) or ":"
                 return Refusal(f"{_says(place, repr(value))}{hint} use {' or '.join(names)}", *place)
             case (inspect.IntType(ge=low, le=high), int()) | (inspect.FloatType(ge=low, le=high), int() | float()):
                 if not isinstance(value, bool):
@@ -149,7 +149,7 @@ def _out_of_bounds(place: Place, value: float, low: float | None, high: float | 
     return Refusal(f"{_says(place, number)}, outside {bounds}: check value and unit", *place)
 
 
-def one_of(table: Table, *keys: str) -> str:
+def one_of(table: FileTable, *keys: str) -> str:
     """The key that a table has; Refusal unless it is exactly one of these."""
     given = [key for key in keys if getattr(table, key) is not None]
     if len(given) > 1:

@@ -6,7 +6,7 @@
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import msgspec
 
@@ -16,7 +16,8 @@ from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
 from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SWITCHES
-from rotor.files.declared import BY_KIND, Table, convert
+from rotor.design.quantity import Quantity
+from rotor.files.declared import BY_KIND, FileTable, convert
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
@@ -30,10 +31,17 @@ _BESIDE = ("format", "version", "solution")
 """Keys that are no quantities; `solution` holds the results that `Solution.save` adds, which are not read back."""
 _READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand", "active_twist", *_BESIDE)
 """Keys whose values are checked where they are read."""
+
+
+def _declared(row: Quantity) -> Any:
+    """The type of a quantity in a file."""
+    return Literal[row.choices] if row.kind == "choice" else BY_KIND[row.kind]
+
+
 _Record = msgspec.defstruct(
     "_Record",
-    [(key, Any if key in _READ_LATER else BY_KIND[BY_KEY[key].kind], None) for key in (*BY_KEY, *_BESIDE)],
-    bases=(Table,),
+    [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)],
+    bases=(FileTable,),
 )
 
 

@@ -14,7 +14,7 @@ from msgspec.structs import fields
 from rotor.design.aircraft import ControlRange, Hub, TailRotor
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.design.uncertain import UNCERTAIN
-from rotor.files.declared import Refusal, Share, Table, Text, check_bounds, one_of
+from rotor.files.declared import FileTable, Refusal, Share, Text, check_bounds, one_of
 
 BAILEY_POLAR = (0.0087, -0.0216, 0.4)
 """c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): used for tail rotors without a polar."""
@@ -40,13 +40,13 @@ def _check_stations(place: str, stations: tuple[float, ...], key: str, values: t
             raise Refusal(f"{place} goes from {low:g} to {high:g}: write the stations in ascending order", place)
 
 
-class SpanTable(Table, frozen=True, kw_only=True):
+class SpanTable(FileTable, frozen=True, kw_only=True):
     start_r: Share
     end_r: Share
     section: Text
 
 
-class StructureTable(Table, frozen=True, kw_only=True):
+class StructureTable(FileTable, frozen=True, kw_only=True):
     """The fields are those of `BladeStructure`."""
 
     stations: tuple[Annotated[float, Meta(ge=0.0, le=30.0)], ...] = field(name="r_m")
@@ -74,7 +74,7 @@ class StructureTable(Table, frozen=True, kw_only=True):
             raise Refusal(f"{given[0]} alone: give {' and '.join(bending)}, or neither", given[0])
 
 
-class BladeTable(Table, frozen=True, kw_only=True):
+class BladeTable(FileTable, frozen=True, kw_only=True):
     chord_m: _Chord | tuple[_Chord, ...]
     chord_r: tuple[Share, ...] | None = None
     section: Text | None = None
@@ -165,7 +165,7 @@ class MainRotorTable(BladeTable, frozen=True, kw_only=True):
             raise Refusal(f"{says}: with two blades write teetering", "hub")
 
 
-class TailRotorTable(Table, frozen=True, kw_only=True):
+class TailRotorTable(FileTable, frozen=True, kw_only=True):
     blades: Annotated[int, Meta(ge=2, le=20)]
     radius_m: Annotated[float, Meta(ge=0.05, le=10.0)]
     angular_speed_rad_s: _AngularSpeed | None = None
@@ -205,7 +205,7 @@ def angular_speed(rotor: MainRotorTable | TailRotorTable) -> float:
     return rotor.angular_speed_rad_s or (rotor.tip_speed_m_s or 0.0) / rotor.radius_m
 
 
-class AirframeTable(Table, frozen=True, kw_only=True):
+class AirframeTable(FileTable, frozen=True, kw_only=True):
     mass_kg: Annotated[float, Meta(ge=100.0, le=50_000.0)]
     drag_area_m2: _Area
     drag_area_low_m2: _Area | None = None
@@ -225,7 +225,7 @@ class AirframeTable(Table, frozen=True, kw_only=True):
         return low, high
 
 
-class ControlsTable(Table, frozen=True, kw_only=True):
+class ControlsTable(FileTable, frozen=True, kw_only=True):
     collective_deg: tuple[_Angle, _Angle]
     lateral_deg: tuple[_Angle, _Angle]
     longitudinal_deg: tuple[_Angle, _Angle]
@@ -246,12 +246,12 @@ class ControlsTable(Table, frozen=True, kw_only=True):
 DoubtTable = defstruct(
     "DoubtTable",
     [(row.name, Annotated[float, Meta(ge=0.0, le=row.largest)], None) for row in UNCERTAIN],
-    bases=(Table,),
+    bases=(FileTable,),
 )
 """Sizes of uncertain inputs, by the names of `assets/doubt.toml`."""
 
 
-class TopTable(Table, frozen=True, kw_only=True):
+class TopTable(FileTable, frozen=True, kw_only=True):
     """The file itself. Its main rotor, doubt and sections are read by their own tables."""
 
     name: Text

@@ -13,13 +13,13 @@ from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_co
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, parse_polar_file
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
-from rotor.files.declared import Place, Refusal, Table, Text, one_of
+from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
 
 UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
 
 
-class OwnSectionTable(Table, frozen=True, kw_only=True):
+class OwnSectionTable(FileTable, frozen=True, kw_only=True):
     deck: Text | None = None
     polars: Text | Annotated[tuple[Text, ...], Meta(min_length=1)] | None = None
     outline: Text | None = None

@@ -15,7 +15,7 @@ from msgspec import Meta, field
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
-from rotor.files.declared import BY_KIND, Number, Refusal, Table, Text, convert, naming, read_toml
+from rotor.files.declared import BY_KIND, FileTable, Number, Refusal, Text, convert, naming, read_toml
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.objective import Quantity as Objective
@@ -44,7 +44,7 @@ _Rate = Annotated[float, Meta(ge=-_STEEPEST, le=_STEEPEST)]
 _Seed = Annotated[int, Meta(ge=0, le=2**31)]
 
 
-class _Range(Table, frozen=True, kw_only=True):
+class _Range(FileTable, frozen=True, kw_only=True):
     """An axis that is sampled."""
 
     low: Number
@@ -56,13 +56,13 @@ def _kind(key: str) -> Any:
     return BY_KIND[QUANTITIES[key].kind] if key in PLAIN else _Rate
 
 
-class _Sample(Table, frozen=True, kw_only=True):
+class _Sample(FileTable, frozen=True, kw_only=True):
     method: Method = "sobol"
     count: Annotated[int, Meta(ge=1, le=2**24)]
     seed: _Seed = 0
 
 
-class _Optimum(Table, frozen=True, kw_only=True):
+class _Optimum(FileTable, frozen=True, kw_only=True):
     starts: Annotated[int, Meta(ge=1, le=1000)] = OptimumSettings.starts
     seed: _Seed = OptimumSettings.seed
     objective: Objective = OptimumSettings.objective
@@ -80,12 +80,12 @@ class _Optimum(Table, frozen=True, kw_only=True):
         return OptimumSettings(self.starts, self.seed, self.objective, rate, stalled, self.index_percent)
 
 
-class _Show(Table, frozen=True, kw_only=True):
+class _Show(FileTable, frozen=True, kw_only=True):
     least: Text = ShowSettings.least
     uncertain: Text | tuple[Text, ...] = ()
 
 
-class _Top(Table, frozen=True, kw_only=True):
+class _Top(FileTable, frozen=True, kw_only=True):
     """The keys of the first three tables are names of quantities."""
 
     axes: dict[str, Any] = field(default_factory=dict[str, Any])

@@ -9,7 +9,7 @@ from rotor.trim.solution import Solution
 
 
 class Analysis:
-    """Of a solution: each part is computed when it is first asked for; the slopes of power share one adjoint.
+    """What is asked of a solution, computed when it is first asked for; the slopes of power share one adjoint.
 
     The parts raise RuntimeError with the solution's sentence when it is not converged.
     """

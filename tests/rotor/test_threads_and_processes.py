@@ -65,7 +65,7 @@ def test_a_trim_runs_on_one_thread():
 
 
 _SCRIPT = """
-from rotor.processes import start_process
+from rotor.worker_process import start_process
 print("script", flush=True)
 process = start_process(print, ("work",), "worker")
 process.join()

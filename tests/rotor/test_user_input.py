@@ -130,7 +130,7 @@ def test_the_command_line_refuses_in_one_short_line(arguments: list[str], capsys
     assert len(err) <= 410
 
 
-@pytest.mark.parametrize("command", ["sweep --mu 0.1:0.3:0.01", "ideal --mu 0.1:0.3:0.01", "schedule --concept all"])
+@pytest.mark.parametrize("command", ["sweep --mu 0.1:0.3:0.01", "schedule --concept all"])
 def test_a_file_that_cannot_be_written_is_reported_before_the_work(
     command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):

@@ -131,11 +131,17 @@ def test_beyond_all_measured_stall_there_is_no_power():
 
 
 @pytest.mark.parametrize(("given", "meant"), [(True, "on"), (False, "off"), ("auto", "auto"), ("on", "on")])
-def test_true_and_false_of_older_files_mean_on_and_off(given: object, meant: str):
-    design = design_from_record({"dynamic_stall": given})
+def test_true_and_false_mean_on_and_off_in_python(given: object, meant: str):
+    design = design_from_record({"dynamic_stall": meant})
     assert design.models.dynamic_stall == meant
     assert design_from_record(design.to_dict()).models == design.models
     assert make_design(dynamic_stall=cast(Any, given)).models == design.models
+
+
+@pytest.mark.parametrize("given", [True, 1, "often"])
+def test_a_file_is_told_the_choices(given: object):
+    with pytest.raises(ValueError, match=f"dynamic_stall is {given!r}: use auto or off or on"):
+        design_from_record({"dynamic_stall": given})
 
 
 def test_a_word_that_is_no_choice_gets_a_sentence():
