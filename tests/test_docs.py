@@ -136,11 +136,11 @@ def test_each_section_of_the_theory_has_a_figure():
     assert all(f"\ndef {name}()" in drawn for found in named for name in found)
 
 
-def examples(path: Path) -> list[str]:
-    return re.findall(r"^```python\n(.*?)^```", text(path), flags=re.DOTALL | re.MULTILINE)
+def examples(page: str) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", page, flags=re.DOTALL | re.MULTILINE)
 
 
-TASKS = examples(DOCS / "guide" / "tasks.md")
+TASKS = examples(text(DOCS / "guide" / "sweep.md").partition("\n## Three tasks\n")[2])
 
 
 @pytest.mark.parametrize("code", TASKS, ids=["two rotors", "three segments", "2/rev"])
@@ -162,10 +162,10 @@ def test_the_three_tasks(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", [path for path in GUIDES if path.stem != "tasks"], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", GUIDES, ids=lambda path: path.stem)
 def test_examples_of_the_guides_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
-    for code in examples(path):
+    for code in examples(text(path).partition("\n## Three tasks\n")[0]):
         exec(code, {})
 
 
