@@ -25,7 +25,7 @@ def test_it_is_short(name: str, most: int):
 
 
 def test_a_version_is_one_screen_of_the_changelog():
-    """Details are in docs/history.md; what is not released yet may have somewhat more."""
+    """What is not released yet may have somewhat more."""
     _, *versions = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
     assert [version[:7] for version in versions][-3:] == ["[0.3.0]", "[0.2.0]", "[0.1.0]"]
     assert all(len(version.splitlines()) <= (60 if version.startswith("[Unreleased]") else 45) for version in versions)
