@@ -171,5 +171,6 @@ def _changed(alter: Blade) -> Callable[..., BladeTorsion]:
 
 if __name__ == "__main__":
     for words in (*DESIGNS, *MOMENTS, *BLADES, "four torsion modes"):
-        second, curve = (", ".join(f"{value:.2f}" for value in row) for row in found_with(words))
-        print(f"| {words[:1].upper()}{words[1:]} | {second} | {curve} |", flush=True)
+        second, curve = found_with(words)
+        numbers = ", ".join(f'"{value:.2f}"' for value in (*second, *curve))
+        print(f'["{words[:1].upper()}{words[1:]}", {numbers}],', flush=True)
