@@ -83,17 +83,6 @@ def test_pictures_are_drawn_from_the_same_numbers(name: str):
         assert_allclose(places(drawn), places(shipped), atol=0.5)
 
 
-def test_every_link_of_the_pages_has_a_target():
-    """Links of theory, trust pages, developers' pages, README and CONTRIBUTING point to existing files."""
-    top = (DOCS.parent / name for name in ("README.md", "CONTRIBUTING.md"))
-    for text in (*DOCS.glob("*.md"), *DOCS.glob("developers/**/*.md"), *PAGES[1:], *top):
-        links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
-        # The site builds docs/_made/notebooks from docs/notebooks.
-        written = [link.removesuffix("/index").replace("_made/", "") if "_made/" in link else link for link in links]
-        missing = [link for link in written if "://" not in link and not (text.parent / link).exists()]
-        assert not missing, f"{text.name}: {missing}"
-
-
 def test_every_row_names_a_test_that_exists():
     known: dict[str, set[str]] = {}
     for path in TESTS.rglob("test_*.py"):
