@@ -7,8 +7,11 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.assets import csv_rows
 from rotor.chart_svg import small_svg, svg
 from rotor.validation import verification
+from rotor.validation.compare import SETS as MEASURED
+from rotor.validation.compare import load_set
 from rotor.validation.page import LONGEST, SETS
 from rotor.validation.trust import KINDS, trust_rows
 from tests.shipped_rows import still_true
@@ -81,6 +84,15 @@ def test_pictures_are_drawn_from_the_same_numbers(name: str):
     for drawn, file in ((svg(one.charts[0]), f"{name}.svg"), (small_svg(one.charts[0]), f"{name}-small.svg")):
         shipped = (DOCS / "validation" / file).read_text(encoding="utf-8")
         assert_allclose(places(drawn), places(shipped), atol=0.5)
+
+
+@pytest.mark.parametrize("name", [name for name in MEASURED if name != "uh60a-hover"])  # That page has C_P/σ.
+def test_every_measured_point_stands_in_the_table_beside_its_page(name: str):
+    measured = load_set(name)
+    rows = csv_rows(DOCS / "validation" / f"{name}.csv")
+    assert [float(row["Measured"]) for row in rows] == pytest.approx(
+        [point[measured.quantity] for point in measured.points], rel=1e-4
+    )
 
 
 def test_every_row_names_a_test_that_exists():
