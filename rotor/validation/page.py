@@ -170,7 +170,10 @@ def set_page(data: TrustSet) -> str:
     return _page(
         f"# {data.title}",
         f"{_AGAINST[kind].capitalize()}: {data.compared}. {_source(data)}{'' if judged else ' No target is set.'}",
-        *(f"![{chart.title}]({_picture(data, k)})" for k, chart in enumerate(data.charts)),
+        *(
+            f"![{chart.title if chart.title != data.title else ''}]({_picture(data, k)})"
+            for k, chart in enumerate(data.charts)
+        ),
         *words,
         " ".join(
             (
@@ -220,8 +223,10 @@ def _page(*parts: str) -> str:
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *([cell.replace("|", "\\|") for cell in row] for row in rows)]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    head, *cells = (
+        f"| {' | '.join(line)} |" for line in (heads, *([cell.replace("|", "\\|") for cell in row] for row in rows))
+    )
+    return "\n".join((head, f"|{'---|' * len(heads)}", *cells))
 
 
 def _capital(words: str) -> str:
