@@ -142,7 +142,8 @@ def set_page(data: TrustSet) -> str:
     labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     judged = kind == "document" or any(row.target for row in data.rows)
     remarks = [row.note for row in data.rows]
-    in_table = data.verdict != "missed" and 1 < len({*remarks}) == len(remarks) and _short(remarks)
+    short = all(0 < len(note) <= LONGEST for note in remarks) and 1 < len({*remarks}) == len(remarks)
+    in_table = short and data.verdict != "missed"
     columns = {
         "": labels,
         "Against": [row.against for row in data.rows],
@@ -163,7 +164,7 @@ def set_page(data: TrustSet) -> str:
         notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [*data.text, *map(_statement, data.rows)]
+        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
         words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
@@ -185,11 +186,6 @@ def set_page(data: TrustSet) -> str:
     )
 
 
-def _statement(row: TrustRow) -> str:
-    """A statement of the thesis with its verdict and our numbers."""
-    return f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}"
-
-
 def _tables(data: TrustSet) -> Iterator[tuple[str, str, Sequence[Sequence[str]]]]:
     """The CSV files beside the page of a set: name, what it holds, rows."""
     if data.points:
@@ -204,11 +200,6 @@ def _tests(data: TrustSet) -> str:
     if len(tests) > 3:
         tests = dict.fromkeys(test.partition("::")[0] for test in tests)
     return ", ".join(f"`{test}`" for test in tests)
-
-
-def _short(remarks: Iterable[str]) -> bool:
-    """Whether each is there and fits into a cell."""
-    return all(0 < len(note) <= LONGEST for note in remarks)
 
 
 def _source(data: TrustSet) -> str:
