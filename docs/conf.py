@@ -180,11 +180,6 @@ def source_links(_app: Sphinx, docname: str, content: list[str]):
     content[0] = re.sub(r"\]\((\.\./[\w./]+)/\)", r"](\1/__init__.py)", content[0])
 
 
-def included_links(_app: Sphinx, path: Path, _parent: str, content: list[str]):
-    """CONTRIBUTING and the like are written for the top folder."""
-    content[0] = re.sub(r"\]\(docs/([\w.]+)\)", r"](\1)", content[0])
-
-
 def mathml(self: HTML5Translator, node: nodes.math | nodes.math_block):
     self.body.append(convert(node.astext(), display="block" if isinstance(node, nodes.math_block) else "inline"))
     raise nodes.SkipNode
@@ -215,5 +210,4 @@ def setup(app: Sphinx):
     app.connect("autodoc-process-docstring", as_restructured_text)
     app.connect("autodoc-process-signature", plain_defaults)
     app.connect("source-read", source_links)
-    app.connect("include-read", included_links)
     app.connect("build-finished", check_hosts)

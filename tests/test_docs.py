@@ -114,11 +114,44 @@ def test_tutorials_name_sliders_and_buttons_that_exist(path: Path):
     assert len(named) >= (8 if path.stem == "drag" else 0)
 
 
-def examples(path: Path) -> list[str]:
-    return re.findall(r"^```python\n(.*?)^```", text(path), flags=re.DOTALL | re.MULTILINE)
+SITE = {path for path in DOCS.rglob("*.md") if path.relative_to(DOCS).parts[0] not in ("_made", "developers")}
+DEVELOPERS = {*(DOCS / "developers").rglob("*.md")}
+TOP = tuple(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md"))
 
 
-TASKS = examples(DOCS / "guide" / "tasks.md")
+def linked(page: Path) -> set[Path]:
+    """Files that the words of a page link to. Its hidden table of contents does not count."""
+    words = re.sub(r"```\{toctree\}.*?```", "", text(page), flags=re.DOTALL)
+    links = re.findall(r"\]\(([^)#\s]+)", words)
+    links += [f"{name}.md" for name in re.findall(r"\{doc\}`(?:[^`<]*<)?([^`>]+)", words)]
+    return {(page.parent / link).resolve() for link in links if "://" not in link}
+
+
+@pytest.mark.parametrize("path", sorted({*SITE, *DEVELOPERS, *TOP}), ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_link_is_dead(path: Path):
+    made = DOCS / "_made"  # Of the notebooks, when the site is built.
+    assert not [str(link) for link in linked(path) if not link.exists() and not link.is_relative_to(made)]
+
+
+@pytest.mark.parametrize(("start", "pages"), [(DOCS / "index.md", SITE), (TOP[0], DEVELOPERS)], ids=["site", "code"])
+def test_every_page_is_found_in_three_clicks(start: Path, pages: set[Path]):
+    reached, at = {start}, {start}
+    for _ in range(3):
+        at = {link for page in at for link in linked(page) if link.suffix == ".md" and link.exists()} - reached
+        reached |= at
+    assert not {str(page) for page in pages - reached}
+
+
+def test_what_the_page_on_attacks_names_exists():
+    tests = {path.name for path in (ROOT / "tests").rglob("test_*.py")}
+    assert not {*re.findall(r"test_\w+\.py", text(DOCS / "developers" / "made.md"))} - tests
+
+
+def examples(page: str) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", page, flags=re.DOTALL | re.MULTILINE)
+
+
+TASKS = examples(text(DOCS / "guide" / "sweep.md").partition("\n## Three tasks\n")[2])
 
 
 @pytest.mark.parametrize("code", TASKS, ids=["two rotors", "three segments", "2/rev"])
@@ -140,10 +173,10 @@ def test_the_three_tasks(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", [path for path in GUIDES if path.stem != "tasks"], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", GUIDES, ids=lambda path: path.stem)
 def test_examples_of_the_guides_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
-    for code in examples(path):
+    for code in examples(text(path).partition("\n## Three tasks\n")[0]):
         exec(code, {})
 
 

@@ -16,7 +16,7 @@
 client is in `explorer/web/viser.js`: its docks stay in a narrow window, no edit is lost to the next, we hear when it
 can send, a page that is seen tries to connect, messages for the scene are handled on arrival, in software drawn once,
 and an attempt to connect may take its time (`test_reconnect.py`).
-What would make each of these changes needless: docs/developers/upstream/README.md.
+What would make each of these changes needless: docs/developers/made.md.
 """
 
 import asyncio

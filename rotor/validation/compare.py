@@ -322,10 +322,10 @@ def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
     head = [*(LABELS[name] for name in measured.varied), "Measured"]
     rows = [[f"{point[name]:.5g}" for name in (*measured.varied, quantity)] for point in measured.points]
     for comparison in comparisons:
-        head += [f"Ours, {comparison.inflow}", "Error"]
+        head += [f"Ours, {comparison.inflow}", f"Error [%], {comparison.inflow}"]
         for row, point in zip(rows, comparison.points, strict=True):
             ours = point.ours
-            row += [f"{ours[quantity]:.5g}", f"{point.error_percent:+.1f} %"] if ours else ["no trim", ""]
+            row += [f"{ours[quantity]:.5g}", f"{point.error_percent:+.1f}"] if ours else ["no trim", ""]
     if not measured.indicative:
         head.append("Verdict")
         for row, point in zip(rows, comparisons[0].points, strict=True):

@@ -65,7 +65,7 @@ def doubt_set() -> TrustSet:
     """For the trust page."""
     words, held = description(NAME), list(held_points())
     by_name = {name: [point for point in held if point.name == name] for name in dict.fromkeys(p.name for p in held)}
-    heads = ("Set", "Points", "Inside", "Mean band", "Mean error", "Worst error")
+    heads = ("Set", "Points", "Inside", "Mean band [%]", "Mean error [%]", "Worst error [%]")
     rows: list[TrustRow] = []
     series: list[Points] = []
     cells: list[tuple[str, ...]] = [heads]
@@ -75,7 +75,7 @@ def doubt_set() -> TrustSet:
         series.append(Points("", [point.error / point.band for point in points], [k] * count, 1))
         errors = [point.error for point in points]
         band, mean = sum(point.band for point in points) / count, sum(errors) / count
-        parts = f"{100 * band:.1f} %", f"{100 * mean:+.1f} %", f"{100 * max(errors, key=abs):+.1f} %"
+        parts = f"{100 * band:.1f}", f"{100 * mean:+.1f}", f"{100 * max(errors, key=abs):+.1f}"
         cells.append((name, f"{count}", f"{inside}", *parts))
     error = f"{sum(point.inside for point in held)} of {len(held)} inside"
     chart = Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=tuple(by_name)), tuple(series))

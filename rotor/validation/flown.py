@@ -281,20 +281,21 @@ def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
-    rows = [("Helicopter", "Quantity", "At", "Measured", "Ours", "Band or error")]
+    rows = [("Helicopter", "Quantity", "At", "Measured", "Ours", "Band", "Error")]
     for row in powers:
         ours = "no trim" if row.ours is None else f"{row.ours / 1e3:.1f}"
         band = "" if row.band is None else f"{row.band[0] / 1e3:.1f}…{row.band[1] / 1e3:.1f}"
-        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", ours, band))
+        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", ours, band, ""))
     for row in powers:
         if row.measured_angles and row.angles:
             for name, theirs, ours in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
                 error = f"{ours - theirs:+.1f}"
-                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{ours:.1f}", error))
+                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{ours:.1f}", "", error))
     for angle in angles:
         for speed, theirs, ours in zip(angle.speed_kt, angle.measured, angle.ours, strict=True):
             what = f"{ANGLES[angle.quantity]} [°]"
-            rows.append(("Bo 105", what, f"{speed:.1f} kt", f"{theirs:.1f}", f"{ours:.1f}", f"{ours - theirs:+.1f}"))
+            at, error = f"{speed:.1f} kt", f"{ours - theirs:+.1f}"
+            rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{ours:.1f}", "", error))
     return tuple(rows)
 
 
@@ -338,7 +339,9 @@ def _lift_chart(solution: Solution, curves: Sequence[MeasuredCurve]) -> Chart:
 
 
 def _lift_points(agreements: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
-    rows: list[tuple[str, ...]] = [("Flight", "r/R", "Quantity", "Correlation", "rms", "of", "Mean", "Measured mean")]
+    rows: list[tuple[str, ...]] = [
+        ("Flight", "r/R", "Quantity", "Correlation", "rms error", "Measured rms", "Mean", "Measured mean")
+    ]
     for curve in agreements:
         numbers = (curve.correlation, curve.rms, curve.measured_rms, curve.mean, curve.measured_mean)
         rows.append((curve.case.name, f"{curve.r:g}", _LIFT[curve.quantity], *(f"{x:.3f}" for x in numbers)))

@@ -172,7 +172,7 @@ def _vortex_chart(solution: Solution) -> Chart:
 
 def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
     """Means and harmonics."""
-    rows: list[tuple[str, ...]] = [("Case", "Quantity", "n", "Measured", "φ [°]", "Ours", "φ [°]")]
+    rows: list[tuple[str, ...]] = [("Case", "Quantity", "n", "Measured", "Measured φ [°]", "Ours", "Ours φ [°]")]
     for (name, quantity), beside in agreements.items():
         form = ".2f" if quantity == "tip_twist_deg" else ".5f"
         means = f"{beside.measured_mean:{form}}", f"{beside.mean:{form}}"
@@ -181,6 +181,6 @@ def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
             size, angle = beside.amplitude(n, measured=True), beside.phase_deg(n, measured=True)
             ours = f"{beside.amplitude(n):{form}}", f"{beside.phase_deg(n):.0f}"
             if float(ours[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
-                ours = "0", "–"
+                ours = "0", ""
             rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *ours))
     return tuple(rows)

@@ -8,7 +8,7 @@ it anew.
 """
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import astuple, fields
 from functools import partial
 from pathlib import Path
@@ -56,15 +56,21 @@ _AGAINST = {
     "public code": "public code",
     "document": "thesis",
 }
+_ASKS = {
+    "validation": "Are they the right equations? No measured forward-flight power of the UH-60A could be reached, and "
+    "no measured benefit of active twist: published figures of both are computed.",
+    "indicative": "Another model, or data of unclear origin: no proof.",
+    "verification": "Are they solved correctly?",
+    "public code": "The same question, by codes of others.",
+    "document": "What the source document states.",
+}
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 NOT_MODELLED = (
     "blade bending but as an option; torsion where the rotor file has no blade structure",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "a change of lift slope by the swept tip",
     "the trailing-edge tab of the UH-60A, at 0.73 to 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
-    "roll-up and contraction of the wake. Up to µ 0.15 they decide what twist is worth: from −8° to −16° it takes 1.6, "
-    "2.3, 1.5 and 0.0 % off the UH-60A's power in hover and at µ 0.05, 0.1 and 0.15 here, 4 to 5 % with wakes that "
-    "roll up. No measurement known to us decides; a free wake gives ±10 % by choices that no report fixes",
+    "roll-up and contraction of the wake, which decide up to µ 0.15 what twist is worth ([theory](theory.md), §9)",
     "the airframe but for its drag and its download: no upwash, no lift, no interference with the tail",
     "tunnel data of the sections themselves: XFOIL with levels and shocks from public tunnel-derived data; see "
     "[assets/airfoils/CITATION.md](../assets/airfoils/CITATION.md)",
@@ -96,12 +102,15 @@ def trust_csv(rows: Iterable[TrustRow]) -> str:
 
 
 def write_set(data: TrustSet, folder: Path) -> Path:
-    """Write the page of a set and its pictures into `folder`/validation; the path of the page."""
+    """Write the page of a set, its pictures and its tables into `folder`/validation; the path of the page."""
     folder = folder / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     for k, chart in enumerate(data.charts):
         (folder / _picture(data, k)).write_text(svg(chart), encoding="utf-8")
     (folder / f"{data.name}-small.svg").write_text(small_svg(data.charts[0]), encoding="utf-8")
+    for file, _, rows in _tables(data):
+        text = csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n")
+        (folder / file).write_text(text, encoding="utf-8", newline="")
     path = folder / f"{data.name}.md"
     path.write_text(set_page(data), encoding="utf-8")
     return path
@@ -109,23 +118,24 @@ def write_set(data: TrustSet, folder: Path) -> Path:
 
 def summary(sets: Sequence[TrustSet]) -> str:
     """docs/validation.md."""
-    rows = [
-        (
-            f"![{data.title}]({FOLDER}/{data.name}-small.svg)", f"[{data.title}]({FOLDER}/{data.name}.md)",
-            _capital(data.compared), _AGAINST[data.rows[0].kind], data.error, _verdict(data.verdict),
-        )
-        for data in sets
-    ]  # fmt: skip
+    parts: list[str] = []
+    for kind, against in _AGAINST.items():
+        rows = [
+            (
+                f"![]({FOLDER}/{data.name}-small.svg)", f"[{data.title}]({FOLDER}/{data.name}.md)",
+                _capital(data.compared), data.error, _verdict(data.verdict),
+            )
+            for data in sets if data.rows[0].kind == kind
+        ]  # fmt: skip
+        table = _table(("", "Set", "Compared", "Error", "Verdict"), rows)
+        parts += [f"## {_capital(against)}", _ASKS[kind], table] if rows else []
     words = "; ".join(f"**{word}**: {meaning}" for word, meaning in VERDICTS.items())
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        f"None of these points was fitted to. {words}. How sure a power is, and what "
+        f"Nothing was fitted to these points. {words}. How sure a power is, and what "
         "moves the best twist: [doubt](guide/doubt.md).",
-        _table(("", "Set", "Compared", "Against", "Error", "Verdict"), rows),
-        "**Measurement**: are they the right equations? **Theory** and **public code**: are they solved correctly? "
-        "**Indicative**: another model, or data of unclear origin; no proof. No measured forward-flight power of the "
-        "UH-60A could be reached, and no measured benefit of active twist: published figures of both are computed.",
+        *parts,
         "## Not modelled",
         "\n".join(f"- {item}" for item in NOT_MODELLED),
         "```{toctree}\n:hidden:\n" + "".join(f"{FOLDER}/{data.name}\n" for data in sets) + "```",
@@ -136,21 +146,28 @@ def set_page(data: TrustSet) -> str:
     """docs/validation/NAME.md."""
     kind = data.rows[0].kind
     labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
+    judged = kind == "document" or any(row.target for row in data.rows)
+    remarks = [row.note for row in data.rows]
+    short = all(0 < len(note) <= LONGEST for note in remarks) and 1 < len({*remarks}) == len(remarks)
+    in_table = short and data.verdict != "missed"
     columns = {
         "": labels,
         "Against": [row.against for row in data.rows],
         "Error": [row.shown for row in data.rows],
         "Target": [row.target for row in data.rows],
-        "Verdict": [_verdict(row.verdict) for row in data.rows],
+        "Verdict": [_verdict(row.verdict) if row.target else "" for row in data.rows],
+        "Remark": remarks,
     }
     if len({*columns["Against"]}) == 1:
         del columns["Against"]  # It is the source, named above.
-    if not any(columns["Target"]):
-        del columns["Target"]
+    if not judged:
+        del columns["Target"], columns["Verdict"]
     notes: dict[str, list[str]] = {}
-    for label, row in zip(labels, data.rows, strict=True):
-        notes.setdefault(row.note, []).append(label)
-    notes.pop("", None)
+    if not in_table:
+        del columns["Remark"]
+        for label, note in zip(labels, remarks, strict=True):
+            notes.setdefault(note, []).append(label)
+        notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
         words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
@@ -159,14 +176,40 @@ def set_page(data: TrustSet) -> str:
         words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
     return _page(
         f"# {data.title}",
-        f"{_AGAINST[kind].capitalize()}: {data.compared}. Source: {data.source.rstrip('.')}.",
-        *(f"![{chart.title}]({_picture(data, k)})" for k, chart in enumerate(data.charts)),
+        f"{_AGAINST[kind].capitalize()}: {data.compared}. {_source(data)}{'' if judged else ' No target is set.'}",
+        *(
+            f"![{chart.title if chart.title != data.title else ''}]({_picture(data, k)})"
+            for k, chart in enumerate(data.charts)
+        ),
         *words,
-        *(("## Every point", _table(data.points[0], data.points[1:])) if data.points else ()),
-        "## Tests",
-        "\n".join(f"- `{test}`" for test in dict.fromkeys(row.test for row in data.rows)),
-        "[All sets](../validation.md)",
+        " ".join(
+            (
+                *(f"[{words}]({file})." for file, words, _ in _tables(data)),
+                f"Tests: {_tests(data)}.",
+                "[All sets](../validation.md).",
+            )
+        ),
     )
+
+
+def _tables(data: TrustSet) -> Iterator[tuple[str, str, Sequence[Sequence[str]]]]:
+    """The CSV files beside the page of a set: name, what it holds, rows."""
+    if data.points:
+        yield f"{data.name}.csv", "Every point", data.points
+    if data.tried:
+        yield f"{data.name}-tried.csv", "Every cause that was tried", data.tried
+
+
+def _tests(data: TrustSet) -> str:
+    """The tests of the rows; of more than three their files."""
+    tests = dict.fromkeys(row.test for row in data.rows)
+    if len(tests) > 3:
+        tests = dict.fromkeys(test.partition("::")[0] for test in tests)
+    return ", ".join(f"`{test}`" for test in tests)
+
+
+def _source(data: TrustSet) -> str:
+    return f"Source: {data.source.rstrip('.')}."
 
 
 def _page(*parts: str) -> str:
@@ -177,8 +220,10 @@ def _page(*parts: str) -> str:
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *([cell.replace("|", "\\|") for cell in row] for row in rows)]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    head, *cells = (
+        f"| {' | '.join(line)} |" for line in (heads, *([cell.replace("|", "\\|") for cell in row] for row in rows))
+    )
+    return "\n".join((head, f"|{'---|' * len(heads)}", *cells))
 
 
 def _capital(words: str) -> str:

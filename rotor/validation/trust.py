@@ -87,6 +87,8 @@ class TrustSet:
     """Paragraphs that hold for all rows."""
     points: tuple[tuple[str, ...], ...] = ()
     """Every compared number as a table; the first row is its heading."""
+    tried: tuple[tuple[str, ...], ...] = ()
+    """Causes that were tried, with what each gives, as a table; the first row is its heading."""
 
     @property
     def verdict(self) -> Verdict:
@@ -116,6 +118,8 @@ class SetDescription:
     text: tuple[str, ...] = ()
     notes: Mapping[str, str] = field(default_factory=dict[str, str])
     """Remarks on rows, by a word for the row."""
+    tried: tuple[tuple[str, ...], ...] = ()
+    """Causes that were tried, as of `TrustSet`."""
 
     def row(
         self, what: str, shown: str, error: float, allowed: float, *, test: str = "", note: str = "", target: str = "",
@@ -155,7 +159,7 @@ class SetDescription:
         """The set with what was computed; `compared` and `text` where numbers stand in them."""
         return TrustSet(
             self.name, self.title, compared or self.compared, error, self.source, tuple(rows), tuple(charts),
-            self.text if text is None else tuple(text), tuple(map(tuple, points)),
+            self.text if text is None else tuple(text), tuple(map(tuple, points)), self.tried,
         )  # fmt: skip
 
 
@@ -163,6 +167,7 @@ def description(name: str) -> SetDescription:
     """The words of a set of the trust page."""
     record: dict[str, Any] = dict(_descriptions()[name])
     record["text"] = tuple(record.get("text", ()))
+    record["tried"] = tuple(tuple[str, ...](row) for row in record.get("tried", ()))
     return SetDescription(name, **record)
 
 

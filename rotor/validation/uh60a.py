@@ -104,8 +104,8 @@ def hover() -> TrustSet:
         f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         rows,
         (Chart("UH-60A in hover", Axis("C_T/σ"), Axis("C_P/σ"), series),),
-        points=(("C_T/σ", "Measured C_P/σ", "Ours", "Error"),
-                *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f} %") for a, b, c, d in points)),
+        points=(("C_T/σ", "Measured C_P/σ", "Ours", "Error [%]"),
+                *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f}") for a, b, c, d in points)),
     )  # fmt: skip
 
 
@@ -122,8 +122,8 @@ def forward() -> TrustSet:
         f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         rows,
         (Chart(words.title, Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series),),
-        points=(("µ", "Model curve [kW]", "Ours [kW]", "Error"),
-                *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f} %")
+        points=(("µ", "Model curve [kW]", "Ours [kW]", "Error [%]"),
+                *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f}")
                   for mu, a, b in zip(speeds, theirs, ours, strict=True))),
     )  # fmt: skip
 
@@ -295,7 +295,9 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
 
 
 def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
-    rows: list[tuple[str, ...]] = [("µ", "", "Measured [kN]", "φ [°]", "Ours [kN]", "φ [°]", "Without bending [kN]")]
+    rows: list[tuple[str, ...]] = [
+        ("µ", "Quantity", "Measured [kN]", "Measured φ [°]", "Ours [kN]", "Ours φ [°]", "Without bending [kN]")
+    ]
     for load in loads:
         measured, ours, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)
         rows.append((f"{load.mu:g}", "half peak to peak", measured, "", ours, "", rigid))
