@@ -106,7 +106,7 @@ class Page:
             self.waterfall = WaterfallPanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context, self.scene, self.results.strip)
+        self.vibration = VibrationPanel(context, self.results.strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -215,7 +215,6 @@ class Page:
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
-        self.vibration.turn(state)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState) -> None:

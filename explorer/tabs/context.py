@@ -54,7 +54,7 @@ _SHOWN = 4
 
 
 class Analyses:
-    """Those of the solutions that a page shows: its parts ask for slopes and bands of the same ones."""
+    """What is kept of each solution that a page shows: its parts ask for slopes and bands of the same ones."""
 
     def __init__(self) -> None:
         self._kept: tuple[Analysis, ...] = ()

@@ -39,8 +39,8 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: str = "") -> Markup:
-    """Total power with its change, the bar of parts, and the table of parts; `band`: as `drag_band_words` says it."""
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:
+    """Total power with its change, the bar of parts, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
@@ -54,30 +54,14 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
         tag("div.rx-bar", bar(power, ideal)),
         tag("table", rows),
         ideal_line(solution, ideal, units),
-        band_line(band),
         data_explorer="power",
     )
-
-
-def band_line(words: str) -> Markup:
-    """The band of the drag area below the table of powers; empty without words."""
-    return tag("div.rx-dim", words, data_explorer="drag-band", title=tip("drag_band")) if words else Markup()
 
 
 def open_drag_area(design: Design) -> tuple[float, float] | None:
     """Lowest and highest drag area [m²] that the sources allow; None where they give one, in hover and on a stand."""
     flies = design.condition.stand is None and not design.hovering and design.models.fuselage
     return design.fuselage.drag_area_band if flies else None
-
-
-def drag_band_words(design: Design, ends: tuple[Solution, Solution] | None, units: Units) -> str:
-    """Total power between the drag areas of the sources; empty where they give one, or `ends` are not known."""
-    areas = open_drag_area(design)
-    if areas is None or ends is None:
-        return ""
-    digits = fineness(ends[0].power)
-    low, high = (number(units.power[0].of(end.power.total), digits) for end in ends)
-    return f"Drag area {number(areas[0], 2)} to {number(areas[1], 2)} m²: {low} to {high} {units.power[0].symbol}"
 
 
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
@@ -237,10 +221,10 @@ def faded(html: Markup) -> Markup:
     return tag("div.rx-faded", html)
 
 
-def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> Markup:
+def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> Markup:
     """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
 
-    Where A has no trim it shows dashes. `band`: of B, as `drag_band_words` says it.
+    Where A has no trim it shows dashes.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
@@ -265,7 +249,6 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
         _bars(power, reference, ideal),
         tag("table.rx-ab", head, rows, data_explorer="ab"),
         ideal_line(solution, ideal, units),
-        band_line(band),
         data_explorer="power",
     )
 

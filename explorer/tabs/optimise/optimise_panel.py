@@ -23,7 +23,7 @@ from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
-from rotor.markup import Markup, tag
+from rotor.markup import tag
 from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
@@ -69,7 +69,7 @@ class OptimisePanel(BackgroundWork):
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
-        self._picture = gui.add_html("")
+        self._explanation = gui.add_html("")
         form.menu("objective", "Objective", OBJECTIVES)
         form.slider("hover_share", Slider("Hover [%]", 0.0, 100.0, 5.0), first.hover_share)
         form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
@@ -174,8 +174,7 @@ class OptimisePanel(BackgroundWork):
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
         run, request, units = self.run, self.request(), self._context.units
         self.form.show({name: request.asks_for(name) for name in _NUMBERS})
-        concept = request.known_concept()
-        self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
+        self._explanation.content = tag("div.rx.rx-dim.rx-small", request.known_concept().explanation)
         under_way = run is not None and run.under_way
         self.show_progress(None if run is None else run.part_done, under_way)
         self._standing.content = text.standing(run, self.line)
@@ -307,7 +306,3 @@ class Rival:
     def _take(self) -> None:
         if self._design is not None and not self._context.held:
             self._context.set_inputs(with_optimum(self._context.inputs(), self._design))
-
-
-def _boxed(picture: Markup, words: str) -> Markup:
-    return tag("div.rx.rx-concept", picture, tag("div.rx-dim.rx-small", words))
