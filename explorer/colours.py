@@ -172,7 +172,6 @@ class SceneTheme:
     """A tip vortex where it leaves the blade."""
     vortex_end: Rgb = (196, 208, 224)
     """Where it fades, close to the background."""
-    inflow: Rgb = (20, 60, 130)
     lights: tuple[Light, ...] = _lights(2.3, 0.7, 0.7)
     sky: float = 1.1
     """Intensity of the hemisphere light."""
@@ -195,7 +194,6 @@ DARK = SceneTheme(
     shadow_strength=0.60,
     vortex=(40, 96, 190),
     vortex_end=(14, 18, 25),
-    inflow=(64, 120, 220),
     lights=_lights(1.9, 0.55, 1.3),
     sky=0.55,
     environment=0.20,

@@ -212,7 +212,7 @@ class SceneController:
         self._drawn, self._fine = wanted, False
 
     def draw_finely(self) -> None:
-        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A to be wiped.
+        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices, and A to be wiped.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """

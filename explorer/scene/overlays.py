@@ -1,4 +1,4 @@
-"""What lies on and about the rotor: the ghost of another blade, tip vortices, inflow arrows.
+"""What lies on and about the rotor: the ghost of another blade, and tip vortices.
 
 Handles are made once, then moved.
 """
@@ -16,7 +16,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
 from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices, ghost_segments, ghost_vertices
 from explorer.picture.picture import drawn_bending, flown_twist, with_elastic_twist
-from explorer.picture.wake import inflow_arrows, tip_vortices
+from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from rotor import Design, Rotor, Solution
 from rotor.design import TwistLaw
@@ -105,10 +105,10 @@ class Ghost:
 
 
 class AirLines:
-    """Tip vortices and inflow arrows of the rotor of the sliders; drawn once nothing moves."""
+    """Tip vortices of the rotor of the sliders; drawn once nothing moves."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        self._vortices, self._arrows = _unseen_lines(api, VORTICES, 1.7), _unseen_lines(api, f"{ROTOR}/inflow", 1.5)
+        self._vortices = _unseen_lines(api, VORTICES, 1.7)
 
     def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:
         """Show what belongs to this solution, as far as the view wants them."""
@@ -120,10 +120,7 @@ class AirLines:
             share = age[:, :, None] ** 0.8
             fading = (1.0 - share) * np.array(theme.vortex) + share * np.array(theme.vortex_end)
             self._vortices.points, self._vortices.colors = points.astype(np.float32), fading.astype(np.uint8)
-        if view.arrows:
-            segments = inflow_arrows(solution).astype(np.float32)
-            self._arrows.points, self._arrows.colors = segments, _even(theme.inflow, len(segments))
-        self._vortices.visible, self._arrows.visible = view.wake, view.arrows
+        self._vortices.visible = view.wake
 
     def hide_vortices(self) -> None:
         """Remove the vortices: they belong to blades that have moved on."""

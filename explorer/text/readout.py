@@ -15,7 +15,7 @@ from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import Verdict
 from rotor.actuator.installation import MassBreakdown
-from rotor.markup import Content, Markup, group, tag
+from rotor.markup import Content, Markup, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.trim.doubt import sureness
 
@@ -40,7 +40,7 @@ def part_titles(*designs: Design) -> dict[str, str]:
 
 
 def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:
-    """Total power with its change, the bar of parts, and the table of parts."""
+    """Total power with its change, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
@@ -51,7 +51,6 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
         "div.rx",
         total_line(power, reference, units),
         tag("div.rx-line.rx-dim", tag("span", "total power"), tag("span", against), title=tip("change")),
-        tag("div.rx-bar", bar(power, ideal)),
         tag("table", rows),
         ideal_line(solution, ideal, units),
         data_explorer="power",
@@ -95,7 +94,7 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
         theory = " (momentum theory)" if solution.design.hovering else ""
         power, factor = tag("b", units.watts(ideal)), f", κ {number(ideal / unit, 2)}{theory}"
-        bound = tag("i.rx-mark"), " ideal ", power, factor
+        bound = "ideal ", power, factor
     return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 
 
@@ -111,16 +110,6 @@ def change(power: PowerBudget, reference: PowerBudget | None) -> Markup:
 def direction(percent: float) -> str:
     """CSS class of a change: green for less, rust for more, none below 0.05 %."""
     return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
-
-
-def bar(power: PowerBudget, ideal: float | None) -> Markup:
-    """The parts side by side, and a mark at the ideal induced power."""
-    values = {name: getattr(power, name) for name in PARTS}
-    parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
-    total = max(sum(parts.values()), 1.0)
-    spans = [tag("span", style=f"flex:{value / total:.5f};background:{PARTS[name]}") for name, value in parts.items()]
-    at = None if ideal is None else f"position:absolute;left:{100.0 * ideal / total:.2f}%"
-    return group(spans, tag("i.rx-mark", style=at) if at else None)
 
 
 def fineness(power: PowerBudget) -> int:
@@ -222,7 +211,7 @@ def faded(html: Markup) -> Markup:
 
 
 def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> Markup:
-    """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
+    """Total power with its change relative to A, and the parts of both.
 
     Where A has no trim it shows dashes.
     """
@@ -231,10 +220,9 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
     ideal = ideal_induced(solution)
     rows = [
-        _compared_row(title, power, reference, lambda p, n=name: getattr(p, n), units, name)
-        for name, title in part_titles(solution.design, pinned.design).items()
+        _compared_row(title, name, power, reference, units)
+        for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
     ]
-    rows.append(_compared_row("Total", power, reference, lambda p: p.total, units))
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
     return tag(
@@ -246,7 +234,6 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
             tag("span", "vs. " if reference else None, _name("A"), against),
             title=tip("change"),
         ),
-        _bars(power, reference, ideal),
         tag("table.rx-ab", head, rows, data_explorer="ab"),
         ideal_line(solution, ideal, units),
         data_explorer="power",
@@ -285,33 +272,14 @@ def _name(letter: str) -> Markup:
     return dash(PINNED, dashed=True) + tag("b", letter) if letter == "A" else dash(THIS) + tag("b", letter)
 
 
-def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> Markup:
-    """A above B; the length of a bar is the total power."""
-    longest = max(power.total, reference.total if reference else 0.0, 1.0)
-    lines: list[Content] = []
-    for letter, budget, mark in (("A", reference, None), ("B", power, ideal)):
-        length = 100.0 * max(budget.total, 0.0) / longest if budget else 0.0
-        filled = tag("div.rx-bar", bar(budget, mark) if budget else None, style=f"width:{length:.2f}%")
-        lines += [tag("span.rx-dim", letter), tag("div", filled)]
-    return tag("div.rx-bars", lines)
-
-
-def _compared_row(
-    title: str,
-    power: PowerBudget,
-    reference: PowerBudget | None,
-    read: Callable[[PowerBudget], float],
-    units: Units,
-    part: str = "",
-) -> Markup:
-    unit = units.power[0]
-    b = unit.of(read(power))
-    a = None if reference is None else unit.of(read(reference))
+def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
+    b = units.power[0].of(getattr(power, part))
+    a = None if reference is None else units.power[0].of(getattr(reference, part))
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
     fine = fineness(power)
-    if part:
+    if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     kind = "" if percent is None else direction(percent)

@@ -47,7 +47,6 @@
     stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
     reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
     wake: ['Tip vortices', '<path d="M0 8.500C6 1 13 1 20 6.5" stroke="var(--rx-accent)" stroke-width="1.800" fill="none"/>'],
-    arrows: ['Inflow', '<path d="M5 0v9M2.200 6 5 9.5 7.800 6M15 0v9M12.200 6 15 9.5 17.800 6" stroke="var(--rx-accent)" stroke-width="1.5" fill="none"/>'],
     drag_divergence: ['Drag divergence', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
   };
   const line = (colour, dashes = '') => `<path d="M0 5.5H20" stroke="${colour}" stroke-width="2.4" stroke-dasharray="${dashes}"/>`;

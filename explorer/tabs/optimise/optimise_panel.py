@@ -88,11 +88,9 @@ class OptimisePanel(BackgroundWork):
         self._result = gui.add_html("")
         self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
-        self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
         self._details = gui.add_html("")
         self._best = PoolAnswers(context.pool, 3, context.wake)
         self._ranges = gui.add_html("")
-        self._again.on_click(lambda _: self._replay())
         bridge.on("apply", lambda _: self._close(True))
         bridge.on("discard", lambda _: self._close(False))
         bridge.on("beat", lambda _: self._beat())
@@ -185,7 +183,7 @@ class OptimisePanel(BackgroundWork):
         self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
-        self._again.visible, self._scrubber.visible = on_offer, on_offer and here
+        self._scrubber.visible = on_offer and here
         self._frame.content = ""
         if on_offer and here:
             self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
@@ -235,11 +233,6 @@ class OptimisePanel(BackgroundWork):
             self._close(False)
             self._context.layout.show_mode("explore")
             self.challenge(run.frames[-1].design)
-
-    def _replay(self) -> None:
-        if self.run is not None:
-            self.run.replay()
-            self._context.wake()
 
     def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""
