@@ -174,7 +174,9 @@ class TestAirloads:
         assert beside_measured(solve(inputs.design()), 0.75) is None
 
 
-@pytest.mark.parametrize(("name", "source"), [("gazelle", "rotor table"), ("hart2", "HART II table")])
+@pytest.mark.parametrize(
+    ("name", "source"), [("gazelle", "rotor table"), ("hart2", "section table of the HART II test")]
+)
 def test_the_probe_names_the_source_of_the_section_s_public_points(name: str, source: str):
     solution = solve(with_rotor(OPENING, name).design())
     assert source in probe_panel(probe(solution, 0.75, math.radians(65.0)), solution)
