@@ -78,7 +78,7 @@ def disk_figure(solution: rotor.Solution, field: str, title: str = "") -> str:
     name = f"bar-{abs(hash((solution.design, field))):x}"
     key = "".join(
         f'<span><svg width="14" height="8">{swatch}</svg> {escape(words)}</span>'
-        for words, swatch in key_entries(solution, shown)
+        for words, swatch in key_entries(solution)
     )
     drawn = disk_drawing(solution, shown, colour_range, 400, letters=10.0)
     bar = bar_drawing(shown, colour_range, 200.0, name, 10.0)

@@ -172,10 +172,6 @@ class SceneTheme:
     """A tip vortex where it leaves the blade."""
     vortex_end: Rgb = (196, 208, 224)
     """Where it fades, close to the background."""
-    inflow: Rgb = (20, 60, 130)
-    hub_force: Rgb = (24, 33, 47)
-    """Colour of the force over the hub, unlit."""
-    hub_moment: Rgb = (0, 118, 150)
     lights: tuple[Light, ...] = _lights(2.3, 0.7, 0.7)
     sky: float = 1.1
     """Intensity of the hemisphere light."""
@@ -198,9 +194,6 @@ DARK = SceneTheme(
     shadow_strength=0.60,
     vortex=(40, 96, 190),
     vortex_end=(14, 18, 25),
-    inflow=(64, 120, 220),
-    hub_force=(240, 244, 250),
-    hub_moment=(64, 205, 235),
     lights=_lights(1.9, 0.55, 1.3),
     sky=0.55,
     environment=0.20,

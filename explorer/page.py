@@ -65,10 +65,8 @@ class Page:
         address = Address(facts.query, partial(set_query, client))
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
-        self._opening, start = (
-            start,
-            address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems),
-        )
+        self._opening = start
+        start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
@@ -106,7 +104,7 @@ class Page:
             self.waterfall = WaterfallPanel(context)
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context, self.scene, self.results.strip)
+        self.vibration = VibrationPanel(context, self.results.strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -215,14 +213,12 @@ class Page:
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
-        self.vibration.turn(state)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self.rival.show(state)
         self._refresh(reading)
-        self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
         self.vibration.show(state)
         self.dial.show(state, self.actuator.fitted)

@@ -67,9 +67,8 @@ class Session:
         self._curves = PowerCurves()
         self._begun = -math.inf
         """When the last update began."""
-        self._worker = NewestWins(
-            self._update, self._failed, held=True
-        )  # A link with A wakes it before the page is whole.
+        # A link with A wakes it before the page is whole.
+        self._worker = NewestWins(self._update, self._failed, held=True)
         self._client = client
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)

@@ -7,13 +7,12 @@ import base64
 import math
 from collections.abc import Iterable
 
-from explorer.colours import RIM, VOID, DiskInk, colour_map, css
+from explorer.colours import RIM, DiskInk, colour_map, css
 from explorer.model.units import SI, Units
 from explorer.picture import disk_image
-from explorer.picture.fields import Field, reverse_flow
+from explorer.picture.fields import Field
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import ALL_MARKS, Drawn, MarkedRegion, Marks, polar_grid, region_codes
-from explorer.text.design_words import flight_words, title_words
+from explorer.picture.polar import ALL_MARKS, Drawn, MarkedRegion, polar_grid, region_codes
 from rotor import Solution
 from rotor.chart import bar_ticks
 from rotor.markup import Attribute, Markup, group, tag
@@ -140,7 +139,6 @@ def disk_drawing(
     field: Field,
     colour_range: Range,
     pixels: int = disk_image.SIZE,
-    marks: Marks = ALL_MARKS,
     letters: float = 9.0,
     units: Units = SI,
 ) -> Markup:
@@ -149,33 +147,11 @@ def disk_drawing(
     `pixels`: along each edge of the field's picture; `letters`: their height.
     """
     half = disk_image.half_width(100.0, min(pixels, disk_image.LARGEST))
-    png = disk_png(solution, field, colour_range, size=pixels, marks=marks)
+    png = disk_png(solution, field, colour_range, size=pixels, marks=ALL_MARKS)
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = [tag("circle", r=r, fill="none") for r in (100.0, cutout)]
     rim = tag("g", rings, tag("path", d=_ticks()), stroke=css(RIM), stroke_width=0.8)
     return group(image(-half, -half, 2 * half, 2 * half, png), rim, _labels(letters), _flight(solution, letters, units))
-
-
-def disk_svg(solution: Solution, field: Field, colour_range: Range, marks: Marks, units: Units) -> Markup:
-    """The drawing as a file of its own, with a title, the colour bar and the key; black on white."""
-    size, wide = 9.0, 200.0
-    key, at = [], -HALF + 6.0
-    for title, swatch in key_entries(solution, field, marks):
-        key.append(tag("g", swatch, text(18.0, 7.5, title, size), transform=f"translate({at:.1f} 0)"))
-        at += 30.0 + 0.55 * size * len(title)
-    bar = bar_drawing(field, colour_range, wide, "scale")
-    look: dict[str, Attribute] = {"font_family": "system-ui,sans-serif", "color": "#212529", "style": "background:#fff"}
-    return tag(
-        "svg",
-        text(0, -HALF - 20, title_words(solution.design), 10.5, anchor="middle", weight=650),
-        text(0, -HALF - 6, flight_words(solution.design, units), size, anchor="middle"),
-        disk_drawing(solution, field, colour_range, 1000, marks, size, units),
-        tag("g", bar, transform=f"translate({-0.5 * wide:g} {HALF + 4:g})"),
-        tag("g", key, transform=f"translate(0 {HALF + 48:g})"),
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=f"{-HALF:g} {-HALF - 34:g} {2 * HALF:g} {2 * HALF + 98:g}",
-        **look,
-    )
 
 
 def _ticks() -> str:
@@ -235,10 +211,10 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
     )
 
 
-def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> list[tuple[str, Markup]]:
-    """Key of the marked regions and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
+def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
+    """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
     drawn, grid, ink = Drawn(solution), polar_grid(solution.disk, 80, 240), DiskInk()
-    codes = region_codes(drawn, grid, marks, 0.02)
+    codes = region_codes(drawn, grid, ALL_MARKS, 0.02)
     entries: list[tuple[str, Markup]] = []
     for region, title, colour, dashes in (
         (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, None),
@@ -248,6 +224,4 @@ def key_entries(solution: Solution, field: Field, marks: Marks = ALL_MARKS) -> l
         if codes is not None and (codes == region).any():
             swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
             entries.append((title, swatch))
-    if field.void_in_reverse_flow and not marks.reverse_flow and reverse_flow(drawn, grid).any():
-        entries.append(("not defined", tag("rect", width=14, height=8, rx=1.5, fill=css(VOID))))
     return entries

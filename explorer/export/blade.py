@@ -1,14 +1,11 @@
 """The blade as STL, for printing and CAD: a closed surface in metres.
 
-Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. The jig shape has
-the twist law alone; the flown shape also has what elasticity and an active twist add at one azimuth.
-`python -m explorer blade` writes both.
+Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. It is the jig
+shape: the twist law alone. `python -m explorer blade` writes it.
 """
 
 import argparse
-import math
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
@@ -17,8 +14,7 @@ import trimesh
 
 from explorer.export.provenance import PROGRAM, file_stem
 from explorer.picture.blade_mesh import Detail, blade_shape, blade_vertices
-from explorer.picture.picture import at_azimuth, with_active_twist
-from rotor import Design, Solution, load_design, make_design, solve
+from rotor import Design, load_design, make_design
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import write_whole
@@ -48,19 +44,6 @@ def blade_stl(design: Design) -> bytes:
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]
 
 
-def flown_design(solution: Solution, psi: float) -> Design:
-    """The design with the twist of the blade in flight at `psi` [rad] as its law: active and elastic twist included.
-
-    As every law it is zero at 0.75 R: what elasticity does there is left to the pitch.
-    """
-    design, elastic = solution.design, solution.disk.elastic_twist
-    law = with_active_twist(design, psi)
-    if elastic is not None:
-        at = at_azimuth(solution, elastic, psi)
-        law = SumTwist(law, TableTwist(tuple(solution.disk.r.tolist()), tuple(at.tolist()), "elastic"))
-    return replace(design, twist=law, active_twist=None)
-
-
 def kinks(law: TwistLaw) -> tuple[float, ...]:
     """Stations r/R where the slope of the law jumps."""
     match law:
@@ -75,30 +58,20 @@ def kinks(law: TwistLaw) -> tuple[float, ...]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """0 when all files are written, 1 when the design does not trim, 2 for bad input."""
+    """0 when the file is written, 2 for bad input."""
     return run_command("explorer blade", lambda: _run(_parser().parse_args(arguments)))
 
 
 def _run(options: argparse.Namespace) -> int:
-    jig = load_design(options.design) if options.design else make_design()
-    shapes = {"jig": jig}
-    if jig.rotor.blade.structure is not None or jig.active_twist is not None:
-        elastic = jig.rotor.blade.structure is not None
-        solution = solve(replace(jig, models=replace(jig.models, elastic_twist=elastic)))
-        if not solution.converged:
-            raise ValueError(f"there is no flown shape: {solution.message}")
-        shapes[f"flown-psi{options.psi:g}"] = flown_design(solution, math.radians(options.psi))
-    folder = Path(options.out)
+    design = load_design(options.design) if options.design else make_design()
+    folder, content = Path(options.out), blade_stl(design)
+    path = folder / f"{file_stem(design, 'blade', 'jig')}.stl"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, design in shapes.items():
-            path, content = folder / f"{file_stem(jig, 'blade', name)}.stl", blade_stl(design)
-            write_whole(path, content)
-            print(f"{path}: {len(content) / 1e6:.1f} MB")
+        write_whole(path, content)
     except OSError as error:
         raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None
-    if len(shapes) == 1:
-        print("Torsional stiffness is not given in the rotor file: the flown shape is the jig shape.")
+    print(f"{path}: {len(content) / 1e6:.1f} MB")
     return 0
 
 
@@ -106,9 +79,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         formatter_class=help_formatter,
         prog=called("explorer", "rotor-explorer") + " blade",
-        description="One blade as STL, in metres, in jig shape and as flown.",
+        description="One blade as STL, in metres, in jig shape.",
     )
     parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")
-    parser.add_argument("--psi", type=float, default=90.0, metavar="DEG", help="azimuth as flown (default 90)")
     parser.add_argument("--out", default=".", metavar="DIR", help="folder (default: this one)")
     return parser

@@ -128,7 +128,7 @@ def disks(report: DesignReport, entry: ReportEntry, k: int) -> Markup:
         drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)
         disk = tag("svg", drawn, viewBox=box, role="img", aria_label=label)
         drawings.append(tag("figure", disk, bar(field, colour_range, f"bar-{k}-{n}")))
-        keys.update(key_entries(solution, field))
+        keys.update(key_entries(solution))
     key = [tag("span", tag("svg", swatch, width=14, height=8), f" {title}") for title, swatch in keys.items()]
     several = " Colours are the same for all designs." if len(report.shown) > 1 else ""
     seen = tag("span.dim", f"From above, nose up, advancing side right.{several}")

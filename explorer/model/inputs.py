@@ -299,7 +299,6 @@ class ViewState:
     units: str = "SI"
     """A title of `explorer.model.units.UNITS`."""
     wake: bool = True
-    arrows: bool = False
     wipe: bool = False
     """Whether A is seen left of a handle, and B right of it, while a design is pinned."""
 

@@ -85,21 +85,6 @@ class History:
         """Make the step that was undone the present one; None where there is none."""
         return self._step(self.future, self.past)
 
-    def go(self, step: int) -> Inputs | None:
-        """Undo or redo until `steps[step]` is the present; None where there is no such step, or it is the present."""
-        if step == len(self.past) or not 0 <= step < len(self.steps):
-            return None
-        while step < len(self.past):
-            self.undo()
-        while step > len(self.past):
-            self.redo()
-        return self.present
-
-    @property
-    def steps(self) -> tuple[Inputs, ...]:
-        """All of them, oldest first; the present is `steps[len(past)]`."""
-        return (*self.past, self.present, *reversed(self.future))
-
     def _step(self, source: list[Inputs], target: list[Inputs]) -> Inputs | None:
         if not source:
             return None

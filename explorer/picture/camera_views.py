@@ -38,24 +38,12 @@ _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
 
 
-@dataclass(frozen=True)
-class _Stand:
-    """Where a camera stands that is not fitted but composed, for bars and cards along the edges of the canvas."""
-
-    azimuth: float
-    """[rad]; 0 is behind the tail."""
-    elevation: float
-    look_at: tuple[float, float, float]
-    """[m] from the hub."""
-    distance: float
-    """[m]"""
-    aspect: float
-    """Width over height of the canvas below which the camera stands further back."""
-
-
-_STANDS = {
-    "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4),
-}
+_STAND = math.radians(34.0), math.radians(24.0)
+"""Where the camera of "3d" stands, which is not fitted but composed: azimuth from behind the tail, and elevation."""
+_STAND_LOOKS_AT, _STAND_DISTANCE = (0.9, 0.3, -2.35), 33.5
+"""[m] from the hub."""
+_STAND_ASPECT = 1.4
+"""Width over height of the canvas below which it stands further back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,12 +116,11 @@ def fit(
     [rad]. `cover`: what cards hide of the canvas. In "disk" and "top" the nose is up and the advancing side right; in
     "side" the nose is right.
     """
-    stand = _STANDS.get(view)
     if view == "blade":
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
-    elif stand is not None:
-        backward = direction(stand.azimuth, stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
-        return _standing(stand, size(radius), aspect, backward, cover)
+    elif view == "3d":
+        backward = direction(_STAND[0], _STAND[1] + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
+        return _standing(size(radius), aspect, backward, cover)
     else:
         points = _outline(radius)
         backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
@@ -143,13 +130,13 @@ def fit(
     return between_cards(framed(points, backward, aspect / cover.free), cover)
 
 
-def _standing(stand: _Stand, size: float, aspect: float, backward: Array, cover: Cover) -> Camera:
+def _standing(size: float, aspect: float, backward: Array, cover: Cover) -> Camera:
     """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
     higher = USUAL_COVER.free / cover.free
     # Coming nearer blows up the near side, tail and all: only half the way.
-    further = max(stand.aspect / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
-    look_at = size * np.array(stand.look_at)
-    camera = Camera(look_at + size * stand.distance * further * backward, look_at)
+    further = max(_STAND_ASPECT / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
+    look_at = size * np.array(_STAND_LOOKS_AT)
+    camera = Camera(look_at + size * _STAND_DISTANCE * further * backward, look_at)
     return _lifted(camera, cover.lift - USUAL_COVER.lift / further)
 
 

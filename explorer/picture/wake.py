@@ -1,4 +1,4 @@
-"""Lines about the rotor as segments in the axes of the shaft [m]: tip vortices, inflow arrows, vibratory hub loads."""
+"""Lines about the rotor as segments in the axes of the shaft [m]: the tip vortices."""
 
 import math
 from collections.abc import Sequence
@@ -6,13 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from explorer.model.units import number
-from rotor import Design, Solution
+from rotor import Solution
 from rotor.aero.disk import azimuths_of
 from rotor.aero.lifting_line import WakeCourse
 from rotor.arrays import Array
-from rotor.trim import DiskFields, HubLoads
-from rotor.units import GRAVITY
+from rotor.trim import DiskFields
 
 _TURNS = 0.8
 """Length of a drawn vortex, in turns of the rotor."""
@@ -25,17 +23,6 @@ _WIDTH = 0.25
 """Part of the radius over which the inflow at a tip vortex is averaged."""
 _CONTRACTION, _CONTRACTS_WITHIN = 0.22, 2.2
 """In hover the wake contracts towards 0.78 R (Landgrebe, 1972), by a factor e within this age [rad]."""
-_ARROW_RADII = (0.3, 0.5, 0.7, 0.9)
-_ARROW_AZIMUTHS = 24
-_ARROW_SCALE = 2.6
-"""Length of an inflow arrow in radii per unit of inflow ratio."""
-_HEAD = 0.28
-"""Length of an arrow's head, as a fraction of the arrow."""
-_TENTH = 0.5
-"""A tenth of the reference weight is drawn about this long [R]."""
-LOADS_HEIGHT = 0.11
-"""Height of the lines over the hub [R]: they stand clear of the blades."""
-_LOAD_POINTS = 72
 
 
 @dataclass(frozen=True)
@@ -137,111 +124,3 @@ def tip_vortices(solution: Solution, azimuths: Sequence[float]) -> tuple[Array, 
         lines.append(np.stack((points[:-1], points[1:]), axis=1))
     ages = np.stack((age[:-1], age[1:]), axis=1) / age[-1]
     return rotor.radius * np.concatenate(lines), np.tile(ages, (len(lines), 1))
-
-
-def inflow_arrows(solution: Solution) -> Array:
-    """Arrows from the disk along the induced inflow, as long as it is strong; segments of shape (n, 2, 3).
-
-    Three segments an arrow: shaft and two sides of its head. They point up where the rotor meets an upwash.
-    """
-    disk, rotor, controls = solution.disk, solution.design.rotor, solution.controls
-    psi = 2.0 * math.pi * np.arange(_ARROW_AZIMUTHS) / _ARROW_AZIMUTHS
-    columns = np.rint((psi - disk.psi[0]) / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
-    r = np.array(_ARROW_RADII)[:, None]
-    length = _ARROW_SCALE * np.stack([np.interp(r[:, 0], disk.r, disk.induced[:, k]) for k in columns], axis=1)
-    x, y = r * np.cos(psi), r * np.sin(psi)
-    z = controls.flap_1c * x + controls.flap_1s * y
-    tail = np.stack((x, y, z), axis=-1).reshape(-1, 3)
-    drop = length.reshape(-1)[:, None] * np.array([0.0, 0.0, -1.0])
-    tip = tail + drop
-    around = np.stack((-np.sin(psi), np.cos(psi), np.zeros_like(psi)), axis=-1)
-    aside = np.tile(around, (len(_ARROW_RADII), 1)) * 0.4 * _HEAD * np.abs(length).reshape(-1)[:, None]
-    neck = tip - _HEAD * drop
-    segments = [np.stack(ends, axis=1) for ends in ((tail, tip), (neck + aside, tip), (neck - aside, tip))]
-    return rotor.radius * np.concatenate(segments)
-
-
-def load_scale(design: Design) -> float:
-    """Newtons, and newton metres, that are drawn one metre long: 1, 2 or 5 times a power of ten, for each rotor one."""
-    wanted = 0.1 * design.aircraft.mass * GRAVITY / (_TENTH * design.rotor.radius)
-    return min(
-        (factor * 10.0**power for power in range(1, 6) for factor in (1.0, 2.0, 5.0)),
-        key=lambda step: abs(math.log(step / wanted)),
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class HubLines:
-    """Lines in the axes of the shaft [m], (segments, 2, 3), and where their labels stand."""
-
-    force: Array
-    """Path of the in-plane force over one period."""
-    bar: Array
-    """Vertical force, up and down."""
-    moment: Array
-    """Path of the moment, right-handed about its own direction."""
-    stem: Array
-    """From the hub to their centre."""
-    now: Array
-    """Force and moment at the azimuth of the reference blade, (2, 2, 3)."""
-    places: dict[str, list[float]]
-    """Places of the labels of `force`, `bar` and `moment`."""
-    centre: list[float]
-
-
-def hub_lines(loads: HubLoads, design: Design, psi: float) -> HubLines:
-    """Arrows of these loads with the reference blade at ψ [rad]."""
-    scale, radius = load_scale(design), design.rotor.radius
-    centre = np.array([0.0, 0.0, LOADS_HEIGHT * radius])
-
-    def points(x: str, y: str, at: Array) -> Array:
-        """Ends of the vector where N_b ψ is `at` [rad], (points, 3)."""
-        flat = [loads.amplitudes[name] * np.cos(at - loads.phases[name]) / scale for name in (x, y)]
-        return centre + np.stack([*flat, np.zeros_like(at)], axis=1)
-
-    period, here = np.linspace(0.0, 2.0 * math.pi, _LOAD_POINTS + 1), np.array([loads.per_rev * psi])
-    force, moment = points("fx", "fy", period), points("mx", "my", period)
-    half = np.array([0.0, 0.0, loads.amplitudes["fz"] / scale])
-    ends = {
-        "force": force[int(np.argmax(force[:, 1]))],
-        "bar": centre + half,
-        "moment": moment[int(np.argmin(moment[:, 1]))],
-    }
-    return HubLines(
-        force=np.stack((force[:-1], force[1:]), axis=1),
-        bar=np.array([[centre - half, centre + half]]),
-        moment=np.stack((moment[:-1], moment[1:]), axis=1),
-        stem=np.array([[np.zeros(3), centre]]),
-        now=np.array([[centre, points(*names, here)[0]] for names in (("fx", "fy"), ("mx", "my"))]),
-        places={name: end.tolist() for name, end in ends.items()},
-        centre=centre.tolist(),
-    )
-
-
-def scale_words(design: Design) -> str:
-    """What a metre of the lines stands for."""
-    scale = f"{load_scale(design) / 1e3:g}"
-    return f"1 m drawn: {scale} kN, {scale} kN m"
-
-
-def hub_words(loads: HubLoads, design: Design) -> dict[str, tuple[str, str]]:
-    """Label and sentence of `force`, `bar` and `moment`."""
-    digits = 1 if load_scale(design) >= 1e3 else 2
-    fx, fy, fz, mx, my = (number(loads.amplitudes[name] / 1e3, digits) for name in ("fx", "fy", "fz", "mx", "my"))
-    per_rev, scale = f"{loads.per_rev}/rev", f"{load_scale(design) / 1e3:g}"
-    return {
-        "force": (
-            f"in-plane {fx} × {fy} kN",
-            f"In-plane force on the hub at {per_rev}: {fx} kN aft, {fy} kN to starboard. The ellipse is its path over "
-            f"one period, drawn 1 m for {scale} kN.",
-        ),
-        "bar": (
-            f"vertical ±{fz} kN",
-            f"Vertical force on the hub at {per_rev}: up and down by {fz} kN, drawn 1 m for {scale} kN.",
-        ),
-        "moment": (
-            f"moment {mx} × {my} kN m",
-            f"Moment on the hub at {per_rev}: {mx} kN m in roll, {my} kN m in pitch. The ellipse is the path of its "
-            f"vector over one period, drawn 1 m for {scale} kN m.",
-        ),
-    }

@@ -24,7 +24,7 @@ from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_ran
 from explorer.picture.picture import disk_png, field_values, make_picture, pitch_series, turned_blades
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.camera import FittedCamera
-from explorer.scene.overlays import VORTICES, AirLines, Ghost, HubLoadLines, OtherBlade
+from explorer.scene.overlays import VORTICES, AirLines, Ghost, OtherBlade
 from explorer.scene.scene import COMPARED, ROTOR, Scene
 from rotor import Rotor, Solution
 
@@ -144,7 +144,6 @@ class SceneController:
         self.scene = Scene(client.scene, rotor, theme)
         self._ghost = Ghost(client.scene, rotor, theme)
         self._air = AirLines(client.scene)
-        self.hub_loads = HubLoadLines(client.scene)
         self._page = PageScene(client)
         self.camera: FittedCamera | None = None
         """Follows the shaft tilt, once the page has one."""
@@ -213,7 +212,7 @@ class SceneController:
         self._drawn, self._fine = wanted, False
 
     def draw_finely(self) -> None:
-        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A to be wiped.
+        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices, and A to be wiped.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """

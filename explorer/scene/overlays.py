@@ -1,4 +1,4 @@
-"""What lies on and about the rotor: the ghost of another blade, tip vortices, inflow arrows.
+"""What lies on and about the rotor: the ghost of another blade, and tip vortices.
 
 Handles are made once, then moved.
 """
@@ -16,12 +16,10 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
 from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices, ghost_segments, ghost_vertices
 from explorer.picture.picture import drawn_bending, flown_twist, with_elastic_twist
-from explorer.picture.wake import HubLines, hub_lines, inflow_arrows, tip_vortices
+from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from rotor import Design, Rotor, Solution
-from rotor.arrays import Array
 from rotor.design import TwistLaw
-from rotor.trim import HubLoads
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 _LEAST = math.radians(0.25)
@@ -107,10 +105,10 @@ class Ghost:
 
 
 class AirLines:
-    """Tip vortices and inflow arrows of the rotor of the sliders; drawn once nothing moves."""
+    """Tip vortices of the rotor of the sliders; drawn once nothing moves."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        self._vortices, self._arrows = _unseen_lines(api, VORTICES, 1.7), _unseen_lines(api, f"{ROTOR}/inflow", 1.5)
+        self._vortices = _unseen_lines(api, VORTICES, 1.7)
 
     def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:
         """Show what belongs to this solution, as far as the view wants them."""
@@ -122,45 +120,11 @@ class AirLines:
             share = age[:, :, None] ** 0.8
             fading = (1.0 - share) * np.array(theme.vortex) + share * np.array(theme.vortex_end)
             self._vortices.points, self._vortices.colors = points.astype(np.float32), fading.astype(np.uint8)
-        if view.arrows:
-            segments = inflow_arrows(solution).astype(np.float32)
-            self._arrows.points, self._arrows.colors = segments, _even(theme.inflow, len(segments))
-        self._vortices.visible, self._arrows.visible = view.wake, view.arrows
+        self._vortices.visible = view.wake
 
     def hide_vortices(self) -> None:
         """Remove the vortices: they belong to blades that have moved on."""
         self._vortices.visible = False
-
-
-class HubLoadLines:
-    """Vibratory loads over the hub: a path of the in-plane force, a bar of the vertical force, a path of the moment."""
-
-    def __init__(self, api: viser.SceneApi) -> None:
-        self._lines = {
-            name: _unseen_lines(api, f"{ROTOR}/hub_{name}", width)
-            for name, width in (("stem", 1.2), ("force", 2.8), ("bar", 5.0), ("moment", 2.8), ("now", 2.0))
-        }
-        self._drawn: tuple[HubLoads, SceneTheme] | None = None
-
-    def show(self, loads: HubLoads, design: Design, psi: float, theme: SceneTheme) -> HubLines:
-        """Draw them with the reference blade at ψ [rad]; where only that has changed, only the vectors now."""
-        lines, force, moment = hub_lines(loads, design, psi), theme.hub_force, theme.hub_moment
-        drawn = {"now": (lines.now, np.stack([_even(force, 1)[0], _even(moment, 1)[0]]))}
-        if self._drawn != (loads, theme):
-            self._drawn = loads, theme
-            for name, colour in (("stem", force), ("force", force), ("bar", force), ("moment", moment)):
-                segments: Array = getattr(lines, name)
-                drawn[name] = segments, _even(colour, len(segments))
-        for name, (segments, shades) in drawn.items():
-            handle = self._lines[name]
-            handle.points, handle.colors, handle.visible = segments.astype(np.float32), shades, True
-        return lines
-
-    def hide(self) -> None:
-        self._drawn = None
-        for handle in self._lines.values():
-            if handle.visible:
-                handle.visible = False
 
 
 def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSegmentsHandle:

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from explorer import web
 from explorer.colours import scene_theme
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
@@ -21,7 +20,6 @@ from explorer.scene.controller import motion_of
 from explorer.scene.scene import ROTOR, Scene
 from rotor import Solution, parse_twist
 from rotor.arrays import Array
-from rotor.markup import end_of, with_title
 
 HARMONICS = 4
 """Harmonics of the elastic twist in the trim."""
@@ -65,21 +63,6 @@ _ASPECT = 1.4
 """Aspect ratio that the camera is fitted to: in windows down to it the words beside the disk are whole."""
 _PIXELS = 640
 """Along each edge of the disk's picture: a file should be small."""
-
-
-def scene_page(solution: Solution, view: ViewState, colour_range: tuple[float, float], title: str, line: str) -> str:
-    """The rotor of a converged solution as one HTML page that opens without a server: turn it with the mouse.
-
-    `title` and `line`: what stands over the scene.
-    """
-    viewer = make_stage([solution], view, colour_range)
-    page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
-    words = {"scheme": "dark" if view.dark else "light", "title": title, "line": line}
-    caption = web.styles("still.css") + web.fill("still.html", words)
-    body = end_of("body")
-    if page.count(body) != 1:
-        raise ValueError("viser's viewer is not laid out as it was: there is no 3D file until it is adapted.")
-    return with_title(page, title, web.policy()).replace(body, f"{caption}{body}")
 
 
 def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> EmbeddedViewer:

@@ -98,16 +98,6 @@ class BackgroundWork:
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
 
-    def _ended_without(self, news: JobEvent) -> None:
-        """Say why there is no answer where the news is of such an end."""
-        match news:
-            case JobEnded(str() as message) | JobFailed(message):
-                self.line = message
-            case JobEnded():
-                self.line = "This was stopped: find again."
-            case _:
-                pass
-
     def _heard(self, hear: Callable[[JobEvent], None], news: JobEvent) -> None:
         if isinstance(news, (JobEnded, JobFailed)):
             self.running = False

@@ -15,7 +15,7 @@ from explorer.picture.fields import FIELDS, Field, fields_of
 from explorer.scene.controller import TURN_RATES
 from rotor.chart import bar_ticks
 
-REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
+REGIONS = ("stall", "reverse_flow", "wake", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
 TIMES = (1.0, 2.0, 4.0)
 """How many times its twist a blade may be drawn with."""

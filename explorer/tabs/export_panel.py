@@ -1,7 +1,6 @@
-"""The Export folder: shapes, tables, the disk as a drawing, a picture of the view, the 3D scene and the report."""
+"""The Export folder: the shape of the blade, tables, a picture of the view, and the report."""
 
 import logging
-import math
 import threading
 import time
 from collections.abc import Callable
@@ -10,8 +9,7 @@ from dataclasses import dataclass, replace
 import viser
 
 from explorer.charts.plots import PowerCurves
-from explorer.charts.svg import disk_svg
-from explorer.export.blade import blade_stl, flown_design
+from explorer.export.blade import blade_stl
 from explorer.export.contents import ReportEntry, report_of
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
@@ -19,15 +17,12 @@ from explorer.export.view_picture import view_png
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
-from explorer.picture.fields import FIELDS, shown_field
-from explorer.picture.picture import marks_of
+from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
-from explorer.scene.still_scene import make_stage, scene_page
+from explorer.scene.still_scene import make_stage
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.text.design_words import flight_words, title_words
 from explorer.text.glossary import hint
-from explorer.text.readout import fineness
 from rotor import Design
 from rotor.actuator import Verdict
 from rotor.markup import tag
@@ -62,13 +57,6 @@ def jig_file(state: SessionState) -> File:
     return _file(design, "stl", blade_stl(design), "blade", "jig")
 
 
-def flown_file(state: SessionState) -> File:
-    """The reference blade as flown at its azimuth as STL."""
-    solution, azimuth = state.solution, state.view.azimuth_deg
-    stl = blade_stl(flown_design(solution, math.radians(azimuth)))
-    return _file(solution.design, "stl", stl, "blade", "flown", f"psi{azimuth:.0f}")
-
-
 def _disk_table(state: SessionState) -> File:
     """Every field over the disk as CSV."""
     return _file(state.solution.design, "csv", disk_csv(state.solution), "disk")
@@ -97,9 +85,9 @@ class ExportPanel(Tab):
         self._curves = PowerCurves()
         self._stale = False
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
-        shapes = {"Jig STL": jig_file, "Flown STL": flown_file}
+        shapes = {"Jig STL": jig_file}
         tables = {"Disk": _disk_table, "Blade": _blade_table, "Power": self._power_table}
-        pictures = {"Disk as SVG": self._disk_drawing, "View as PNG": self._view_picture}
+        pictures = {"View as PNG": self._view_picture}
         gui = context.gui
         with gui.add_folder("Export"):
             for label, makers, name in (
@@ -109,13 +97,11 @@ class ExportPanel(Tab):
             ):
                 group = gui.add_button_group(label, tuple(makers), hint=hint(name))
                 group.on_click(lambda event, makers=makers: self._save("the file", makers[event.target.value]))
-            page = gui.add_button("3D scene as one file", icon=viser.Icon.CUBE, color="gray", hint=hint("export_scene"))
             report = gui.add_button(
                 "Report of this session", icon=viser.Icon.REPORT, color="gray", hint=hint("export_report")
             )
             self._state = gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
-        page.on_click(lambda _: self._save("the file", self._scene_page))
         report.on_click(lambda _: self._save("the report", self._report))
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
 
@@ -135,12 +121,6 @@ class ExportPanel(Tab):
             design, "csv", power_csv(state.solution, reference, self._curves.known(design, reference)), "power"
         )
 
-    def _disk_drawing(self, state: SessionState) -> File:
-        """The disk from above as SVG, as the page colours and marks it."""
-        view, solution, field = state.view, state.solution, shown_field(state.view, state.pinned)
-        drawing = disk_svg(solution, field, self._scene.held_range(field), marks_of(view), UNITS[view.units])
-        return _file(solution.design, "svg", drawing, "disk", field.title)
-
     def _view_picture(self, state: SessionState) -> File:
         """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
         client, view = self._context.client, state.view
@@ -150,18 +130,6 @@ class ExportPanel(Tab):
         seen = pixels[round(above * height) : height - round(below * height)]
         png = view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark)
         return _file(state.solution.design, "png", png, "view")
-
-    def _scene_page(self, state: SessionState) -> File:
-        """The rotor in trim as one HTML page to be turned with the mouse, without a server."""
-        solution, view = state.solution, replace(state.view, difference=False)
-        design, units = solution.design, UNITS[view.units]
-        powers = units.watts(solution.power.total, fineness(solution.power))
-        line = f"{powers} · {flight_words(design, units)} · {view.field} on the disk"
-        times = f" · twist exaggeration × {view.exaggeration:g}" if view.exaggeration != 1.0 else ""
-        colour_range = self._scene.held_range(FIELDS[view.field])
-        return _file(
-            design, "html", scene_page(solution, view, colour_range, title_words(design), line + times), "scene"
-        )
 
     def _report(self, state: SessionState) -> File:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""

@@ -29,8 +29,12 @@ from rotor.design import Flapping
 from rotor.design.quantities import BY_INPUT, STAND, STAND_TRIMS
 from rotor.design.quantity import Quantity, Slider
 
+Titles = Mapping[Any, str]
+"""What a menu shows, by what it means."""
+Ends = tuple[float, float]
 
-def key_of(titles: Mapping[Any, str], title: str) -> Any:
+
+def key_of(titles: Titles, title: str) -> Any:
     """The key of what a menu shows."""
     return next(key for key, value in titles.items() if value == title)
 
@@ -50,8 +54,8 @@ class Form:
         other units. `at_once`: called on the event loop, for what takes no time."""
         self._gui, self._moved, self._rows, self._at_once = gui, moved, rows or {}, at_once
         self._handles: dict[str, Any] = {}
-        self._titles: dict[str, Mapping[Any, str]] = {}
-        """Titles of each menu, by what its titles mean."""
+        self._titles: dict[str, Titles] = {}
+        """Titles of each menu."""
         self._defaults: dict[str, float] = {}
         """Where sliders began."""
         self._below: dict[str, viser.GuiHtmlHandle] = {}
@@ -68,27 +72,12 @@ class Form:
         if below:
             self._below[name] = self._gui.add_html(below, visible=visible)
 
-    def span(
-        self,
-        name: str,
-        label: str,
-        ends: tuple[float, float],
-        value: tuple[float, float],
-        least: float,
-        entry: str = "",
-    ) -> None:
+    def span(self, name: str, label: str, ends: Ends, value: Ends, least: float, entry: str = "") -> None:
         """A slider with two handles that stay `least` apart."""
         self._add(name, self._gui.add_multi_slider, label, *ends, 0.01, value, min_range=least, entry=entry)
 
     def menu(
-        self,
-        name: str,
-        label: str,
-        titles: Mapping[Any, str],
-        value: Any = None,
-        *,
-        entry: str = "",
-        visible: bool = True,
+        self, name: str, label: str, titles: Titles, value: Any = None, *, entry: str = "", visible: bool = True
     ) -> None:
         """`titles`: by what they mean; `value`: the meaning that is chosen first, by default the first."""
         self._titles[name] = titles
@@ -158,7 +147,7 @@ class Form:
         for name, value in values.items():
             self.fit(name, forms(name), value)
 
-    def offer(self, name: str, titles: Mapping[Any, str], value: Any) -> None:
+    def offer(self, name: str, titles: Titles, value: Any) -> None:
         """Give a menu other titles, and choose a meaning."""
         self._titles[name] = titles
         if self._handles[name].options != (options := tuple(titles.values())):

@@ -1,12 +1,12 @@
-"""Undo, redo, the strip of steps as bars by their power, and the kept designs; a click goes to one."""
+"""Undo, redo, and the kept designs; a click goes to one."""
 
 import math
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from explorer.colours import BASELINE, NOW, THIS
+from explorer.colours import THIS
 from explorer.hosting import browser
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
@@ -19,57 +19,12 @@ from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.glossary import hint
 from rotor import Solution, solve
-from rotor.markup import Attribute, Markup, group, tag
+from rotor.markup import Markup, tag
 
-FIELD = "Take step"
-"""Label of the text field that clicks are written to: `step 3`, `take 1`, `drop 1`."""
+FIELD = "Take design"
+"""Label of the text field that clicks are written to: `take 1`, `drop 1`."""
 MOST_KEPT = 8
-SHOWN = 40
-"""Bars of the strip: the newest steps."""
-
-_WIDTH, _HEIGHT, _LOWEST = 300.0, 40.0, 7.0
 _SPARK = 46.0, 18.0
-
-
-def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> Markup:
-    """SVG of the steps; `powers` [W] of those that were solved, a hollow bar for those that have no answer."""
-    steps, present = history.steps, len(history.past)
-    first = min(max(len(steps) - SHOWN, 0), present)  # The newest, unless undo has gone further back.
-    shown = steps[first : first + SHOWN]
-    known = [powers[step] for step in shown if step in powers]
-    low, high = (min(known), max(known)) if known else (0.0, 1.0)
-    pitch = min(_WIDTH / max(len(shown), 1), 16.0)
-    bars: list[Markup] = []
-    for k, step in enumerate(shown):
-        number_of = first + k
-        power = powers.get(step)
-        # The square root keeps designs near the least apart where one step of the strip needs far more power.
-        share = 0.5 if power is None or high - low < 1e-9 else math.sqrt((power - low) / (high - low))
-        height = _LOWEST + share * (_HEIGHT - _LOWEST)
-        colour = NOW if number_of == present else THIS if number_of < present else BASELINE
-        fill = "none" if power is None else colour
-        words = f"{twist_name(step)}; {flight_name(step, units)}; "
-        words += "no trim" if power is None else units.watts(power)
-        wide, top, fine = max(pitch - 1.2, 1.0), _HEIGHT - height, {"rx": 1, "fill": fill, "stroke_width": 0.8}
-        bars.append(
-            tag(
-                "g.rx-take",
-                tag("title", words),
-                tag("rect", x=pitch * k, y=0, width=pitch, height=_HEIGHT, fill="transparent"),
-                tag("rect", x=pitch * k + 0.6, y=top, width=wide, height=height, stroke=colour, **fine),
-                data_write=FIELD,
-                data_value=f"step {number_of}",
-            )
-        )
-    told: dict[str, Attribute] = {"data_steps": len(steps), "data_present": present, "data_explorer": "history"}
-    box, label = f"0 0 {_WIDTH:g} {_HEIGHT:g}", "Steps of the design"
-    return tag("svg.rx-strip", bars, viewBox=box, width="100%", role="img", aria_label=label, **told)
-
-
-def caption(history: History) -> Markup:
-    """Where in the history the page stands."""
-    here = tag("span", f"Step {len(history.past) + 1} of {len(history.steps)}")
-    return tag("div.rx-line.rx-dim.rx-small", here, tag("span", "a taller bar needs more power; click to go there"))
 
 
 def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:
@@ -97,9 +52,9 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
 
 
 def _asked(text: str) -> tuple[str, int] | None:
-    """What a click on the strip or on the rows asks for; None for a text that asks for nothing."""
+    """What a click on the rows asks for; None for a text that asks for nothing."""
     verb, _, digits = text.strip().partition(" ")
-    return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
+    return (verb, int(digits)) if verb in ("take", "drop") and digits.isdigit() else None
 
 
 def _spark(solution: Solution) -> Markup:
@@ -123,13 +78,11 @@ class HistoryPanel(Tab):
         before = share.read_history(stored, start)
         self._history = History(start, list(before.past), list(reversed(before.future)))
         self._stored = stored
-        self._powers: dict[Inputs, float] = {}
         self._kept: list[KeptDesign] = []
         self._waiting = list(before.bookmarks)
         """Kept designs of before a reload, to be solved once the page rests."""
         self._drawn: object = None
         with gui.add_folder("History"):
-            self._strip = gui.add_html("")
             keep = gui.add_button("Keep this design", color="gray", hint=hint("keep"))
             self._rows = gui.add_html("")
             gui.add_html(tag("div.rx-bridge"))  # The style sheet hides the row after it.
@@ -156,10 +109,6 @@ class HistoryPanel(Tab):
             else:
                 self._history.note(self._context.inputs(), 0.0)
                 self._history.release()
-
-    def solved(self, inputs: Inputs, power: float) -> None:
-        """Note the answer of the inputs: total power [W]."""
-        self._powers[inputs] = power
 
     def undo(self) -> None:
         with self._lock:
@@ -222,14 +171,10 @@ class HistoryPanel(Tab):
 
     def _draw(self, solution: Solution | None) -> None:
         with self._lock:
-            steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)
-            self._powers = {step: self._powers[step] for step in steps if step in self._powers}
-            units = self._context.units
-            if self._drawn == (steps, present, kept, solution, units):
+            kept, units = tuple(self._kept), self._context.units
+            if self._drawn == (kept, solution, units):
                 return
-            self._drawn = (steps, present, kept, solution, units)
-            steps_html = group(strip(self._history, self._powers, units), caption(self._history))
-        self._strip.content = tag("div.rx", steps_html)
+            self._drawn = (kept, solution, units)
         self._rows.content = tag("div.rx", kept_rows(kept, solution, units))
 
     def _move(self, inputs: Inputs | None) -> None:
@@ -246,13 +191,7 @@ class HistoryPanel(Tab):
             return
         verb, which = asked
         with self._lock:
-            if verb == "step":
-                inputs = self._history.go(which)
-            elif which >= len(self._kept):
-                inputs = None
-            elif verb == "drop":
-                inputs = None
+            kept = self._kept[which].inputs if which < len(self._kept) else None
+            if kept is not None and verb == "drop":
                 del self._kept[which]
-            else:
-                inputs = self._kept[which].inputs
-            self._move(inputs)
+            self._move(kept if verb == "take" else None)

@@ -12,7 +12,7 @@ from explorer.model.units import degrees, number
 from explorer.tabs.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.tabs.live_charts import chart_box
 from explorer.tabs.probe_measured import HEIGHT as CHART_HEIGHT
-from explorer.tabs.probe_measured import lift_chart, public_table, with_indices
+from explorer.tabs.probe_measured import lift_chart, with_indices
 from explorer.text.glossary import tip
 from explorer.text.readout import dash
 from rotor import Solution
@@ -233,7 +233,6 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
         _table(probe),
         measured,
         chart_box(lift_chart(probe), CHART_HEIGHT),
-        public_table(probe),
         data_explorer="probe",
     )
 
@@ -245,7 +244,6 @@ def _head(probe: Probe) -> Markup:
         tag("span.rx-best", alpha, data_explorer="probe-alpha", title=tip("probe_alpha")),
         tag("span.rx-dim", where(probe.psi), data_explorer="probe-place"),
         tag(chip, probe.region.value, data_explorer="probe-region", title=tip("probe_region")),
-        tag("button", "Ride along", data_do="ride", title=tip("ride")),
     )
 
 

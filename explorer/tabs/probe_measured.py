@@ -1,4 +1,4 @@
-"""The probe beside what others measured: its section, with lift curve and table; and airloads over the azimuth."""
+"""The probe beside what others measured: its section, with lift curve; and airloads over the azimuth."""
 
 import math
 import re
@@ -13,9 +13,8 @@ from explorer.tabs.element import Probe
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import READOUTS, tip
 from explorer.text.readout import dash
-from explorer.text.status import section_title
 from rotor import Solution
-from rotor.airfoil.public_points import SOURCES, nearest_points, points_near
+from rotor.airfoil.public_points import SOURCES, points_near
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series
 from rotor.markup import Markup, group, tag
@@ -25,15 +24,6 @@ from rotor.validation.airloads import REPORTS, harmonics
 LIFT = THIS
 HEIGHT = 92.0
 """Height of the charts [px]."""
-_SHORT = {
-    "umd-rans": "RANS",
-    "umd-net": "RANS net",
-    "cr-166309": "simulation deck",
-    "tm-86719": "wind tunnel",
-    "tm-88370": "rotor table",
-    "hart2": "HART II table",
-}
-
 _TITLES = {
     "cn_m2": ("C_nM²", "normal force coefficient times Mach number squared"),
     "cm_m2": ("C_mM²", "moment coefficient times Mach number squared, nose up"),
@@ -96,28 +86,6 @@ def lift_chart(probe: Probe) -> Chart:
     )
 
 
-def public_table(probe: Probe) -> Markup:
-    """The nearest public point of each source with our coefficients at the same point; empty where none is near."""
-    section = probe.section.main
-    rows: list[Markup] = []
-    for point in nearest_points(section.name, probe.table_mach, probe.alpha - section.incidence_offset):
-        here, moment = section.table(point.alpha, point.mach), section.table.moment(point.alpha, point.mach)
-        place = f"M {number(point.mach, 2)}, {number(math.degrees(point.alpha), 1)}°"
-        use = "kept aside" if point.kept_aside else "used for the section data"
-        ours = _cells(float(here.cl), float(here.cd), None if moment is None else float(moment))
-        source, name = f"{SOURCES[point.source]}: {use}", f"{_SHORT[point.source]}, {place}"
-        rows.append(tag("tr", tag("td", name), _cells(point.cl, point.cd, point.cm), title=source))
-        rows.append(tag("tr.rx-dim", tag("td", "section data"), ours))
-    if not rows:
-        return Markup()
-    heads = [tag("td.rx-num.rx-dim", with_indices(f"C_{letter}")) for letter in "ldm"]
-    where = tag("span.rx-dim", f"{section_title(section.name)}, nearest points")
-    return group(
-        tag("div.rx-line.rx-probe-title", _title("Public data"), where, title=tip("probe_public")),
-        tag("table.rx-small", tag("tr", tag("td"), heads), rows, data_explorer="probe-public"),
-    )
-
-
 def _title(words: str) -> Markup:
     return tag("span", tag("b", words))
 
@@ -125,11 +93,6 @@ def _title(words: str) -> Markup:
 def with_indices(words: str) -> Markup:
     """Text with the index of C_l and the like set low."""
     return group(tag("sub", part) if k % 2 else part for k, part in enumerate(re.split(r"_(\w)", words)))
-
-
-def _cells(cl: float, cd: float, cm: float | None) -> list[Markup]:
-    texts = (number(cl, 3), number(cd, 4), "–" if cm is None else number(cm, 3))
-    return [tag("td.rx-num", text) for text in texts]
 
 
 @dataclass(frozen=True, eq=False)

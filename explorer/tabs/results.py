@@ -27,7 +27,6 @@ from explorer.text.status import cautions, status_panel, trust_page, validated
 from explorer.text.why import why
 from rotor import Solution, doubt
 from rotor.markup import Markup
-from rotor.study.series import between_drag_areas
 from rotor.trim import Analysis, PitchGradient
 from rotor.trim.doubt import models_beside
 
@@ -134,7 +133,7 @@ class PowerCard:
             self._counted_from, self._before = self._tracker.reference, solution if first else self._last
         self._last = solution
         numbers = {**_numbers(state, units), **self._change(state, units)}
-        self._content = {**numbers, "problem": "", "band": "", "status": _status(state), **self._doubt}
+        self._content = {**numbers, "problem": "", "status": _status(state), **self._doubt}
         self._bridge.set(power=self._content)
 
     def show_doubt(self, words: dict[str, Any]) -> None:
@@ -142,12 +141,6 @@ class PowerCard:
         self._doubt = words
         if self._content is not None and not self._content["problem"]:
             self._content = {**self._content, **words}
-            self._bridge.set(power=self._content)
-
-    def show_band(self, words: str) -> None:
-        """Say between which powers the drag area of the sources leaves the total."""
-        if self._content is not None and not self._content["problem"]:
-            self._content = {**self._content, "band": words}
             self._bridge.set(power=self._content)
 
     def show_problem(self, sentence: str) -> None:
@@ -259,7 +252,7 @@ def _kind(change: float, total: float) -> str:
 _NO_DOUBT: dict[str, Any] = {"within": "", "change_within": "", "sure": "", "doubt": ""}
 _EMPTY: dict[str, Any] = {
     **_NO_DOUBT,
-    **dict.fromkeys(("kind", "ideal_title", "rest", "why", "band"), ""),
+    **dict.fromkeys(("kind", "ideal_title", "rest", "why"), ""),
     **dict.fromkeys(("ideal", "since")),
     "total": "–",
     "unit": "kW",
@@ -281,8 +274,6 @@ class ResultsPanel:
         self._state: SessionState | None = None
         """The last converged one."""
         self._analyses = context.analyses
-        self._band: tuple[Solution, tuple[Solution, Solution] | None] | None = None
-        """A solution, and the same flight with the lowest and the highest drag area."""
         with layout.in_drawer("details"):
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
@@ -303,7 +294,7 @@ class ResultsPanel:
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
-            self._power.content, self._trim.content = _tables(state, self._band_words(state))
+            self._power.content, self._trim.content = _tables(state)
 
     def stop(self) -> None:
         """The browser has left."""
@@ -320,7 +311,6 @@ class ResultsPanel:
         if self._state is not None:
             self.sliders.solve_flight(self._state, superseded)
             self.strip.solve_measured(self._state, superseded)
-            self._solve_band(self._state, superseded)
 
     def problem(self, sentence: str) -> None:
         """Keep the last converged numbers, greyed, with the sentence that says why there are none."""
@@ -329,8 +319,7 @@ class ResultsPanel:
         self.sliders.clear()
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
-            numbers = _tables(self._state, self._band_words(self._state))
-            self._power.content, self._trim.content = map(readout.faded, numbers)
+            self._power.content, self._trim.content = map(readout.faded, _tables(self._state))
 
     def _show_doubt(self, state: SessionState, own: Analysis, other: Analysis) -> None:
         """How sure power is, and its change from the reference."""
@@ -372,33 +361,15 @@ class ResultsPanel:
         shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
         self._bridge.set(inset={**shown, **names})
 
-    def _solve_band(self, state: SessionState, superseded: Callable[[], bool]) -> None:
-        """Power between the drag areas of the sources: two more trims."""
-        solution = state.solution
-        if superseded() or readout.open_drag_area(solution.design) is None:
-            return
-        if self._band is None or self._band[0] is not solution:
-            self._band = solution, between_drag_areas(solution)
-        words = self._band_words(state)
-        self.card.show_band(words)
-        if self._layout.drawer == "details":
-            self._power.content = _tables(state, words)[0]
-
-    def _band_words(self, state: SessionState) -> str:
-        """The band of this state as far as it is known."""
-        ends = self._band[1] if self._band is not None and self._band[0] is state.solution else None
-        return readout.drag_band_words(state.solution.design, ends, UNITS[state.view.units])
-
 
 def _gradient(analysis: Analysis) -> PitchGradient | None:
     """None for a free rotor: its shaft takes no power, whatever the twist."""
     return None if analysis.solution.design.models.trim == "free-rotor" else analysis.gradient
 
 
-def _tables(state: SessionState, band: str) -> tuple[Markup, Markup]:
+def _tables(state: SessionState) -> tuple[Markup, Markup]:
     """Power and trim: of this design, or of A and B."""
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
-        return readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
-    power = readout.compared_power_panel(solution, pinned, units, band)
-    return power, readout.compared_trim_panel(solution, pinned)
+        return readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
+    return readout.compared_power_panel(solution, pinned, units), readout.compared_trim_panel(solution, pinned)

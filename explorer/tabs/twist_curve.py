@@ -184,10 +184,8 @@ class TwistCurveEditor:
             {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
             for k in movable
         ]
-        places = {
-            "this": len(parts) - 1,
-            "reference": 1 if flown is not None else 0,
-        }  # The blade in the hand is drawn from them.
+        # The blade in the hand is drawn from them.
+        places = {"this": len(parts) - 1, "reference": 1 if flown is not None else 0}
         self._context.bridge.set(twist={**as_json(chart), "knots": handles, "places": places})
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:

@@ -1,21 +1,17 @@
-"""Vibration of blades that bend: the row of the power card, lines over the hub, and index over speed.
+"""Vibration of blades that bend: the row of the power card, and index over speed.
 
 The index of a solution is a few milliseconds of work and follows every step of a drag, after its frame. Its band over
 wakes and curves over speed are computed while the page rests.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
-from explorer.colours import scene_theme
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.picture.picture import BENDING_SHOWN
-from explorer.picture.wake import hub_words, scale_words
-from explorer.scene.controller import SceneController
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import ChartStrip
@@ -30,8 +26,8 @@ _NOTICEABLE = 0.5
 
 
 class VibrationPanel:
-    def __init__(self, context: TabContext, scene: SceneController, strip: ChartStrip) -> None:
-        self._context, self._scene, self._strip = context, scene, strip
+    def __init__(self, context: TabContext, strip: ChartStrip) -> None:
+        self._context, self._strip = context, strip
         self._state: SessionState | None = None
         self._curves = IndexCurves()
         self._loads: dict[Solution, HubLoads | None] = {}
@@ -51,10 +47,6 @@ class VibrationPanel:
             if solution not in self._loads and solution.converged and solution.design.models.bending:
                 self._loads[solution] = hub_loads(solution, solve, band=False)
         self._draw()
-
-    def turn(self, state: SessionState) -> None:
-        self._state = state
-        self._draw_lines()
 
     def solve_deferred(self, superseded: Callable[[], bool]) -> None:
         """The page rests: compute what can wait, until newer input comes."""
@@ -76,7 +68,6 @@ class VibrationPanel:
 
     def problem(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""
-        self._scene.hub_loads.hide()
         self._context.bridge.set(hub_labels=[])
 
     @property
@@ -117,14 +108,13 @@ class VibrationPanel:
 
     def _clear(self) -> None:
         self._loads = {}
-        self._scene.hub_loads.hide()
         self._context.bridge.set(vibration=None, hub_labels=[])
         self._strip.show_vibration(None)
 
     def _draw(self) -> None:
         if self._state is not None:
             self._context.bridge.set(vibration=self._card(self._state))
-            self._draw_lines()
+            self._say_how_bent()
             self._draw_chart()
 
     def _draw_chart(self) -> None:
@@ -134,27 +124,15 @@ class VibrationPanel:
             chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
             self._strip.show_vibration(chart)
 
-    def _draw_lines(self) -> None:
-        """Lines over the hub, and the words in the scene."""
-        state = self._state
-        if state is None or not state.solution.design.models.bending:
-            return
-        design, labels = state.solution.design, list[dict[str, Any]]()
-        if deflections(state.solution) is not None:
-            tip = [1.04 * (1.0 - design.rotor.blade.flap_hinge) * design.rotor.radius, 0.0, 0.0]
+    def _say_how_bent(self) -> None:
+        """The words in the scene: bending is drawn larger."""
+        state, labels = self._state, list[dict[str, Any]]()
+        if state is not None and deflections(state.solution) is not None:
+            rotor = state.solution.design.rotor
+            tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
             title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
-            text = f"bending × {BENDING_SHOWN:g}"
-            labels.append({"text": text, "node": f"{ROTOR}/blade_0", "at": tip, "title": title})
-        loads = self._loads.get(state.solution)
-        if loads is None:
-            self._scene.hub_loads.hide()
-        else:
-            psi, theme = math.radians(state.view.azimuth_deg), scene_theme(state.view.dark)
-            lines = self._scene.hub_loads.show(loads, design, psi, theme)
-            for name, (words, sentence) in hub_words(loads, design).items():
-                aside = {} if name == "bar" else {"aside": lines.centre}
-                place = {"node": ROTOR, "at": lines.places[name], "kind": name, **aside}
-                labels.append({"text": words, "title": sentence, **place})
+            words = {"text": f"bending × {BENDING_SHOWN:g}", "title": title}
+            labels.append({**words, "node": f"{ROTOR}/blade_0", "at": tip})
         self._context.bridge.set(hub_labels=labels)
 
     def _card(self, state: SessionState) -> dict[str, Any] | None:
@@ -174,7 +152,6 @@ class VibrationPanel:
             "index": number(loads.index, 1),
             "unit": index_unit(design),
             "at": f"at {loads.per_rev}/rev",
-            "scale": scale_words(design),
             "sentence": "",
             "band": band,
             "change": change,

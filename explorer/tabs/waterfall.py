@@ -113,26 +113,6 @@ def _key(step: WaterfallStep, units: Units) -> Markup:
     return tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
 
 
-def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup:
-    """Each switch off alone: the change of the total and of its two large parts."""
-    if not steps:
-        return Markup()
-    unit = units.power[0]
-    heads = (f"total [{unit.symbol}]", "induced", "profile")
-    rows = [tag("tr", tag("td.rx-dim", "one off, all others on"), [tag("td.rx-num.rx-dim", head) for head in heads])]
-    for step in steps:
-        if step.change is None or step.added is None:
-            cells = [tag("td.rx-num.rx-broken", "has no trim", colspan=3)]
-        elif step.note:
-            cells = [tag("td.rx-num.rx-dim.rx-small.rx-wraps", step.note, colspan=3)]
-        else:
-            values = (step.added, step.change["induced"], step.change["profile"])
-            cells = [tag("td.rx-num", number(unit.of(value), 1, sign=True)) for value in values]
-        sentence = step.switch.off if step.switch else ""
-        rows.append(tag("tr", tag("td", f"no {step.title.lower()}"), cells, title=sentence))
-    return tag("div.rx.rx-alone", tag("table", rows), data_explorer="each-alone")
-
-
 def _x(power: float, top: float) -> float:
     return _BAR_LEFT + (_BAR_RIGHT - _BAR_LEFT) * power / top
 
@@ -147,8 +127,8 @@ def _words(x: float, y: float, text: str, look: str = "") -> Markup:
 
 _WORDS = (
     "The same condition without flapping, losses, reverse flow, compressibility and fuselage drag, then with one more "
-    "at a time; every row is a trim. The cost of an effect depends on the others, so below: each effect removed on its "
-    "own."
+    "at a time; every row is a trim. The cost of an effect depends on the others: what each alone adds to the "
+    "whole stands beside its switch, under Model."
 )
 _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 """Steps from everything off to everything on, and with each switch off alone."""
@@ -159,13 +139,12 @@ class WaterfallPanel(Tab):
         self._controls, gui = context.controls, context.gui
         gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", _WORDS))
         self._chart = gui.add_html(waterfall_chart(()))
-        self._table = gui.add_html("")
         self._design: Design | None = None
         """With everything on: what the steps are of."""
         self._units = SI
         self._coming: Iterator[WaterfallStep] = iter(())
         self._steps: list[WaterfallStep] = []
-        self._drawn = waterfall_chart(()), alone_table(())
+        self._drawn = waterfall_chart(())
 
     def show(self, state: SessionState) -> None:
         """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
@@ -191,13 +170,12 @@ class WaterfallPanel(Tab):
 
     def _draw(self) -> None:
         climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
-        self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
-        self._chart.content, self._table.content = self._drawn
+        self._chart.content = self._drawn = waterfall_chart(climbed, self._units)
         costs = {step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None}
         self._controls.show_costs(costs)
 
     def _fade(self) -> None:
-        self._chart.content, self._table.content = map(readout.faded, self._drawn)
+        self._chart.content = readout.faded(self._drawn)
 
 
 def _cost(step: WaterfallStep, units: Units) -> str:

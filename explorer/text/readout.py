@@ -15,7 +15,7 @@ from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import Verdict
 from rotor.actuator.installation import MassBreakdown
-from rotor.markup import Content, Markup, group, tag
+from rotor.markup import Content, Markup, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.trim.doubt import sureness
 
@@ -39,8 +39,8 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: str = "") -> Markup:
-    """Total power with its change, the bar of parts, and the table of parts; `band`: as `drag_band_words` says it."""
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:
+    """Total power with its change, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
@@ -51,33 +51,16 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
         "div.rx",
         total_line(power, reference, units),
         tag("div.rx-line.rx-dim", tag("span", "total power"), tag("span", against), title=tip("change")),
-        tag("div.rx-bar", bar(power, ideal)),
         tag("table", rows),
         ideal_line(solution, ideal, units),
-        band_line(band),
         data_explorer="power",
     )
-
-
-def band_line(words: str) -> Markup:
-    """The band of the drag area below the table of powers; empty without words."""
-    return tag("div.rx-dim", words, data_explorer="drag-band", title=tip("drag_band")) if words else Markup()
 
 
 def open_drag_area(design: Design) -> tuple[float, float] | None:
     """Lowest and highest drag area [m²] that the sources allow; None where they give one, in hover and on a stand."""
     flies = design.condition.stand is None and not design.hovering and design.models.fuselage
     return design.fuselage.drag_area_band if flies else None
-
-
-def drag_band_words(design: Design, ends: tuple[Solution, Solution] | None, units: Units) -> str:
-    """Total power between the drag areas of the sources; empty where they give one, or `ends` are not known."""
-    areas = open_drag_area(design)
-    if areas is None or ends is None:
-        return ""
-    digits = fineness(ends[0].power)
-    low, high = (number(units.power[0].of(end.power.total), digits) for end in ends)
-    return f"Drag area {number(areas[0], 2)} to {number(areas[1], 2)} m²: {low} to {high} {units.power[0].symbol}"
 
 
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
@@ -111,7 +94,7 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
         theory = " (momentum theory)" if solution.design.hovering else ""
         power, factor = tag("b", units.watts(ideal)), f", κ {number(ideal / unit, 2)}{theory}"
-        bound = tag("i.rx-mark"), " ideal ", power, factor
+        bound = "ideal ", power, factor
     return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 
 
@@ -127,16 +110,6 @@ def change(power: PowerBudget, reference: PowerBudget | None) -> Markup:
 def direction(percent: float) -> str:
     """CSS class of a change: green for less, rust for more, none below 0.05 %."""
     return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
-
-
-def bar(power: PowerBudget, ideal: float | None) -> Markup:
-    """The parts side by side, and a mark at the ideal induced power."""
-    values = {name: getattr(power, name) for name in PARTS}
-    parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
-    total = max(sum(parts.values()), 1.0)
-    spans = [tag("span", style=f"flex:{value / total:.5f};background:{PARTS[name]}") for name, value in parts.items()]
-    at = None if ideal is None else f"position:absolute;left:{100.0 * ideal / total:.2f}%"
-    return group(spans, tag("i.rx-mark", style=at) if at else None)
 
 
 def fineness(power: PowerBudget) -> int:
@@ -237,20 +210,19 @@ def faded(html: Markup) -> Markup:
     return tag("div.rx-faded", html)
 
 
-def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: str = "") -> Markup:
-    """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
+def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> Markup:
+    """Total power with its change relative to A, and the parts of both.
 
-    Where A has no trim it shows dashes. `band`: of B, as `drag_band_words` says it.
+    Where A has no trim it shows dashes.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
     ideal = ideal_induced(solution)
     rows = [
-        _compared_row(title, power, reference, lambda p, n=name: getattr(p, n), units, name)
-        for name, title in part_titles(solution.design, pinned.design).items()
+        _compared_row(title, name, power, reference, units)
+        for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
     ]
-    rows.append(_compared_row("Total", power, reference, lambda p: p.total, units))
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
     return tag(
@@ -262,10 +234,8 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
             tag("span", "vs. " if reference else None, _name("A"), against),
             title=tip("change"),
         ),
-        _bars(power, reference, ideal),
         tag("table.rx-ab", head, rows, data_explorer="ab"),
         ideal_line(solution, ideal, units),
-        band_line(band),
         data_explorer="power",
     )
 
@@ -302,33 +272,14 @@ def _name(letter: str) -> Markup:
     return dash(PINNED, dashed=True) + tag("b", letter) if letter == "A" else dash(THIS) + tag("b", letter)
 
 
-def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> Markup:
-    """A above B; the length of a bar is the total power."""
-    longest = max(power.total, reference.total if reference else 0.0, 1.0)
-    lines: list[Content] = []
-    for letter, budget, mark in (("A", reference, None), ("B", power, ideal)):
-        length = 100.0 * max(budget.total, 0.0) / longest if budget else 0.0
-        filled = tag("div.rx-bar", bar(budget, mark) if budget else None, style=f"width:{length:.2f}%")
-        lines += [tag("span.rx-dim", letter), tag("div", filled)]
-    return tag("div.rx-bars", lines)
-
-
-def _compared_row(
-    title: str,
-    power: PowerBudget,
-    reference: PowerBudget | None,
-    read: Callable[[PowerBudget], float],
-    units: Units,
-    part: str = "",
-) -> Markup:
-    unit = units.power[0]
-    b = unit.of(read(power))
-    a = None if reference is None else unit.of(read(reference))
+def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
+    b = units.power[0].of(getattr(power, part))
+    a = None if reference is None else units.power[0].of(getattr(reference, part))
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
     fine = fineness(power)
-    if part:
+    if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     kind = "" if percent is None else direction(percent)

@@ -10,7 +10,7 @@
       + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
     const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
-    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.band || now.doubt)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span> <small data-explorer="within">${text(now.within)}</small></div>
+    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.doubt)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span> <small data-explorer="within">${text(now.within)}</small></div>
       ${now.since ? '' : '<div class="rxf-sub">total power</div>'}<div class="rxf-sub rxf-num" ${now.since ? '' : 'hidden'}><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>
       <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(now.doubt)}">${now.sure ? `${text(now.change_within)} %: ${text(now.sure)}` : ''}</div></div>
       <div class="rxf-rule"></div>
@@ -37,7 +37,7 @@
     card.querySelector('.rxf-vibration')?.remove();
     if (!now) return;
     const numbers = now.sentence ? `<span class="rxf-dim">${text(now.sentence)}</span>` : `<span class="rxf-num"><b data-explorer="index">${text(now.index)}</b> ${text(now.unit)}</span><span class="rxf-dim rxf-num" data-explorer="index-band">${text(now.band)}</span>
-      ${now.change ? `<span class="rxf-num ${now.kind ? `rxf-${now.kind}` : ''}" data-explorer="index-change">${text(now.change)}</span>` : ''}<span class="rxf-dim rxf-push rxf-scale">${text(now.scale)}</span>`;
+      ${now.change ? `<span class="rxf-num ${now.kind ? `rxf-${now.kind}` : ''}" data-explorer="index-change">${text(now.change)}</span>` : ''}`;
     card.insertAdjacentHTML('beforeend', `<div class="rxf-vibration" data-explorer="vibration" role="group" tabindex="0" aria-label="Vibration: ${text(now.sentence || `${now.index} ${now.unit}, ${now.band}${now.change ? `, ${now.change}` : ''}. ${now.title}`)}" title="${text(now.title)}"><b>Vibration${now.at ? ` ${text(now.at)}` : ''}</b>${numbers}</div>`);
   }
   RX.also('vibration', vibration);
@@ -47,7 +47,6 @@
     stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
     reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
     wake: ['Tip vortices', '<path d="M0 8.500C6 1 13 1 20 6.5" stroke="var(--rx-accent)" stroke-width="1.800" fill="none"/>'],
-    arrows: ['Inflow', '<path d="M5 0v9M2.200 6 5 9.5 7.800 6M15 0v9M12.200 6 15 9.5 17.800 6" stroke="var(--rx-accent)" stroke-width="1.5" fill="none"/>'],
     drag_divergence: ['Drag divergence', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
   };
   const line = (colour, dashes = '') => `<path d="M0 5.5H20" stroke="${colour}" stroke-width="2.4" stroke-dasharray="${dashes}"/>`;

@@ -289,11 +289,6 @@
       if (!seen || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       let left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
-      if (one.aside) {  // Beside its point, away from what it belongs to.
-        const middle = node.position.clone().set(...one.aside).applyMatrix4(node.matrixWorld).project(client.camera);
-        left += (at.x < middle.x ? -1 : 1) * (label.offsetWidth / 2 + 7);
-        top += label.offsetHeight / 2;
-      }
       left = Math.max(4, Math.min(left, box.width - label.offsetWidth - 4));
       top = Math.max(4, top);
       // None lies behind a card or over another: it goes below what it meets, but not far from its point.

@@ -62,22 +62,6 @@ def points_near(section: str, mach: float) -> tuple[PublicPoint, ...]:
     return tuple(point for point in public_points(section) if abs(point.mach - mach) <= 0.05 + 1e-9)
 
 
-def nearest_points(section: str, mach: float, alpha: float) -> tuple[PublicPoint, ...]:
-    """The point of each source that is nearest to a Mach number and an angle [rad], if within 0.1 and 3 deg.
-
-    Half a degree counts as much as 0.02 of Mach.
-    """
-    nearest: dict[str, tuple[float, PublicPoint]] = {}
-    for point in public_points(section):
-        faster, steeper = abs(point.mach - mach) / 0.1, abs(point.alpha - alpha) / np.deg2rad(3.0)
-        if max(faster, steeper) > 1.0 + 1e-9:
-            continue
-        distance = float(np.hypot(faster, 1.2 * steeper))
-        if point.source not in nearest or distance < nearest[point.source][0]:
-            nearest[point.source] = distance, point
-    return tuple(nearest[source][1] for source in SOURCES if source in nearest)
-
-
 @dataclass(frozen=True)
 class SectionAgreement:
     """A section table beside the points kept aside, below stall."""

@@ -91,13 +91,6 @@ def test_tables_are_read_back(watched: Watched, tmp_path: Path):
         assert "linear:-16" in text
 
 
-def test_the_disk_is_a_drawing(watched: Watched, tmp_path: Path):
-    drawing = saved(watched, "Disk as SVG", tmp_path).read_text(encoding="utf-8")
-    assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg"')
-    assert "µ 0.410" in drawing
-    assert "drag divergence" in drawing
-
-
 @pytest.mark.slow
 def test_the_view_is_a_picture_of_the_scene_between_the_cards(watched: Watched, app: App, tmp_path: Path):
     with Image.open(saved(watched, "View as PNG", tmp_path)) as picture:
@@ -142,25 +135,6 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     assert asked.count(path.as_uri()) == 1
     assert report.complaints == []
     report.page.close()
-
-
-def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
-    shown = watched.text("total-power")
-    path = saved(watched, "3D scene as one file", tmp_path)
-    assert path.stat().st_size < 3_000_000
-    assert asks_nobody(path.read_text(encoding="utf-8"))
-    scene = Watched(watched.page.context.new_page())
-    asked = requests_of(scene.page)
-    scene.page.goto(path.as_uri())
-    blade = "() => window.__viserSceneTree?.getState()['/rotor/blade_0']?.message.props.vertices.byteLength > 10000"
-    scene.page.wait_for_function(blade)
-    assert shown in scene.text("caption")
-    assert "µ 0.41" in scene.text("caption")
-    assert "linear" in scene.page.title().lower()
-    scene.page.wait_for_timeout(1000)
-    assert foreign(asked) == []
-    assert scene.complaints == []
-    scene.page.close()
 
 
 def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):

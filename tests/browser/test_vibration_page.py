@@ -37,9 +37,7 @@ def test_bending_brings_the_hub_loads_and_takes_them_away(watched: Watched):
     gap = watched.page.locator(".rxf-chart[data-name=vibration] [data-gap] + text")
     assert gap.text_content() == "none below µ 0.2"
     labels = watched.page.locator(".rxf-label:visible")
-    watched.until(lambda: labels.count() == 4)
-    assert "bending × 10" in labels.all_inner_texts()
-    assert "drawn 1 m for 2 kN" in (labels.filter(has_text="in-plane").get_attribute("title") or "")
+    watched.until(lambda: labels.all_inner_texts() == ["bending × 10"])
     spoken = watched.page.locator('[data-explorer="vibration"]').get_attribute("aria-label") or ""
     assert spoken.startswith("Vibration: ")
     assert "0.67 to starboard" in spoken

@@ -323,7 +323,6 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
         (
             actuator_words.details_panel(one),
             actuator_words.fit_panel(one.installed, one),
-            actuator_words.segments_panel(one.installed, one),
             actuator_words.limits_panel(one),
             table_panel({"MFC_P1": one}, question),
         )

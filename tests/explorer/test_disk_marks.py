@@ -30,7 +30,7 @@ from explorer.picture.polar import (
     region_codes,
     region_masks,
 )
-from explorer.picture.wake import inflow_arrows, tip_vortex_path, tip_vortices
+from explorer.picture.wake import tip_vortex_path, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -226,14 +226,6 @@ class TestAirLines:
         age = 2.0 * math.pi * 0.8
         sunk = (points[0, 0, 2] - points[-1, 1, 2]) / hover.design.rotor.radius
         assert sunk == pytest.approx(0.06 * age, rel=1e-3)
-
-    def test_inflow_arrows_are_as_long_as_the_inflow_and_point_down(self, hover: Solution):
-        segments = inflow_arrows(hover)
-        shafts = segments[: len(segments) // 3]
-        length = shafts[:, 0, 2] - shafts[:, 1, 2]
-        r = np.hypot(shafts[:, 0, 0], shafts[:, 0, 1]) / hover.design.rotor.radius
-        expected = 2.6 * np.interp(r, hover.disk.r, hover.disk.induced.mean(axis=1)) * hover.design.rotor.radius
-        np.testing.assert_allclose(length, expected, rtol=1e-3)
 
 
 class TestInset:

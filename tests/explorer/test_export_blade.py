@@ -13,10 +13,7 @@ from numpy.testing import assert_allclose
 from explorer.__main__ import main
 from explorer.export.blade import blade_mesh, blade_stl
 from explorer.export.provenance import file_stem
-from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import SessionState
 from explorer.picture.picture import with_active_twist
-from explorer.tabs.export_panel import flown_file, jig_file
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.twist import (
@@ -29,7 +26,6 @@ from rotor.design.twist import (
     TwistLaw,
 )
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.trim.solve import solve
 
 DESIGN = make_design(preset="flight", mu=0.2)
 PLAIN = LinearTwist(0.0)
@@ -111,26 +107,6 @@ def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
     assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # On its own: the law alone.
 
 
-def test_the_files_of_the_page_are_the_jig_and_the_flown_blade():
-    """The tip is turned by the elastic twist there less that at 0.75 R, where the pitch of a shape is zero."""
-    solution = solve(Inputs(advance_ratio=0.3).design()).require()
-    state = SessionState(Inputs(advance_ratio=0.3), ViewState(azimuth_deg=90.0), solution, solution, None)
-    jig, flown = jig_file(state), flown_file(state)
-    assert "jig" in jig.name
-    assert "flown-psi90" in flown.name
-    elastic = solution.disk.elastic_twist
-    assert elastic is not None
-    at_90 = elastic[:, 30]  # Of 120 azimuths.
-    expected = float(at_90[-1]) - float(np.interp(0.75, solution.disk.r, at_90))
-    angles = []
-    for file in (jig, flown):
-        mesh = trimesh.load_mesh(io.BytesIO(file.content), file_type="stl")
-        tip = mesh.vertices[mesh.vertices[:, 0] > mesh.vertices[:, 0].max() - 1e-4]
-        nose, tail = tip[tip[:, 1].argmax()], tip[tip[:, 1].argmin()]
-        angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
-    assert angles[1] - angles[0] == pytest.approx(expected, abs=2e-3)
-
-
 def test_sections_that_change_at_once_stay_closed():
     design = replace(DESIGN, rotor=change_airfoils(DESIGN.rotor, "sc1094r8,sc1095@0.62"))
     assert blade_mesh(design).is_watertight
@@ -142,8 +118,9 @@ def test_file_names_hold_nothing_that_a_system_refuses():
     assert len(file_stem(replace(DESIGN, twist=LAWS[4]))) < 120
 
 
-def test_the_command_writes_both_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-    assert main(["blade", "--out", str(tmp_path), "--psi", "270"]) == 0
-    names = sorted(path.name for path in tmp_path.iterdir())
-    assert [name.partition("-blade-")[2] for name in names] == ["flown-psi270.stl", "jig.stl"]
-    assert capsys.readouterr().out.count("MB") == 2
+def test_the_command_writes_the_jig_shape(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["blade", "--out", str(tmp_path)]) == 0
+    (path,) = tmp_path.iterdir()
+    assert path.name.endswith("-blade-jig.stl")
+    assert path.read_bytes() == blade_stl(make_design())
+    assert capsys.readouterr().out.count("MB") == 1

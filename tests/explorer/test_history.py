@@ -36,7 +36,6 @@ VIEWS = st.builds(
     drag_divergence=st.booleans(),
     units=st.sampled_from(tuple(UNITS)),
     wake=st.booleans(),
-    arrows=st.booleans(),
 )
 FIRST = Inputs(law="linear", linear=-8.0)
 DRAG = 0.05
@@ -107,15 +106,15 @@ class TestHistory:
         drag(history, "mass_t", [9.0], LONG)
         assert history.redo() is None
 
-    def test_a_hundred_steps_are_kept_and_any_of_them_is_gone_to(self):
+    def test_a_hundred_steps_are_kept(self):
         history = History(START)
         for k in range(150):
             history.note(replace(START, mass_t=5.0 + 0.04 * k), LONG)
-        steps = history.steps
         assert len(history.past) == STEPS == 100
-        for step, found in ((1, steps[1]), (1, None), (101, None), (100, steps[100])):
-            assert history.go(step) == found
-            assert history.steps == steps
+        while history.undo() is not None:
+            pass
+        assert history.present == replace(START, mass_t=5.0 + 0.04 * 49)
+        assert len(history.future) == STEPS
 
 
 class TestStoredHistory:

@@ -229,12 +229,11 @@ class TestPlay:
 
 
 class TestOverlays:
-    def test_vortices_and_arrows_are_switched(self, page: Page, fast: Solution):
-        for wake, arrows in ((True, False), (False, True)):
-            page.controller.draw(fast, replace(VIEW, wake=wake, arrows=arrows), None)
+    def test_vortices_are_switched(self, page: Page, fast: Solution):
+        for wake in (True, False):
+            page.controller.draw(fast, replace(VIEW, wake=wake), None)
             page.controller.draw_finely()
             assert page["/rotor/vortices"].visible == wake
-            assert page["/rotor/inflow"].visible == arrows
 
     def test_a_lost_trim_greys_the_disk(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)

@@ -2,7 +2,6 @@
 
 import math
 import re
-from contextlib import nullcontext
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -14,7 +13,6 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
 from explorer.charts.vibration import SPEEDS, IndexCurves, index_chart
-from explorer.colours import scene_theme
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
@@ -28,8 +26,6 @@ from explorer.picture.picture import (
     rotate,
     turned_blades,
 )
-from explorer.picture.wake import hub_lines, hub_words, load_scale
-from explorer.scene.overlays import HubLoadLines
 from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel
 from explorer.tabs.vibration_panel import VibrationPanel
@@ -111,42 +107,6 @@ class TestDrawnBlade:
         assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
 
 
-class TestHubLines:
-    def test_paths_are_the_loads_on_the_stated_scale(self, bent: Solution, loads: HubLoads):
-        scale = load_scale(bent.design)
-        lines = hub_lines(loads, bent.design, 0.3)
-        for path, names in ((lines.force, ("fx", "fy")), (lines.moment, ("mx", "my"))):
-            off = (path - lines.centre).reshape(-1, 3) * scale
-            assert_allclose(np.abs(off).max(axis=0), [*(loads.amplitudes[name] for name in names), 0.0], rtol=2e-3)
-        assert_allclose(np.ptp(lines.bar[0, :, 2]) * scale, 2.0 * loads.amplitudes["fz"])
-        assert f"{scale:.0e}"[0] in "125"
-        for name, (_, sentence) in hub_words(loads, bent.design).items():
-            unit = "kN m" if name == "moment" else "kN"
-            assert f"drawn 1 m for {scale / 1e3:g} {unit}." in sentence
-
-    def test_the_force_now_is_that_of_all_blades_on_their_roots(self, bent: Solution, loads: HubLoads):
-        """Root forces of four blades in the axes of the shaft: their part at 4/rev, to what small angles leave."""
-        out, forward, _ = loads.root_force
-        count = out.shape[0]
-        psi = 2.0 * math.pi * np.arange(count) / count
-        x, y = out * np.cos(psi) - forward * np.sin(psi), out * np.sin(psi) + forward * np.cos(psi)
-        for k in (0, 7, 19):
-            turned = [4.0 * 2.0 / count * np.real(np.exp(4j * psi[k]) * (np.exp(-4j * psi) @ own)) for own in (x, y)]
-            vector = hub_lines(loads, bent.design, float(psi[k])).now[0]
-            assert_allclose((vector[1] - vector[0])[:2] * load_scale(bent.design), turned, atol=150.0)
-
-    def test_only_the_vectors_follow_the_azimuth(self, bent: Solution, loads: HubLoads, server: viser.ViserServer):
-        drawn = HubLoadLines(server.scene)
-        first = drawn.show(loads, bent.design, 0.0, scene_theme(False))
-        drawn._lines["force"].visible = False
-        second = drawn.show(loads, bent.design, 0.4, scene_theme(False))
-        assert not drawn._lines["force"].visible
-        assert first.places == second.places
-        assert np.abs(first.now - second.now).max() > 0.1
-        drawn.hide()
-        assert not any(line.visible for line in drawn._lines.values())
-
-
 class TestIndexOverSpeed:
     def test_it_is_the_index_of_each_trim_and_none_below_two_tenths(self, bent: Solution, straight: Solution):
         curves = IndexCurves()
@@ -179,12 +139,11 @@ class Page:
         self.charts: list[Any] = []
         self.switch = ""
         strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: (None, "reference"))
-        scene: Any = SimpleNamespace(hub_loads=HubLoadLines(server.scene), atomic=nullcontext)
         context: Any = SimpleNamespace(
             bridge=SimpleNamespace(set=self.shown.update),
             controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
         )
-        self.panel = VibrationPanel(context, scene, strip)
+        self.panel = VibrationPanel(context, strip)
 
     def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:
         self.panel.show(SessionState(FAST, ViewState(), solution, reference or solution, pinned))
@@ -205,7 +164,6 @@ class TestPanel:
         assert row["band"] == "band over inflow models: computing"
         assert "0.5 aft, 0.67 to starboard, 1 vertical" in row["title"]
         assert row["at"] == "at 4/rev"
-        assert row["scale"] == "1 m drawn: 2 kN, 2 kN m"
         page.panel.solve_deferred(lambda: False)
         low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"]["band"]))
         assert low <= float(row["index"]) <= high
@@ -243,7 +201,6 @@ class TestPanel:
         hart = solve(replace(with_rotor(FAST, "hart2"), advance_ratio=0.3).design()).require()
         page.show(hart)
         assert page.shown["vibration"]["unit"] == "% of thrust"
-        assert re.fullmatch(r"in-plane 0\.\d\d × 0\.\d\d kN", page.shown["hub_labels"][1]["text"])
 
     def test_without_bending_nothing_is_computed(self, page: Page, straight: Solution, monkeypatch: pytest.MonkeyPatch):
         def never(*_: Any, **__: Any) -> None:

@@ -158,7 +158,6 @@ class ActuatorControls:
             self.details = gui.add_html("")
             self.numbers = gui.add_html("")
             self.chart = PanelChart(gui)
-            self.segments = gui.add_html("")
             self.section = gui.add_html("")
             self.limits = gui.add_html("")
         with gui.add_folder("Modes and damping", expand_by_default=False):

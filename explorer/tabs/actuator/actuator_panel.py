@@ -30,6 +30,7 @@ from rotor.actuator import InstalledActuator, Verdict, actuator_stability
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
 
+Flown = tuple[Solution, Solution]
 _FULL = 100.0
 """The whole voltage on its slider [%]."""
 _STILL = 0.4
@@ -152,7 +153,7 @@ class ActuatorPanel:
         verdict = self._show_verdict(inputs, installed, question, design)
         answers = map(self._answer, tasks)
         self.pay.refresh(question.pair, [answer for answer in answers if isinstance(answer, Verdict)])
-        self._draw(inputs, installed, design, psi, solution, alone or solution)
+        self._draw(inputs, installed, design, psi, (solution, alone or solution))
         fixed = None if verdict is None else verdict.baseline.fixed_twist
         twist = design.twist if inputs.against == "as-built" else fixed
         against = f"the {AGAINST[inputs.against][0].lower()}{AGAINST[inputs.against][1:]}"
@@ -189,7 +190,6 @@ class ActuatorPanel:
         places.verdict.content = words.problem_panel(outcome)
         places.details.content = words.details_panel(verdict)
         places.numbers.content = words.fit_panel(installed, verdict)
-        places.segments.content = words.segments_panel(installed, verdict)
         places.limits.content = words.limits_panel(verdict)
         modes = None if verdict is None else Call(actuator_stability, (installed, design))
         self._ask(self._modes, () if modes is None else (modes,), _IDLE)
@@ -207,23 +207,18 @@ class ActuatorPanel:
         return verdict
 
     def _draw(
-        self,
-        inputs: ActuatorInputs,
-        installed: InstalledActuator,
-        design: Design,
-        psi: float,
-        solution: Solution,
-        alone: Solution,
+        self, inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float, flown: Flown
     ) -> None:
+        """`flown`: with the actuator and without."""
         if not self.lifted:
             self._blade.release(self._radius)
             self._drawn = None
             return
-        frame = (inputs, solution.design, psi if design.elastic else 0.0, self.pay.pays)
+        frame = (inputs, flown[0].design, psi if design.elastic else 0.0, self.pay.pays)
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi), pays=self.pay.pays)
+        picture = lifted_picture(inputs, installed, design, flown_twist(*flown, psi), pays=self.pay.pays)
         with self._context.client.atomic():
             self._blade.hold(self._radius)
             self._blade.show(picture)

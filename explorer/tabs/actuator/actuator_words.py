@@ -4,8 +4,6 @@ import math
 from collections.abc import Iterable
 from functools import lru_cache
 
-import numpy as np
-
 from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.units import number
@@ -16,7 +14,6 @@ from rotor import Solution
 from rotor.actuator import (
     Actuator,
     ActuatorStability,
-    ExtensionTwist,
     InstalledActuator,
     PiezoPly,
     Verdict,
@@ -103,24 +100,6 @@ def details_panel(verdict: Verdict | None) -> Markup:
         return Markup()
     words = tag("b", verdict_sentence(verdict)), " ", verdict_details(verdict)
     return tag("div.rx.rx-small", *words, data_explorer="verdict-details")
-
-
-def segments_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
-    """Bars: what each segment can make, with a mark where the optimum asks for it."""
-    if isinstance(installed.actuator, ExtensionTwist) and verdict is None:
-        return Markup()
-    can = np.degrees(installed.segment_twists)
-    need = None if verdict is None else np.degrees(np.abs(verdict.required_segments))
-    largest = max(float(can.max()), 0.0 if need is None else float(need.max()), 0.1) * 1.05
-    rows: list[Markup] = []
-    for k, each in enumerate(can):
-        mark = None if need is None else tag("b", style=f"left:{100 * need[k] / largest:.1f}%")
-        asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
-        filled = tag("i", style=f"width:{100 * each / largest:.1f}%;background:#1c7ed6")
-        rows.append(tag("span", f"Segment {k + 1}" if len(can) > 1 else "Required / available"))
-        rows.append(tag("span.rxa-track", filled, mark))
-        rows.append(tag("span.rx-num", f"{asked} / {number(float(each), 1)}°"))
-    return tag("div.rx.rxa-bars", rows, data_explorer="segments")
 
 
 def limit_words(name: str) -> str:

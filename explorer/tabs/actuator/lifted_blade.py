@@ -28,6 +28,7 @@ LIFT = 0.0008
 """Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
 MIDDLE = 0.55
 """r/R of the origin."""
+Span = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ class LiftedBlade:
     """Section outlines from the upper trailing edge over the nose, (stations, points, 2)."""
     r: Array
     """Radii of the rings."""
-    box: tuple[float, float]
+    box: Span
     """Where the electronics sit, r/R."""
     radius: float
 
@@ -64,7 +65,7 @@ class LiftedBlade:
         return self.radius * (np.asarray(r, dtype=float) - MIDDLE)
 
     @property
-    def spans(self) -> list[tuple[float, float]]:
+    def spans(self) -> list[Span]:
         """Driven stretches, root to tip."""
         numbers = sorted({part.segment for part in self.parts if part.segment >= 0})
         stations = [[part.r for part in self.parts if part.segment == number] for number in numbers]
@@ -94,15 +95,7 @@ def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     return LiftedBlade(tuple(pieces), rings, r, electronics_station(installed), rotor.radius)
 
 
-def _ply(
-    spec: SectionSpec,
-    rotor: Rotor,
-    side: str,
-    chord: tuple[float, float],
-    span: tuple[float, float],
-    far: float,
-    segment: int,
-) -> BladePart:
+def _ply(spec: SectionSpec, rotor: Rotor, side: str, chord: Span, span: Span, far: float, segment: int) -> BladePart:
     """Plies on one side, from `LIFT` to `far` off the contour [m]."""
     r = stations(span, 28)
     lines = np.stack([_line(spec, rotor, float(at), side, chord, 14) for at in r])
@@ -124,7 +117,7 @@ def _web(spec: SectionSpec, rotor: Rotor, at: float, r: Array) -> BladePart:
     return BladePart("web", -1, r, rear, rear + np.array([0.012, 0.0]))
 
 
-def _tube(radius: float, span: tuple[float, float], segment: int) -> BladePart:
+def _tube(radius: float, span: Span, segment: int) -> BladePart:
     """A torque tube about the quarter chord."""
     r = stations(span, 28)
     angle = np.linspace(0.0, 2.0 * np.pi, 21)
@@ -147,12 +140,12 @@ def _within(spec: SectionSpec, rotor: Rotor, r: float, web: float) -> Array:
     return ring.mean(axis=0) + 0.95 * (ring - ring.mean(axis=0))
 
 
-def stations(span: tuple[float, float], whole: int) -> Array:
+def stations(span: Span, whole: int) -> Array:
     """r/R at which a stretch is drawn; `whole`: how many a blade would have from hub to tip."""
     return np.linspace(*span, max(2, round(whole * (span[1] - span[0])) + 1))
 
 
-def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: tuple[float, float], points: int) -> Array:
+def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: Span, points: int) -> Array:
     """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
     inner, outer, weight = rotor.blade.section_at(r)
     scale = float(rotor.blade.chord(r)) / spec.chord

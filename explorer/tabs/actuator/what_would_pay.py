@@ -47,8 +47,6 @@ class WhatWouldPay:
         """Whether the stage shows the line in place of the balance of power."""
         self.pays = False
         """Whether the supposed actuator pays: its blade lights green."""
-        self.sentence = ""
-        """What it saves, for a picture; empty where none is shown."""
         context.bridge.on("suppose", self._suppose)
 
     def stop(self) -> None:
@@ -58,7 +56,7 @@ class WhatWouldPay:
 
     def rest(self) -> None:
         """Nothing is trimmed and nothing said until the next `refresh`."""
-        self.pays, self.sentence = False, ""
+        self.pays = False
         for answers in (self._lines, self._trims):
             answers.ask((), 0.0)
 
@@ -81,7 +79,7 @@ class WhatWouldPay:
 
     def _stage(self, verdicts: Sequence[Verdict]) -> dict[str, Any] | None:
         """What the page draws; None where it shows the balance of power."""
-        self.pays, self.sentence, pair = False, "", self._pair
+        self.pays, pair = False, self._pair
         if not self.on_stage or pair is None:
             return None
         task = Call(break_even, (pair,))
@@ -102,7 +100,7 @@ class WhatWouldPay:
         kind = "" if not told else "gain" if saving > 0.0 else "loss"
         self.pays = kind == "gain"
         size = f"{number(degrees, 1)}° for {number(mass, 0 if mass >= 10.0 else 1)} kg"
-        self.sentence = f"{size} {needs_words(saving, None if trimmed is None else trimmed.band, units)}"
+        words = f"{size} {needs_words(saving, None if trimmed is None else trimmed.band, units)}"
         more = " …" if trimmed is None else f", {fuel_words(trimmed.fuel_saving)}"
         most = even.mass_allowed(twist)
         note = (
@@ -114,7 +112,7 @@ class WhatWouldPay:
         return {
             "chart": as_json(mass_chart(even, verdicts, units)),
             "at": [degrees, mass],
-            "words": self.sentence + more,
+            "words": words + more,
             "note": note,
             "kind": kind,
         }

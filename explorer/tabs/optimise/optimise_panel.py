@@ -23,7 +23,7 @@ from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
-from rotor.markup import Markup, tag
+from rotor.markup import tag
 from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
@@ -69,7 +69,7 @@ class OptimisePanel(BackgroundWork):
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
-        self._picture = gui.add_html("")
+        self._explanation = gui.add_html("")
         form.menu("objective", "Objective", OBJECTIVES)
         form.slider("hover_share", Slider("Hover [%]", 0.0, 100.0, 5.0), first.hover_share)
         form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
@@ -88,11 +88,9 @@ class OptimisePanel(BackgroundWork):
         self._result = gui.add_html("")
         self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
-        self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
         self._details = gui.add_html("")
         self._best = PoolAnswers(context.pool, 3, context.wake)
         self._ranges = gui.add_html("")
-        self._again.on_click(lambda _: self._replay())
         bridge.on("apply", lambda _: self._close(True))
         bridge.on("discard", lambda _: self._close(False))
         bridge.on("beat", lambda _: self._beat())
@@ -174,8 +172,7 @@ class OptimisePanel(BackgroundWork):
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
         run, request, units = self.run, self.request(), self._context.units
         self.form.show({name: request.asks_for(name) for name in _NUMBERS})
-        concept = request.known_concept()
-        self._picture.content = _boxed(text.concept_picture(concept), concept.explanation)
+        self._explanation.content = tag("div.rx.rx-dim.rx-small", request.known_concept().explanation)
         under_way = run is not None and run.under_way
         self.show_progress(None if run is None else run.part_done, under_way)
         self._standing.content = text.standing(run, self.line)
@@ -186,7 +183,7 @@ class OptimisePanel(BackgroundWork):
         self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
-        self._again.visible, self._scrubber.visible = on_offer, on_offer and here
+        self._scrubber.visible = on_offer and here
         self._frame.content = ""
         if on_offer and here:
             self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
@@ -236,11 +233,6 @@ class OptimisePanel(BackgroundWork):
             self._close(False)
             self._context.layout.show_mode("explore")
             self.challenge(run.frames[-1].design)
-
-    def _replay(self) -> None:
-        if self.run is not None:
-            self.run.replay()
-            self._context.wake()
 
     def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""
@@ -307,7 +299,3 @@ class Rival:
     def _take(self) -> None:
         if self._design is not None and not self._context.held:
             self._context.set_inputs(with_optimum(self._context.inputs(), self._design))
-
-
-def _boxed(picture: Markup, words: str) -> Markup:
-    return tag("div.rx.rx-concept", picture, tag("div.rx-dim.rx-small", words))

@@ -276,18 +276,13 @@ class SearchRun:
         """Show one frame and stay there."""
         self._play = Playback(cursor=cursor, running=False)
 
-    def replay(self) -> None:
-        """Play from the start, each frame in its turn."""
-        self._play = Playback(thorough=True)
-
 
 @dataclass
 class Playback:
-    """Which frame is shown: each for `FRAME`, never far behind unless `thorough`."""
+    """Which frame is shown: each for `FRAME`, never far behind."""
 
     cursor: int = 0
     running: bool = True
-    thorough: bool = False
     since: float = 0.0
 
     def frame(self, frames: list[SearchFrame]) -> SearchFrame | None:
@@ -297,8 +292,7 @@ class Playback:
         now = time.monotonic()
         if self.since == 0.0:
             self.since = now  # The first has its time as well.
-        if self.running and self.cursor < last and now - self.since >= (2.0 if self.thorough else 1.0) * FRAME:
-            behind = last - self.cursor
-            self.cursor += 1 if self.thorough else max(1, behind - _CATCH_UP)
+        if self.running and self.cursor < last and now - self.since >= FRAME:
+            self.cursor += max(1, last - self.cursor - _CATCH_UP)
             self.since = now
         return frames[min(self.cursor, last)]
